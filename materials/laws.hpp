@@ -1,0 +1,14 @@
+// The door of the materials room: every law, and the variant that a block holds.
+#pragma once
+
+#include <variant>
+
+#include "materials/elastic.hpp"
+#include "materials/j2.hpp"
+#include "materials/law.hpp"
+
+namespace strut::materials {
+
+using AnyLaw = std::variant<Elastic, J2>;
+
+}  // namespace strut::materials

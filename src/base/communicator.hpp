@@ -1,0 +1,102 @@
+// The ranks of a run. A thin, copyable handle on a Teuchos communicator that keeps Trilinos' headers out of ours.
+// Every member but rank() and size() is collective.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace Teuchos {
+template <class Ordinal>
+class Comm;
+template <class T>
+class RCP;
+}  // namespace Teuchos
+
+namespace strut {
+
+// Starts MPI and Kokkos, and finalises them when it goes out of scope: the first object of main().
+class Runtime {
+ public:
+  Runtime(int& argc, char**& argv);
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+};
+
+class Communicator {
+ public:
+  Communicator();  // all ranks of MPI_COMM_WORLD
+  ~Communicator();
+  Communicator(const Communicator&);
+  Communicator& operator=(const Communicator&);
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+
+  void barrier() const;
+  void sum(std::span<double> values) const;  // in place, on all ranks
+  void max(std::span<double> values) const;
+  double sum(double value) const;
+  double max(double value) const;
+  double min(double value) const;
+  std::int64_t sum(std::int64_t value) const;
+
+  // The exclusive prefix sum of `value` over ranks: what the ranks before this one hold.
+  std::int64_t offset(std::int64_t value) const;
+
+  void broadcast(std::string& text) const;  // from rank 0
+  template <class T>
+  void broadcast(std::vector<T>& values) const;  // from rank 0, resized elsewhere; T trivially copyable
+
+  // The concatenation of all ranks' values in rank order, on rank 0 (empty elsewhere). T trivially copyable.
+  template <class T>
+  std::vector<T> gather(std::span<const T> values) const;
+
+  // Rank 0 holds all values; rank r receives counts[r] of them, in order. `counts` is the same on all ranks.
+  template <class T>
+  std::vector<T> scatter(std::span<const T> values, const std::vector<std::int64_t>& counts) const;
+
+  const Teuchos::RCP<const Teuchos::Comm<int>>& teuchos() const;
+
+ private:
+  void broadcast_bytes(void* data, std::size_t size) const;
+  std::vector<char> gather_bytes(const void* data, std::size_t size) const;
+  std::vector<char> scatter_bytes(const void* data, const std::vector<std::int64_t>& sizes) const;
+
+  struct Implementation;
+  std::shared_ptr<const Implementation> implementation_;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+template <class T>
+void Communicator::broadcast(std::vector<T>& values) const {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::uint64_t count = values.size();
+  broadcast_bytes(&count, sizeof count);
+  values.resize(count);
+  broadcast_bytes(values.data(), count * sizeof(T));
+}
+
+template <class T>
+std::vector<T> Communicator::gather(std::span<const T> values) const {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const std::vector<char> bytes = gather_bytes(values.data(), values.size_bytes());
+  const T* begin = reinterpret_cast<const T*>(bytes.data());
+  return {begin, begin + bytes.size() / sizeof(T)};
+}
+
+template <class T>
+std::vector<T> Communicator::scatter(std::span<const T> values, const std::vector<std::int64_t>& counts) const {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<std::int64_t> sizes;
+  for (const std::int64_t count : counts) sizes.push_back(count * static_cast<std::int64_t>(sizeof(T)));
+  const std::vector<char> bytes = scatter_bytes(values.data(), sizes);
+  const T* begin = reinterpret_cast<const T*>(bytes.data());
+  return {begin, begin + bytes.size() / sizeof(T)};
+}
+
+}  // namespace strut

@@ -1,0 +1,113 @@
+// A deck as plain structs: what the rest of the program sees of an input file. Strings end here.
+// SI units throughout. Every default and meaning stands in the schema (deck/schema.cpp) and on the page made from it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/function.hpp"
+#include "base/tensors.hpp"
+#include "materials/laws.hpp"
+
+namespace strut {
+class Communicator;
+}
+
+namespace strut::deck {
+
+enum class MeshType { exodus, text };
+enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
+enum class DegeneratePoints { error, drop };
+enum class StabilizationType { none, silling };
+
+struct Discretization {
+  MeshType type = MeshType::exodus;
+  std::filesystem::path mesh;  // as it can be opened: relative to the deck's folder in the deck
+  Influence influence = Influence::one;
+  DegeneratePoints degenerate = DegeneratePoints::error;
+};
+
+// A node set made by the deck: the points whose reference position makes `where` non-zero.
+struct NodeSet {
+  std::string name;
+  Function where;
+};
+
+struct Material {
+  std::string name;
+  double density = 0;  // kg/m³
+  materials::AnyLaw law;
+  StabilizationType stabilization = StabilizationType::silling;
+  double stabilization_coefficient = 0;  // in units of (λ + 2μ)/(tr K/3), dimensionless
+};
+
+struct Block {
+  std::string name;                      // of the section
+  std::vector<std::string> block_names;  // of the mesh; "all" stands for every block
+  int material = 0;                      // index into Deck::materials
+  double horizon = 0;                    // m
+};
+
+enum class ConditionType {
+  initial_velocity,
+  prescribed_displacement,
+  prescribed_velocity,
+  body_force,      // N per m³ of reference volume
+  symmetry_plane,  // the points of the set keep their distance to the plane through them with this normal
+  rigid_plane      // one-sided, frictionless: points of the set stay on the side the normal points to
+};
+
+struct Condition {
+  std::string name;
+  ConditionType type = ConditionType::initial_velocity;
+  std::string node_set;  // of mesh or deck, a block's name, or "all"
+  int component = 0;     // 0 x, 1 y, 2 z; unused for planes
+  Function value;        // m/s, m, m/s, N/m³; unused for planes
+  Vector point = Vector::Zero();
+  Vector normal = Vector::UnitX();
+};
+
+struct Solver {
+  double initial_time = 0, final_time = 0;  // s
+  std::optional<double> fixed_dt;           // s; else from the stable step
+  double safety_factor = 0.8;
+};
+
+struct Output {
+  bool enabled = false;
+  std::filesystem::path file;            // relative to the working folder in the deck, ".e" appended if it has no suffix
+  std::optional<int> frequency;          // every so many steps
+  std::optional<double> interval;        // or every so many seconds of the simulation
+  std::vector<std::string> variables;    // checked against the table of observables by simulation
+};
+
+struct History {
+  bool enabled = false;
+  std::filesystem::path file;
+  std::optional<int> frequency;
+  std::optional<double> interval;
+  std::vector<std::string> variables;  // e.g. "Max_Displacement": checked by simulation
+};
+
+struct Deck {
+  std::filesystem::path file;
+  Discretization discretization;
+  std::vector<NodeSet> node_sets;
+  std::vector<Material> materials;
+  std::vector<Block> blocks;
+  std::vector<Condition> conditions;
+  Solver solver;
+  Output output;
+  History history;
+};
+
+// Collective. Reads and checks `file`; throws one Error on all ranks that lists every problem, each with its path
+// (Blocks > foam > Horizon), the value, what was expected with its unit, and the nearest valid name.
+Deck read(const std::filesystem::path& file, const Communicator& communicator);
+
+// The reference page of all keys (Markdown), generated from the schema.
+std::string reference_page();
+
+}  // namespace strut::deck

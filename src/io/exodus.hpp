@@ -1,0 +1,79 @@
+// Exodus II in and out: the one room door behind which exodusII.h is used. All calls are collective; rank 0 holds the file.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "points/cloud.hpp"
+
+namespace strut {
+class Communicator;
+}
+
+namespace strut::io {
+
+// Reads hex8 (volume by exact integration, centroid), tet4 and sphere elements (attributes: radius, volume; a file with
+// one attribute has the radius only). Block names: the file's, else "block_<id>". Node sets: the file's names, else
+// "nodelist_<id>"; a point belongs to a set when any node of its element does. Each rank receives a contiguous slice.
+// Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
+// (names element and block), more than 64 node sets.
+PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator);
+
+// Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
+PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);
+
+struct OutputField {
+  std::string name;    // "Displacement", "Cauchy_Stress", …
+  int components = 1;  // 1; 3: suffix X Y Z; 6: XX YY ZZ XY YZ ZX; 9 (row by row): XX XY XZ YX YY YZ ZX ZY ZZ
+  bool nodal = false;  // else an element variable
+};
+
+// One file at any number of ranks: sphere elements, one node each, blocks, node sets and element ids as they were read.
+// Flushed after every frame, so that what is written stays readable whatever happens next.
+class ExodusWriter {
+ public:
+  // `cloud`: this rank's points, in the order of the columns given to write(). Errors: the file cannot be created.
+  ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
+               std::vector<OutputField> fields);
+  ~ExodusWriter();
+  ExodusWriter(ExodusWriter&&) noexcept;
+
+  // columns[k]: field k, this rank's points times components, point by point. Throws Error when the disk is full.
+  void write(double time, std::span<const std::vector<double>> columns);
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+// What a finished result holds, for comparison and tests. On rank 0 only (serial use).
+struct ExodusResult {
+  std::vector<double> times;
+  std::vector<std::string> nodal_names, element_names;
+  // [variable][time][point in file order]; element variables in element order (block by block).
+  std::vector<std::vector<std::vector<double>>> nodal, element;
+};
+ExodusResult read_result(const std::filesystem::path& file);
+
+// A mesh as a tool makes it: hexahedra or spheres, for tools/ and tests.
+struct Mesh {
+  std::vector<Vector> nodes;
+  struct Block {
+    std::string name;
+    std::string type;                        // "HEX8", "TET4" or "SPHERE"
+    std::vector<std::vector<int>> elements;  // node indices, 0-based
+    std::vector<double> volumes;             // spheres only
+  };
+  std::vector<Block> blocks;
+  struct NodeSet {
+    std::string name;
+    std::vector<int> nodes;  // 0-based
+  };
+  std::vector<NodeSet> node_sets;
+};
+void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
+
+}  // namespace strut::io
