@@ -1,0 +1,67 @@
+#include "base/function.hpp"
+
+#include <RTC_FunctionRTC.hh>
+#include <charconv>
+#include <optional>
+#include <regex>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+std::optional<double> as_number(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\n+");
+  if (begin == std::string::npos) return std::nullopt;
+  const std::size_t end = text.find_last_not_of(" \t\n") + 1;
+  double number = 0;
+  const auto [rest, failure] = std::from_chars(text.data() + begin, text.data() + end, number);
+  if (failure != std::errc() || rest != text.data() + end) return std::nullopt;
+  return number;
+}
+
+bool mentions(const std::string& text, const std::string& name) {
+  return std::regex_search(text, std::regex("\\b" + name + "\\b"));
+}
+
+}  // namespace
+
+struct Function::Program {
+  mutable PG_RuntimeCompiler::Function compiled{5, "value"};
+};
+
+Function::Function(double constant) : constant_(constant), text_(std::to_string(constant)) {}
+
+Function Function::parse(const std::string& text) {
+  Function function;
+  function.text_ = text;
+  if (const auto number = as_number(text)) {
+    function.constant_ = *number;
+    return function;
+  }
+  const std::string body = mentions(text, "value") ? text : "value = " + text;
+  auto program = std::make_shared<Program>();
+  for (const char* name : {"x", "y", "z", "t", "value"}) program->compiled.addVar("double", name);
+  const bool closed = body.find_last_not_of(" \t\n") != std::string::npos &&
+                      std::string(";}").find(body[body.find_last_not_of(" \t\n")]) != std::string::npos;
+  if (!program->compiled.addBody(closed ? body : body + ";")) {
+    throw Error("'" + text + "' is not an expression in x, y, z, t: " + program->compiled.getErrors());
+  }
+  function.program_ = program;
+  function.depends_on_time_ = mentions(text, "t");
+  return function;
+}
+
+double Function::operator()(double x, double y, double z, double t) const {
+  if (is_constant()) return constant_;
+  PG_RuntimeCompiler::Function& compiled = program_->compiled;
+  double value = 0;
+  double arguments[] = {x, y, z, t};
+  for (unsigned i = 0; i < 4; ++i) compiled.varValueFill(i, arguments[i]);
+  compiled.varAddrFill(4, &value);
+  if (!compiled.execute()) throw Error("'" + text_ + "' cannot be evaluated: " + compiled.getErrors());
+  return value;
+}
+
+}  // namespace strut

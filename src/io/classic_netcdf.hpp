@@ -1,0 +1,12 @@
+// Is a classic netCDF file as long as its header says? The library reads what is missing as zeros and says nothing.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace strut::io {
+
+// "" for a file that is whole, and for HDF5 files, which the library checks itself; else what is wrong with it.
+std::string classic_netcdf_problem(const std::filesystem::path& path);
+
+}  // namespace strut::io

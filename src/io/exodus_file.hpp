@@ -1,0 +1,91 @@
+// One open Exodus II file. The only files that know exodusII.h are this one's source; here stand plain C++ types.
+// Every call checks what the library returns and throws Error with the file, what was being done, and the cause.
+// Serial: rank 0 alone holds a file. Indices of blocks, sets, variables and steps count from 0 here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strut::io {
+
+class ExodusFile {
+ public:
+  struct Sizes {
+    std::int64_t dimensions = 3;
+    std::int64_t nodes = 0;
+    std::int64_t elements = 0;
+    std::int64_t blocks = 0;
+    std::int64_t node_sets = 0;
+  };
+  struct Block {
+    std::int64_t id = 0;
+    std::string name;  // empty where the file has none
+    std::string type;  // as the file spells it
+    std::int64_t elements = 0;
+    std::int64_t nodes_per_element = 0;
+    std::int64_t attributes = 0;
+  };
+  struct NodeSet {
+    std::int64_t id = 0;
+    std::string name;
+    std::int64_t nodes = 0;
+  };
+  enum class On { nodes, elements };  // what a variable is defined on
+
+  static constexpr std::size_t longest_name = 127;
+
+  static ExodusFile open(const std::filesystem::path& path);
+  static ExodusFile create(const std::filesystem::path& path);  // replaces a file of that name
+  ~ExodusFile();
+  ExodusFile(ExodusFile&& other) noexcept;
+  ExodusFile& operator=(ExodusFile&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+  // Reading.
+  Sizes sizes() const;
+  std::vector<Block> blocks() const;
+  std::vector<NodeSet> node_sets() const;
+  std::array<std::vector<double>, 3> coordinates() const;
+  std::vector<std::int64_t> connectivity(const Block& block) const;  // node numbers from 1, element by element
+  std::vector<double> attribute(const Block& block, int index) const;
+  std::vector<std::int64_t> nodes_of(const NodeSet& set) const;  // node numbers from 1
+  std::vector<std::int64_t> element_numbers() const;             // the file's map, else 1, 2, …
+  std::vector<double> times() const;
+  std::vector<std::string> variable_names(On on) const;
+  std::vector<double> nodal_values(int step, int variable) const;
+  // NaN for elements of blocks on which the variable is not defined.
+  std::vector<double> element_values(int step, int variable) const;
+
+  // Writing, in the order of these lines: what defines the layout before what fills it.
+  void put_sizes(const std::string& title, const Sizes& sizes) const;
+  void put_provenance(const std::string& program, const std::string& version) const;
+  void put_blocks(const std::vector<Block>& blocks) const;
+  void put_node_sets(const std::vector<NodeSet>& sets) const;
+  void put_variables(const std::vector<Block>& blocks, const std::vector<std::string>& nodal,
+                     const std::vector<std::string>& element) const;
+  void put_coordinates(const std::array<std::vector<double>, 3>& coordinates) const;
+  void put_connectivity(const Block& block, const std::vector<std::int64_t>& nodes) const;
+  void put_attribute(const Block& block, int index, const std::string& name, std::span<const double> values) const;
+  void put_nodes_of(const NodeSet& set, const std::vector<std::int64_t>& nodes) const;
+  void put_element_numbers(const std::vector<std::int64_t>& numbers) const;
+  void put_time(int step, double time) const;
+  void put_nodal_values(int step, int variable, std::span<const double> values) const;
+  void put_element_values(int step, int variable, const Block& block, std::span<const double> values) const;
+  void flush() const;
+
+ private:
+  ExodusFile(const std::filesystem::path& path, int handle) : path_(path), handle_(handle) {}
+  void check(int code, std::string_view doing) const;
+  std::int64_t inquire(int what, std::string_view doing) const;
+
+  std::filesystem::path path_;
+  int handle_ = -1;
+};
+
+}  // namespace strut::io
