@@ -20,6 +20,6 @@ endfunction()
 
 strut_trilinos(trilinos_teuchos teuchoscore teuchosparser teuchosparameterlist teuchoscomm)
 strut_trilinos(trilinos_kokkos kokkoscore)
-strut_trilinos(trilinos_tpetra tpetra teuchoscomm teuchoscore kokkoscore)
+strut_trilinos(trilinos_tpetra tpetra teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
 strut_trilinos(trilinos_zoltan zoltan)
 strut_trilinos(trilinos_pamgen pamgen_extras pamgen)

@@ -77,10 +77,10 @@ struct Solver {
 
 struct Output {
   bool enabled = false;
-  std::filesystem::path file;            // relative to the working folder in the deck, ".e" appended if it has no suffix
-  std::optional<int> frequency;          // every so many steps
-  std::optional<double> interval;        // or every so many seconds of the simulation
-  std::vector<std::string> variables;    // checked against the table of observables by simulation
+  std::filesystem::path file;          // relative to the working folder in the deck, ".e" appended if it has no suffix
+  std::optional<int> frequency;        // every so many steps
+  std::optional<double> interval;      // or every so many seconds of the simulation
+  std::vector<std::string> variables;  // checked against the table of observables by simulation
 };
 
 struct History {

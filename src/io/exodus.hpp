@@ -1,4 +1,5 @@
-// Exodus II in and out: the one room door behind which exodusII.h is used. All calls are collective; rank 0 holds the file.
+// Exodus II in and out: the one room door behind which exodusII.h is used. All calls are collective; rank 0 holds the
+// file.
 #pragma once
 
 #include <filesystem>

@@ -2,12 +2,11 @@
 
 #include <exodusII.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <limits>
-#include <numeric>
+#include <map>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -27,18 +26,17 @@ std::string cause_of(int code) {
   ex_get_err(&message, &function, &last);
   if (last == 0) last = code;
   if (last > 0 && last < 1000) return std::strerror(last);
-  switch (last) {
-    case -31: return "a malformed or truncated file";
-    case -36: return "an invalid argument";
-    case -40: return "an index out of bounds";
-    case -46: return "a name or dimension that is not there";
-    case -49: return "a variable that is not there";
-    case -51: return "not an Exodus (netCDF) file";
-    case -60: return "a number out of range of the file's type";
-    case -62: return "a variable too large for the file format";
-    case -101: return "the HDF5 layer failed: a damaged file or a full disk";
-    default: break;
-  }
+  static const std::map<int, std::string> netcdf = {{-31, "the system failed while reading or writing"},
+                                                    {-36, "an invalid argument"},
+                                                    {-40, "an index out of bounds"},
+                                                    {-46, "a dimension that is not there"},
+                                                    {-49, "a variable that is not there"},
+                                                    {-51, "not an Exodus (netCDF) file"},
+                                                    {-60, "a number out of range of the file's type"},
+                                                    {-61, "out of memory (a damaged file?)"},
+                                                    {-62, "a variable too large for the file format"},
+                                                    {-101, "the HDF5 layer failed: a damaged file or a full disk"}};
+  if (const auto known = netcdf.find(last); known != netcdf.end()) return known->second;
   const std::string text = message == nullptr ? "" : message;
   return (text.empty() ? "Exodus library" : text) + " (code " + std::to_string(last) + ")";
 }
@@ -69,6 +67,7 @@ class NameTable {
     for (std::size_t i = 0; i < names.size(); ++i) names[i].copy(pointers_[i], width - 1);
   }
   char** data() { return pointers_.data(); }
+  std::string operator[](std::size_t i) const { return pointers_[i]; }
   std::vector<std::string> names() const { return {pointers_.begin(), pointers_.end()}; }
 
  private:
@@ -168,8 +167,11 @@ std::vector<ExodusFile::Block> ExodusFile::blocks() const {
     raw.id = ids[i];
     raw.type = EX_ELEM_BLOCK;
     check(ex_get_block_param(handle_, &raw), "read block " + std::to_string(ids[i]));
-    blocks.push_back({ids[i], names.names()[i], raw.topology, raw.num_entry, raw.num_nodes_per_entry,
-                      raw.num_attribute});
+    NameTable attributes(raw.num_attribute);
+    if (raw.num_attribute > 0) {
+      check(ex_get_attr_names(handle_, EX_ELEM_BLOCK, raw.id, attributes.data()), "read the names of attributes");
+    }
+    blocks.push_back({raw.id, names[i], raw.topology, raw.num_entry, raw.num_nodes_per_entry, attributes.names()});
   }
   return blocks;
 }
@@ -186,7 +188,7 @@ std::vector<ExodusFile::NodeSet> ExodusFile::node_sets() const {
     std::int64_t nodes = 0;
     std::int64_t factors = 0;
     check(ex_get_set_param(handle_, EX_NODE_SET, ids[i], &nodes, &factors), "read node set " + std::to_string(ids[i]));
-    sets.push_back({ids[i], names.names()[i], nodes});
+    sets.push_back({ids[i], names[i], nodes});
   }
   return sets;
 }
@@ -245,9 +247,9 @@ std::vector<std::string> ExodusFile::variable_names(On on) const {
 
 std::vector<double> ExodusFile::nodal_values(int step, int variable) const {
   std::vector<double> values(sizes().nodes);
-  check(ex_get_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()),
-                   values.data()),
-        "read nodal variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
+  check(
+      ex_get_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()), values.data()),
+      "read nodal variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
   return values;
 }
 
@@ -277,7 +279,7 @@ void ExodusFile::put_sizes(const std::string& title, const Sizes& sizes) const {
         "write its sizes");
 }
 
-void ExodusFile::put_provenance(const std::string& program, const std::string& version) const {
+void ExodusFile::put_provenance() const {
   const std::time_t now = std::time(nullptr);
   char date[MAX_STR_LENGTH + 1] = {};
   char time[MAX_STR_LENGTH + 1] = {};
@@ -285,12 +287,11 @@ void ExodusFile::put_provenance(const std::string& program, const std::string& v
   localtime_r(&now, &local);
   std::strftime(date, sizeof date, "%Y/%m/%d", &local);
   std::strftime(time, sizeof time, "%H:%M:%S", &local);
-  std::string name = program.substr(0, MAX_STR_LENGTH);
-  std::string number = version.substr(0, MAX_STR_LENGTH);
+  std::string name = "strut";
+  std::string number = STRUT_VERSION;
   char* record[1][4] = {{name.data(), number.data(), date, time}};
   check(ex_put_qa(handle_, 1, record), "write its QA record");
-  std::string line = "written by " + program + " " + version;
-  line.resize(std::min<std::size_t>(line.size(), MAX_LINE_LENGTH));
+  std::string line = "written by " + name + " " + number;
   char* lines[1] = {line.data()};
   check(ex_put_info(handle_, 1, lines), "write its info record");
 }
@@ -298,15 +299,24 @@ void ExodusFile::put_provenance(const std::string& program, const std::string& v
 void ExodusFile::put_blocks(const std::vector<Block>& blocks) const {
   check_names(path_, names_of(blocks));
   for (const Block& block : blocks) {
+    const auto attributes = static_cast<std::int64_t>(block.elements > 0 ? block.attributes.size() : 0);
     check(ex_put_block(handle_, EX_ELEM_BLOCK, block.id, block.type.c_str(), block.elements, block.nodes_per_element, 0,
-                       0, block.attributes),
+                       0, attributes),
           "write block " + quoted(block.name, block.id));
   }
   NameTable names(names_of(blocks));
   if (!blocks.empty()) check(ex_put_names(handle_, EX_ELEM_BLOCK, names.data()), "write the names of blocks");
+  for (const Block& block : blocks) put_attribute_names(block);
   char axes[3][2] = {"x", "y", "z"};
   char* axis_names[3] = {axes[0], axes[1], axes[2]};
   check(ex_put_coord_names(handle_, axis_names), "write the names of the axes");
+}
+
+void ExodusFile::put_attribute_names(const Block& block) const {
+  if (block.attributes.empty() || block.elements == 0) return;
+  NameTable names(block.attributes);
+  check(ex_put_attr_names(handle_, EX_ELEM_BLOCK, block.id, names.data()),
+        "write the names of the attributes of block " + quoted(block.name, block.id));
 }
 
 void ExodusFile::put_node_sets(const std::vector<NodeSet>& sets) const {
@@ -347,11 +357,10 @@ void ExodusFile::put_connectivity(const Block& block, const std::vector<std::int
         "write the elements of block " + quoted(block.name, block.id));
 }
 
-void ExodusFile::put_attribute(const Block& block, int index, const std::string& name,
-                               std::span<const double> values) const {
+void ExodusFile::put_attribute(const Block& block, int index, std::span<const double> values) const {
   if (values.empty()) return;
-  const std::string doing = "write attribute '" + name + "' of block " + quoted(block.name, block.id);
-  check(ex_put_one_attr(handle_, EX_ELEM_BLOCK, block.id, index + 1, values.data()), doing);
+  check(ex_put_one_attr(handle_, EX_ELEM_BLOCK, block.id, index + 1, values.data()),
+        "write the attributes of block " + quoted(block.name, block.id));
 }
 
 void ExodusFile::put_nodes_of(const NodeSet& set, const std::vector<std::int64_t>& nodes) const {
@@ -370,9 +379,9 @@ void ExodusFile::put_time(int step, double time) const {
 }
 
 void ExodusFile::put_nodal_values(int step, int variable, std::span<const double> values) const {
-  check(ex_put_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()),
-                   values.data()),
-        "write step " + std::to_string(step + 1));
+  check(
+      ex_put_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()), values.data()),
+      "write step " + std::to_string(step + 1));
 }
 
 void ExodusFile::put_element_values(int step, int variable, const Block& block, std::span<const double> values) const {

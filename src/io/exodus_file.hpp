@@ -28,7 +28,7 @@ class ExodusFile {
     std::string type;  // as the file spells it
     std::int64_t elements = 0;
     std::int64_t nodes_per_element = 0;
-    std::int64_t attributes = 0;
+    std::vector<std::string> attributes;  // their names; may be empty texts
   };
   struct NodeSet {
     std::int64_t id = 0;
@@ -64,14 +64,14 @@ class ExodusFile {
 
   // Writing, in the order of these lines: what defines the layout before what fills it.
   void put_sizes(const std::string& title, const Sizes& sizes) const;
-  void put_provenance(const std::string& program, const std::string& version) const;
+  void put_provenance() const;  // program, version, date
   void put_blocks(const std::vector<Block>& blocks) const;
   void put_node_sets(const std::vector<NodeSet>& sets) const;
   void put_variables(const std::vector<Block>& blocks, const std::vector<std::string>& nodal,
                      const std::vector<std::string>& element) const;
   void put_coordinates(const std::array<std::vector<double>, 3>& coordinates) const;
   void put_connectivity(const Block& block, const std::vector<std::int64_t>& nodes) const;
-  void put_attribute(const Block& block, int index, const std::string& name, std::span<const double> values) const;
+  void put_attribute(const Block& block, int index, std::span<const double> values) const;
   void put_nodes_of(const NodeSet& set, const std::vector<std::int64_t>& nodes) const;
   void put_element_numbers(const std::vector<std::int64_t>& numbers) const;
   void put_time(int step, double time) const;
@@ -82,6 +82,7 @@ class ExodusFile {
  private:
   ExodusFile(const std::filesystem::path& path, int handle) : path_(path), handle_(handle) {}
   void check(int code, std::string_view doing) const;
+  void put_attribute_names(const Block& block) const;
   std::int64_t inquire(int what, std::string_view doing) const;
 
   std::filesystem::path path_;

@@ -1,0 +1,38 @@
+// Where the time of a run goes: named phases on Teuchos timers, and their table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace Teuchos {
+class Time;
+}
+
+namespace strut {
+
+class Communicator;
+
+// The timer of a phase, made at the first call with its name. Keep the reference: the look-up is by string.
+Teuchos::Time& phase(const std::string& name);
+
+// Times a phase from here to the end of the scope.
+class Timed {
+ public:
+  explicit Timed(Teuchos::Time& phase);
+  ~Timed();
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  Teuchos::Time& phase_;
+};
+
+struct PhaseTime {
+  std::string name;
+  double mean, longest;  // s over ranks
+};
+
+// Collective. All phases in the order of their first use, forgetting none.
+std::vector<PhaseTime> phase_times(const Communicator& communicator);
+
+}  // namespace strut

@@ -1,0 +1,54 @@
+// strut --check: what a run would do, from a real set-up and a few real steps that are thrown away.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+
+#include "deck/deck.hpp"
+#include "mechanics/observables.hpp"
+#include "report.hpp"
+#include "setup.hpp"
+#include "simulation.hpp"
+
+namespace strut {
+
+namespace {
+
+void check_names(const deck::Deck& deck, const Body& body) {
+  const std::vector<Observable> all = observables(body);
+  chosen(all, deck.output.variables, "Output > Output Variables");
+  for (const std::string& name : deck.history.variables) Extreme(all, name, "History > Variables");
+}
+
+// Seconds a step, the mean of a few.
+double measured_step(const deck::Deck& deck, CentralDifference& solver) {
+  constexpr int trial_steps = 5;
+  const auto start = std::chrono::steady_clock::now();
+  int steps = 0;
+  for (; steps < trial_steps && solver.time() < deck.solver.final_time; ++steps) {
+    solver.kick(deck.solver.final_time);
+    solver.move(false);
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / std::max(1, steps);
+}
+
+}  // namespace
+
+void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
+  const deck::Deck deck = deck::read(deck_file, communicator);
+  Scene scene = set_up(deck, communicator);
+  check_names(deck, scene.body);
+  CentralDifference solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time);
+  const double limit = solver.stable_step();
+  const double step_time = measured_step(deck, solver);
+  const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;
+  const double steps = std::ceil((deck.solver.final_time - deck.solver.initial_time) / dt);
+  const std::string scene_text = describe_scene(scene);
+  if (communicator.rank() != 0) return;
+  std::cout << scene_text << step_warning(scene.control, limit) << "stable step " << limit << " s at the start; about "
+            << steps << " steps of " << dt << " s (more where the step must shrink with the deformation)\n"
+            << "estimated time " << as_duration(steps * step_time) << " (" << step_time << " s a step, measured)\n"
+            << deck_file.string() << ": no errors\n";
+}
+
+}  // namespace strut

@@ -1,0 +1,165 @@
+#include "deck/check.hpp"
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "deck/convert.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+template <class Named>
+const Named* find(const std::vector<Named>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+bool has_any_section(const Section& section) {
+  return section.sections.size() == 1 && section.sections.front().name == any_name;
+}
+
+class Checker {
+ public:
+  Checker(const List& list, const Section& section, const std::string& path, Problems& problems)
+      : list_(list), section_(section), path_(path), problems_(problems), values_(list.name, path) {}
+
+  Values run() {
+    read_keys(section_.keys);
+    if (!section_.selector.empty()) {
+      case_ = find(section_.cases, values_.text(section_.selector));
+      if (case_) read_keys(case_->keys);
+    }
+    read_any_keys();
+    read_sections(section_);
+    if (case_) read_sections(*case_);
+    report_unknown();
+    return std::move(values_);
+  }
+
+ private:
+  void set(const Key& key, const Parameter& parameter, bool given) {
+    Value value;
+    try {
+      value = convert(parameter, key);
+    } catch (const Error& error) {
+      problems_.add(path_to(path_, parameter.name), error.what());
+    }
+    values_.set(parameter.name, std::move(value), given);
+  }
+
+  void read_keys(const std::vector<Key>& keys) {
+    for (const Key& key : keys) {
+      if (const Parameter* parameter = find(list_.parameters, key.name)) {
+        set(key, *parameter, true);
+      } else if (key.fallback) {
+        set(key, {key.name, "string", *key.fallback}, false);
+      } else if (key.required && !find(list_.lists, key.name)) {
+        problems_.add(path_to(path_, key.name), "missing; " + expected(key));
+      }
+    }
+  }
+
+  void read_any_keys() {
+    if (!section_.any_key) return;
+    for (const Parameter& parameter : list_.parameters) set(*section_.any_key, parameter, true);
+  }
+
+  void read_sections(const Section& parent) {
+    if (has_any_section(parent)) return read_any_sections(parent.sections.front());
+    for (const Section& section : parent.sections) {
+      const List* list = find(list_.lists, section.name);
+      const auto required = [](const Key& key) { return key.required; };
+      const bool as_good_as_empty = std::none_of(section.keys.begin(), section.keys.end(), required);
+      if (list) {
+        values_.add(check(*list, section, path_to(path_, section.name), problems_));
+      } else if (section.required) {
+        problems_.add(path_to(path_, section.name), "missing section");
+      } else if (as_good_as_empty) {
+        values_.add(check({section.name, {}, {}}, section, path_to(path_, section.name), problems_));
+      }
+    }
+  }
+
+  void read_any_sections(const Section& section) {
+    for (const List& list : list_.lists) values_.add(check(list, section, path_to(path_, list.name), problems_));
+    if (section.required && list_.lists.empty()) {
+      problems_.add(path_, "empty; expected at least one section, named as you like");
+    }
+  }
+
+  void report_unknown() {
+    std::vector<std::string> keys = names_of(section_.keys), sections = names_of(section_.sections);
+    for (const Section* one : chosen_cases()) {
+      for (const Key& key : one->keys) keys.push_back(key.name);
+      for (const Section& section : one->sections) sections.push_back(section.name);
+    }
+    if (!section_.any_key) {
+      for (const Parameter& parameter : list_.parameters) report_unless_known(parameter.name, "key", keys, sections);
+    }
+    if (!has_any_section(section_)) {
+      for (const List& list : list_.lists) report_unless_known(list.name, "section", sections, keys);
+    }
+  }
+
+  // All of them where the selector itself is missing or wrong: it is not known then what is unknown.
+  std::vector<const Section*> chosen_cases() const {
+    if (case_) return {case_};
+    std::vector<const Section*> all;
+    for (const Section& one : section_.cases) all.push_back(&one);
+    return all;
+  }
+
+  void report_unless_known(const std::string& name, const std::string& what, const std::vector<std::string>& valid,
+                           const std::vector<std::string>& other) {
+    const auto among = [&](const std::vector<std::string>& names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (among(valid)) return;
+    const std::string path = path_to(path_, name);
+    if (const Hint* hint = find(section_.hints, name)) return problems_.add(path, hint->text);
+    if (among(other)) {
+      return problems_.add(path, what == "key" ? "is a <Parameter>; expected a section (<ParameterList>)"
+                                               : "is a section; expected a <Parameter>");
+    }
+    const std::string owners = cases_with(name);
+    if (!owners.empty()) {
+      return problems_.add(
+          path, "unknown " + what + " for " + section_.selector + " '" + case_->name + "'; it belongs to " + owners);
+    }
+    const std::string guess = did_you_mean(name, valid);
+    const bool list_them = guess.empty() && !valid.empty();
+    problems_.add(path, "unknown " + what + guess + (list_them ? "; expected one of " + joined(valid) : ""));
+  }
+
+  // The other cases that have a key or section of this name: "'Linear', 'Voce'".
+  std::string cases_with(const std::string& name) const {
+    std::vector<std::string> owners;
+    for (const Section& one : section_.cases) {
+      if (find(one.keys, name) || find(one.sections, name)) owners.push_back("'" + one.name + "'");
+    }
+    return joined(owners);
+  }
+
+  const List& list_;
+  const Section& section_;
+  const std::string& path_;
+  Problems& problems_;
+  Values values_;
+  const Section* case_ = nullptr;  // the one that the selector's value names
+};
+
+}  // namespace
+
+Values check(const List& list, const Section& section, const std::string& path, Problems& problems) {
+  return Checker(list, section, path, problems).run();
+}
+
+}  // namespace strut::deck

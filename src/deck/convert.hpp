@@ -1,0 +1,14 @@
+// One parameter of a deck to the value that its key declares.
+#pragma once
+
+#include "deck/schema.hpp"
+#include "deck/values.hpp"
+#include "deck/xml.hpp"
+
+namespace strut::deck {
+
+// Throws Error with the value and what was expected. An integer serves as a real, and a string that holds a number as
+// that number.
+Value convert(const Parameter& parameter, const Key& key);
+
+}  // namespace strut::deck

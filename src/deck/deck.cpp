@@ -1,0 +1,245 @@
+#include "deck/deck.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "base/communicator.hpp"
+#include "base/errors.hpp"
+#include "deck/check.hpp"
+#include "deck/laws.hpp"
+#include "deck/numbers.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The place of the value of a choice in a table that has the order of the enum.
+template <class Enum>
+Enum to_enum(const std::string& choice, const std::vector<std::string>& in_order) {
+  const auto found = std::find(in_order.begin(), in_order.end(), choice);
+  return static_cast<Enum>(found == in_order.end() ? 0 : found - in_order.begin());
+}
+
+Discretization discretization(const Values& values, const fs::path& deck) {
+  return {.type = to_enum<MeshType>(values.text("Type"), {"Exodus", "Text File"}),
+          .mesh = values.has("Input Mesh File") ? deck.parent_path() / values.text("Input Mesh File") : fs::path(),
+          .influence = to_enum<Influence>(values.text("Influence Function"), {"One", "Linear Decay", "Cubic Decay"}),
+          .degenerate = to_enum<DegeneratePoints>(values.text("Degenerate Points"), {"Error", "Drop"})};
+}
+
+void check_mesh(const fs::path& mesh, Problems& problems) {
+  if (mesh.empty() || (fs::is_regular_file(mesh) && std::ifstream(mesh))) return;
+  const fs::path recipe = fs::path(mesh).replace_extension(".recipe");
+  const bool there = fs::exists(mesh);
+  std::string what = "'" + mesh.string() + (there ? "' is not a file that can be read" : "' does not exist");
+  if (!there && fs::exists(recipe)) what += " (tools/run makes it from " + recipe.string() + ")";
+  problems.add("Discretization > Input Mesh File", what + "; expected a mesh, its path relative to the deck's folder");
+}
+
+std::vector<NodeSet> node_sets(const Values& values, Problems& problems) {
+  std::vector<NodeSet> sets;
+  for (const std::string& name : values.keys()) {
+    if (name == "all") problems.add(path_to(values.path(), name), "is the set of all points; expected another name");
+    sets.push_back({name, values.function(name)});
+  }
+  return sets;
+}
+
+Material material(const Values& values, Problems& problems) {
+  Material material{
+      .name = values.name(),
+      .density = values.real("Density"),
+      .stabilization = values.text("Stabilization") == "None" ? StabilizationType::none : StabilizationType::silling,
+      .stabilization_coefficient = values.real("Stabilization Coefficient")};
+  for (const LawEntry& law : laws()) {
+    if (law.schema.name == values.text("Material Model")) material.law = law.make(values, problems);
+  }
+  return material;
+}
+
+std::vector<Material> materials_of(const Values& values, Problems& problems) {
+  std::vector<Material> all;
+  for (const Values& section : values.sections()) all.push_back(material(section, problems));
+  return all;
+}
+
+int find_material(const Values& block, const std::vector<Material>& materials, Problems& problems) {
+  std::vector<std::string> names;
+  for (const Material& material : materials) names.push_back(material.name);
+  const std::string& wanted = block.text("Material");
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found != names.end() || !block.has("Material")) return static_cast<int>(found - names.begin());
+  problems.add(path_to(block.path(), "Material"), "'" + wanted + "' is not defined" + did_you_mean(wanted, names) +
+                                                      "; expected one of Materials: " + joined(names));
+  return 0;
+}
+
+void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
+  std::map<std::string, std::string> owners;  // block of the mesh -> section that has it
+  const auto clash = [&](const Block& block, const std::string& name, const std::string& owner) {
+    problems.add("Blocks > " + block.name + " > Block Names",
+                 "'" + name + "' is also in Blocks > " + owner + "; expected in one place");
+  };
+  for (const Block& block : blocks) {
+    for (const std::string& name : block.block_names) {
+      const auto taken = name == "all" ? owners.begin() : owners.find(owners.count("all") ? "all" : name);
+      if (taken != owners.end()) clash(block, name == "all" ? taken->first : name, taken->second);
+      owners.emplace(name, block.name);
+    }
+  }
+}
+
+std::vector<Block> blocks(const Values& values, const std::vector<Material>& materials, Problems& problems) {
+  std::vector<Block> all;
+  for (const Values& section : values.sections()) {
+    all.push_back({.name = section.name(),
+                   .block_names = section.names("Block Names"),
+                   .material = find_material(section, materials, problems),
+                   .horizon = section.real("Horizon")});
+  }
+  check_overlaps(all, problems);
+  return all;
+}
+
+Vector to_vector(const std::vector<double>& numbers, const Vector& otherwise) {
+  return numbers.size() == 3 ? Vector(numbers[0], numbers[1], numbers[2]) : otherwise;
+}
+
+Condition condition(const Values& values, Problems& problems) {
+  Condition condition{.name = values.name(),
+                      .type = to_enum<ConditionType>(
+                          values.text("Type"), {"Initial Velocity", "Prescribed Displacement", "Prescribed Velocity",
+                                                "Body Force", "Symmetry Plane", "Rigid Plane"}),
+                      .node_set = values.text("Node Set"),
+                      .component = to_enum<int>(values.text("Coordinate"), {"x", "y", "z"}),
+                      .value = values.function("Value")};
+  condition.point = to_vector(values.reals("Point"), condition.point);
+  condition.normal = to_vector(values.reals("Normal"), condition.normal);
+  if (condition.normal.isZero(0)) {
+    problems.add(path_to(values.path(), "Normal"), "is zero; expected a direction");
+  }
+  return condition;
+}
+
+std::vector<Condition> conditions(const Values& values, Problems& problems) {
+  std::vector<Condition> all;
+  for (const Values& section : values.sections()) all.push_back(condition(section, problems));
+  return all;
+}
+
+// Reports where both keys are given.
+void check_one_of(const Values& values, const std::string& one, const std::string& other, Problems& problems) {
+  if (values.given(one) && values.given(other)) {
+    problems.add(values.path(), "'" + one + "' and '" + other + "' are both given; expected one of them");
+  }
+}
+
+Solver solver(const Values& values, Problems& problems) {
+  const Values& verlet = values.section("Verlet");
+  Solver solver{.initial_time = values.real("Initial Time"),
+                .final_time = values.real("Final Time"),
+                .safety_factor = verlet.real("Safety Factor")};
+  if (verlet.has("Fixed dt")) solver.fixed_dt = verlet.real("Fixed dt");
+  check_one_of(verlet, "Fixed dt", "Safety Factor", problems);
+  if (values.has("Initial Time") && values.has("Final Time") && solver.final_time <= solver.initial_time) {
+    problems.add(
+        path_to(values.path(), "Final Time"),
+        "'" + to_text(solver.final_time) + "'; expected > Initial Time (" + to_text(solver.initial_time) + "), in s");
+  }
+  return solver;
+}
+
+std::vector<std::string> switched_on(const Values& variables) {
+  std::vector<std::string> names = variables.keys();
+  std::erase_if(names, [&](const std::string& name) { return !variables.flag(name); });
+  return names;
+}
+
+// Sets the frequency or the interval; a `share` of the run where the deck has neither.
+template <class Sink>
+void set_when(Sink& sink, const Values& values, const std::string& prefix, double share, const Solver& solver,
+              Problems& problems) {
+  const std::string frequency = prefix + "Frequency", interval = prefix + "Interval";
+  check_one_of(values, frequency, interval, problems);
+  if (values.has(frequency)) {
+    sink.frequency = values.integer(frequency);
+  } else {
+    sink.interval = values.has(interval) ? values.real(interval) : share * (solver.final_time - solver.initial_time);
+  }
+}
+
+Output output(const Values* values, const Solver& solver, Problems& problems) {
+  if (!values) return {};
+  Output output{.enabled = true,
+                .file = values->text("Output Filename"),
+                .variables = switched_on(values->section("Output Variables"))};
+  if (!output.file.has_extension()) output.file += ".e";
+  set_when(output, *values, "Output ", 1.0 / 20, solver, problems);
+  return output;
+}
+
+History history(const Values* values, const Solver& solver, Problems& problems) {
+  if (!values) return {};
+  History history{
+      .enabled = true, .file = values->text("Filename"), .variables = switched_on(values->section("Variables"))};
+  set_when(history, *values, "", 1.0 / 1000, solver, problems);
+  return history;
+}
+
+Deck build(const Values& values, const fs::path& file, Problems& problems) {
+  Deck deck;
+  deck.file = file;
+  deck.discretization = discretization(values.section("Discretization"), file);
+  deck.node_sets = node_sets(values.section("Node Sets"), problems);
+  deck.materials = materials_of(values.section("Materials"), problems);
+  deck.blocks = blocks(values.section("Blocks"), deck.materials, problems);
+  deck.conditions = conditions(values.section("Boundary Conditions"), problems);
+  deck.solver = solver(values.section("Solver"), problems);
+  deck.output = output(values.find("Output"), deck.solver, problems);
+  deck.history = history(values.find("History"), deck.solver, problems);
+  return deck;
+}
+
+// The mesh is looked for on one rank only: the others may not see the file, and need not.
+enum class MeshCheck { no, yes };
+
+Deck parse(const std::string& text, const fs::path& file, MeshCheck mesh_check) {
+  Problems problems;
+  Deck deck;
+  if (const auto list = parse_xml(text, problems)) {
+    const Values values = check(*list, schema(), "", problems);
+    deck = build(values, file, problems);
+    if (mesh_check == MeshCheck::yes) check_mesh(deck.discretization.mesh, problems);
+  }
+  problems.raise(file.string());
+  return deck;
+}
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!fs::exists(file)) throw Error(file.string() + ": the deck does not exist");
+  if (!fs::is_regular_file(file) || !stream) throw Error(file.string() + ": the deck is not a file that can be read");
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Deck read(const fs::path& file, const Communicator& communicator) {
+  std::string text;
+  Deck deck;
+  run_on_root(communicator, [&] {
+    text = contents(file);
+    deck = parse(text, file, MeshCheck::yes);
+  });
+  communicator.broadcast(text);
+  if (communicator.rank() != 0) deck = parse(text, file, MeshCheck::no);
+  return deck;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,106 @@
+#include "deck/laws.hpp"
+
+#include <array>
+
+#include "base/errors.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const std::array<std::string, 4> elastic_keys = {"Bulk Modulus", "Shear Modulus", "Young's Modulus", "Poisson's Ratio"};
+
+// From any two of the four constants.
+materials::Moduli moduli(const Values& material) {
+  const auto& [bulk, shear, young, poisson] = elastic_keys;
+  const double K = material.real(bulk), G = material.real(shear);
+  const double E = material.real(young), nu = material.real(poisson);
+  if (!material.has(young) && !material.has(poisson)) return {K, G};
+  if (!material.has(bulk) && !material.has(shear)) return {E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))};
+  if (!material.has(shear) && !material.has(poisson)) return {K, 3 * K * E / (9 * K - E)};
+  if (!material.has(shear)) return {K, 3 * K * (1 - 2 * nu) / (2 * (1 + nu))};
+  if (!material.has(poisson)) return {G * E / (3 * (3 * G - E)), G};
+  return {2 * G * (1 + nu) / (3 * (1 - 2 * nu)), G};
+}
+
+materials::Moduli checked_moduli(const Values& material, Problems& problems) {
+  std::vector<std::string> given;
+  for (const std::string& key : elastic_keys) {
+    if (material.given(key)) given.push_back(key);
+  }
+  if (given.size() != 2) {
+    problems.add(material.path(), "elastic constants given: " + (given.empty() ? "none" : joined(given)) +
+                                      "; expected exactly two of " +
+                                      joined({elastic_keys.begin(), elastic_keys.end()}));
+    return {};
+  }
+  if (!material.has(given[0]) || !material.has(given[1])) return {};  // already among the problems
+  const materials::Moduli result = moduli(material);
+  if (!(result.bulk > 0 && result.shear > 0)) {
+    problems.add(material.path(), joined(given, " and ") +
+                                      " contradict each other; expected such that bulk and shear "
+                                      "modulus are > 0 (0 < E < 3 G, 0 < E < 9 K)");
+  }
+  return result;
+}
+
+materials::AnyLaw make_elastic(const Values& material, Problems& problems) {
+  const materials::Moduli moduli = checked_moduli(material, problems);
+  return materials::Elastic{.bulk = moduli.bulk, .shear = moduli.shear};
+}
+
+materials::AnyLaw make_j2(const Values& material, Problems& problems) {
+  const materials::Moduli moduli = checked_moduli(material, problems);
+  return materials::J2{.bulk = moduli.bulk, .shear = moduli.shear, .flow = make_flow_stress(material, problems)};
+}
+
+Section elastic_plastic() {
+  Section section = flow_stress_section();
+  section.name = "Elastic Plastic Correspondence";
+  section.meaning = "J2 plasticity: hypoelastic, with the flow stress that Yield Stress, Hardening and Rate define.";
+  return section;
+}
+
+}  // namespace
+
+const std::vector<LawEntry>& laws() {
+  static const std::vector<LawEntry> entries = {
+      {{.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic), no further keys."},
+       make_elastic},
+      {elastic_plastic(), make_j2},
+  };
+  return entries;
+}
+
+Section material_section() {
+  const std::string two = " Exactly two of the four elastic constants.";
+  return {
+      .name = any_name,
+      .required = true,
+      .meaning = "One material.",
+      .keys =
+          {{.name = "Density", .unit = "kg/m³", .range = positive, .required = true, .meaning = "Reference density."},
+           {.name = "Bulk Modulus", .unit = "Pa", .range = positive, .meaning = "K." + two},
+           {.name = "Shear Modulus", .unit = "Pa", .range = positive, .meaning = "G." + two},
+           {.name = "Young's Modulus", .unit = "Pa", .range = positive, .meaning = "E." + two},
+           {.name = "Poisson's Ratio", .range = {-1, 0.5, false, false}, .meaning = "ν." + two},
+           {.name = "Stabilization",
+            .kind = Kind::choice,
+            .choices = {"Silling", "None"},
+            .fallback = "Silling",
+            .meaning = "What holds zero-energy modes down."},
+           {.name = "Stabilization Coefficient",
+            .range = not_negative,
+            .fallback = "0.02",
+            .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for every "
+                       "influence function and horizon. Not Peridigm's Hourglass Coefficient."}},
+      .hints = {{"Hourglass Coefficient",
+                 "unknown key; 'Stabilization Coefficient' is its counterpart, but another quantity: in units of "
+                 "(λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},
+                {"Strain Hardening Exponent", "unknown key; write it as Hardening > Exponent (Type 'Power Law')"},
+                {"Reference Strain 0", "unknown key; write it as Hardening > Reference Strain (Type 'Power Law')"},
+                {"Rate Hardening Exponent", "unknown key; write it as Rate > Exponent (Type 'Power Law')"},
+                {"Reference Strain Rate", "unknown key; write it as Rate > Reference Rate (Type 'Power Law')"}}};
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,27 @@
+// The material laws as a deck names them: for each its keys and how it is made from them. A new law is one entry.
+#pragma once
+
+#include <vector>
+
+#include "deck/problems.hpp"
+#include "deck/schema.hpp"
+#include "deck/values.hpp"
+#include "materials/laws.hpp"
+
+namespace strut::deck {
+
+struct LawEntry {
+  Section schema;  // named as "Material Model" has it
+  materials::AnyLaw (*make)(const Values& material, Problems& problems);
+};
+
+const std::vector<LawEntry>& laws();
+
+// What all materials share: density, elastic constants, stabilisation.
+Section material_section();
+
+// The keys "Yield Stress", Hardening and Rate of a law with a flow stress.
+Section flow_stress_section();
+materials::FlowStress make_flow_stress(const Values& material, Problems& problems);
+
+}  // namespace strut::deck

@@ -1,0 +1,25 @@
+// Text to numbers, strictly: the whole text must be one. "1.5e9 Pa" is no number, and "1.5" is no integer.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace strut::deck {
+
+std::string_view trimmed(std::string_view text);
+
+std::optional<int> to_integer(std::string_view text);
+std::optional<double> to_real(std::string_view text);  // may be infinite or not a number: "inf", "nan"
+std::optional<bool> to_boolean(std::string_view text);
+
+// "0 0 1", "0, 0, 1" or, as Teuchos writes arrays, "{0, 0, 1}".
+std::optional<std::vector<double>> to_reals(std::string_view text);
+
+std::vector<std::string> to_words(std::string_view text);  // separated by blanks
+
+// The shortest text that reads back as `value`.
+std::string to_text(double value);
+
+}  // namespace strut::deck

@@ -1,0 +1,107 @@
+// The reference page of all keys, from the schema.
+#include "deck/deck.hpp"
+#include "deck/problems.hpp"
+#include "deck/schema.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+std::string or_dash(const std::string& text) { return text.empty() ? "—" : text; }
+
+std::string escaped(std::string text) {
+  for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
+  return text;
+}
+
+std::string type_text(const Key& key) {
+  switch (key.kind) {
+    case Kind::boolean:
+      return "bool";
+    case Kind::integer:
+      return "integer";
+    case Kind::real:
+      return "real";
+    case Kind::reals:
+      return "reals";
+    case Kind::vector:
+      return "3 reals";
+    case Kind::text:
+      return "text";
+    case Kind::choice:
+      return "choice";
+    case Kind::names:
+      return "names";
+    case Kind::expression:
+      return "expression";
+  }
+  return "";
+}
+
+std::string range_text(const Key& key) {
+  std::string text = key.range.text();
+  for (const std::string& choice : key.choices) text += (text.empty() ? "`" : ", `") + choice + "`";
+  return text;
+}
+
+std::string default_text(const Key& key) {
+  if (key.required) return "required";
+  return key.fallback ? "`" + *key.fallback + "`" : "—";
+}
+
+std::string row(const Key& key) {
+  const std::string name = key.name == any_name ? key.name : "`" + key.name + "`";
+  return "| " + name + " | " + type_text(key) + " | " + or_dash(key.unit) + " | " + or_dash(range_text(key)) + " | " +
+         default_text(key) + " | " + escaped(key.meaning) + " |\n";
+}
+
+std::string table(const Section& section) {
+  if (section.keys.empty() && !section.any_key) return "";
+  std::string text = "\n| key | type | unit | range | default | meaning |\n|---|---|---|---|---|---|\n";
+  for (const Key& key : section.keys) text += row(key);
+  if (section.any_key) text += row(*section.any_key);
+  return text;
+}
+
+std::string section_text(const Section& section, const std::string& path) {
+  std::string text;
+  if (!path.empty()) text += "\n## " + path + (section.required ? " (required)" : "") + "\n";
+  if (!section.meaning.empty()) text += "\n" + section.meaning + "\n";
+  text += table(section);
+  for (const Section& one : section.cases) {
+    text += "\n### " + path + ", " + section.selector + " = \"" + one.name + "\"\n\n" + one.meaning + "\n" + table(one);
+    for (const Section& inner : one.sections) text += section_text(inner, path_to(path, inner.name));
+  }
+  for (const Section& inner : section.sections) text += section_text(inner, path_to(path, inner.name));
+  return text;
+}
+
+const char* const introduction = R"(# Keys of a deck
+
+Generated from the schema in `src/deck`; do not edit by hand. SI units throughout.
+
+A deck is an XML file of nested `<ParameterList name="…">`, the sections, and
+`<Parameter name="…" type="…" value="…"/>`, the keys. `Blocks > (any name) > Horizon` below is the key `Horizon` in a
+section, named as you like, in the section `Blocks`. Unknown keys and sections are errors, and so are values outside
+their range; all problems of a deck are reported at once.
+
+| type | written in the deck as |
+|---|---|
+| bool | type `bool`: `true` or `false` |
+| integer | type `int`, or `string` with an integer |
+| real | type `double` or `int`, or `string` with a number; finite |
+| reals | type `string` (`0 0.1 0.5`) or `Array(double)` (`{0, 0.1, 0.5}`) |
+| 3 reals | the same, three of them |
+| text | type `string` |
+| choice | type `string`: one of the choices in the column range, letter by letter |
+| names | type `string`, separated by blanks |
+| expression | a number, or type `string`: C-like, in x, y, z, t, e.g. `-50`, `1e-3*t`, `sin(x)` |
+
+## The whole deck
+)";
+
+}  // namespace
+
+std::string reference_page() { return introduction + section_text(schema(), ""); }
+
+}  // namespace strut::deck

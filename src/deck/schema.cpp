@@ -1,0 +1,273 @@
+#include "deck/schema.hpp"
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "deck/laws.hpp"
+#include "deck/numbers.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+std::string describe(Kind kind) {
+  switch (kind) {
+    case Kind::real:
+      return "a real number";
+    case Kind::integer:
+      return "an integer";
+    case Kind::boolean:
+      return "true or false (type bool)";
+    case Kind::reals:
+      return "a list of real numbers";
+    case Kind::vector:
+      return "three real numbers";
+    case Kind::text:
+      return "a text (type string)";
+    case Kind::choice:
+      return "one of ";
+    case Kind::names:
+      return "names separated by blanks (type string)";
+    case Kind::expression:
+      return "a number or an expression in x, y, z, t";
+  }
+  return "";
+}
+
+const Key verbose = {
+    .name = "Verbose", .kind = Kind::boolean, .fallback = "false", .meaning = "Accepted for Peridigm's decks; no effect."};
+
+Section discretization() {
+  return {
+      .name = "Discretization",
+      .required = true,
+      .meaning = "The points: where they are, and how much each sees of the others.",
+      .keys = {
+          {.name = "Type",
+           .kind = Kind::choice,
+           .choices = {"Exodus", "Text File"},
+           .required = true,
+           .meaning = "The mesh file's format: elements become points at their centroids, or a list of points.",
+           .hints = {{"PdQuickGrid", "there is no built-in grid: make a mesh file from a recipe"}}},
+          {.name = "Input Mesh File",
+           .kind = Kind::text,
+           .required = true,
+           .meaning = "Its path, relative to the deck's folder."},
+          {.name = "Influence Function",
+           .kind = Kind::choice,
+           .choices = {"One", "Linear Decay", "Cubic Decay"},
+           .fallback = "One",
+           .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
+          {.name = "Degenerate Points",
+           .kind = Kind::choice,
+           .choices = {"Error", "Drop"},
+           .fallback = "Error",
+           .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
+                      "gradient."}}};
+}
+
+Section node_sets() {
+  return {.name = "Node Sets",
+          .meaning = "Sets of points besides those of the mesh; each key is the name of one.",
+          .any_key = Key{.name = any_name,
+                         .kind = Kind::expression,
+                         .meaning = "The points at whose reference position (m) this is not zero, e.g. `z &lt; 1e-3`."}};
+}
+
+Section materials_section() {
+  const std::string power_laws = "its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate";
+  Key model = {.name = "Material Model",
+               .kind = Kind::choice,
+               .required = true,
+               .meaning = "The law; it decides on further keys.",
+               .hints = {{"Elastic", "did you mean 'Elastic Correspondence'?"},
+                         {"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
+                         {"Viscoplastic Needleman Correspondence", "did you mean 'Elastic Plastic Correspondence'? " +
+                                                                       power_laws}}};
+  std::vector<Section> cases;
+  for (const LawEntry& law : laws()) cases.push_back(law.schema);
+  return {.name = "Materials",
+          .required = true,
+          .meaning = "The materials that blocks refer to.",
+          .sections = {with_cases(material_section(), std::move(model), std::move(cases))}};
+}
+
+Section blocks() {
+  return {.name = "Blocks",
+          .required = true,
+          .meaning = "What the blocks of the mesh are made of.",
+          .sections = {{.name = any_name,
+                        .required = true,
+                        .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
+                        .keys = {{.name = "Block Names",
+                                  .kind = Kind::names,
+                                  .required = true,
+                                  .meaning = "Blocks of the mesh, or `all`."},
+                                 {.name = "Material",
+                                  .kind = Kind::text,
+                                  .required = true,
+                                  .meaning = "The name of a section in Materials."},
+                                 {.name = "Horizon",
+                                  .unit = "m",
+                                  .range = positive,
+                                  .required = true,
+                                  .meaning = "δ: points closer than this are neighbours."}}}}};
+}
+
+Section along_axis(const std::string& type, const std::string& unit, const std::string& meaning) {
+  return {.name = type,
+          .meaning = meaning,
+          .keys = {{.name = "Coordinate",
+                    .kind = Kind::choice,
+                    .choices = {"x", "y", "z"},
+                    .required = true,
+                    .meaning = "The axis it acts along."},
+                   {.name = "Value",
+                    .kind = Kind::expression,
+                    .unit = unit,
+                    .required = true,
+                    .meaning = "At the reference position x, y, z (m) and the time t (s)."}}};
+}
+
+Section plane(const std::string& type, const std::string& meaning) {
+  return {.name = type,
+          .meaning = meaning,
+          .keys = {{.name = "Point", .kind = Kind::vector, .unit = "m", .required = true, .meaning = "On the plane."},
+                   {.name = "Normal", .kind = Kind::vector, .required = true, .meaning = "Of any length but zero."}}};
+}
+
+Section conditions() {
+  Section one = {.name = any_name,
+                 .meaning = "One condition.",
+                 .keys = {{.name = "Node Set",
+                           .kind = Kind::text,
+                           .fallback = "all",
+                           .meaning = "A node set of the mesh or of Node Sets, a block's name, or `all`."}}};
+  Key type = {.name = "Type", .kind = Kind::choice, .required = true, .meaning = "It decides on further keys."};
+  return {.name = "Boundary Conditions",
+          .meaning = "What is imposed on points, initial conditions included.",
+          .sections = {with_cases(
+              std::move(one), std::move(type),
+              {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
+               along_axis("Prescribed Displacement", "m", "The displacement at every time."),
+               along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
+               along_axis("Body Force", "N/m³", "A force per reference volume."),
+               plane("Symmetry Plane", "The points keep their distance to the plane."),
+               plane("Rigid Plane", "A wall without friction: the points stay on the side the normal points to.")})}};
+}
+
+Section solver() {
+  return {
+      .name = "Solver",
+      .required = true,
+      .meaning = "The time that is simulated, and its steps.",
+      .keys = {verbose,
+               {.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."},
+               {.name = "Final Time", .unit = "s", .required = true, .meaning = "When it ends: after the initial time."}},
+      .sections = {{.name = "Verlet",
+                    .meaning = "Explicit steps by central differences. Either of the keys, not both.",
+                    .keys = {{.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "The same step always."},
+                             {.name = "Safety Factor",
+                              .range = {.low = 0, .high = 1, .with_low = false},
+                              .fallback = "0.8",
+                              .meaning = "The step as a part of the stable one, which follows the deformation."}}}},
+      .hints = {{"QuasiStatic", "unknown section; this version has 'Verlet' only"},
+                {"Implicit", "unknown section; this version has 'Verlet' only"}}};
+}
+
+Section output() {
+  const std::string none = "Accepted for Peridigm's decks; no effect.";
+  return {
+      .name = "Output",
+      .meaning = "The fields of the points in time. Without this section there are none.",
+      .keys = {{.name = "Output File Type",
+                .kind = Kind::choice,
+                .choices = {"ExodusII"},
+                .fallback = "ExodusII",
+                .meaning = "The format."},
+               {.name = "Output Filename",
+                .kind = Kind::text,
+                .required = true,
+                .meaning = "Relative to the working folder; `.e` is appended if it has no suffix."},
+               {.name = "Output Frequency",
+                .kind = Kind::integer,
+                .unit = "steps",
+                .range = {.low = 1},
+                .meaning = "Every so many steps. Not together with Output Interval."},
+               {.name = "Output Interval",
+                .unit = "s",
+                .range = positive,
+                .meaning = "Every so much time. Where neither is given: 1/20 of the run."},
+               {.name = "Output Format", .kind = Kind::text, .meaning = none},
+               {.name = "Parallel Write", .kind = Kind::boolean, .meaning = none}},
+      .sections = {{.name = "Output Variables",
+                    .meaning = "The fields to write.",
+                    .any_key = Key{.name = any_name, .kind = Kind::boolean, .meaning = "A field, e.g. `Displacement`."}}}};
+}
+
+Section history() {
+  return {
+      .name = "History",
+      .meaning = "Numbers of the whole body in time, as a table (CSV). Without this section there is none.",
+      .keys = {{.name = "Filename",
+                .kind = Kind::text,
+                .required = true,
+                .meaning = "Relative to the working folder."},
+               {.name = "Frequency",
+                .kind = Kind::integer,
+                .unit = "steps",
+                .range = {.low = 1},
+                .meaning = "Every so many steps. Not together with Interval."},
+               {.name = "Interval",
+                .unit = "s",
+                .range = positive,
+                .meaning = "Every so much time. Where neither is given: 1/1000 of the run."}},
+      .sections = {{.name = "Variables",
+                    .meaning = "The columns.",
+                    .any_key = Key{.name = any_name, .kind = Kind::boolean, .meaning = "E.g. `Max_Displacement`."}}}};
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return (with_low ? value >= low : value > low) && (with_high ? value <= high : value < high);
+}
+
+std::string Range::text() const {
+  const bool bounded_below = std::isfinite(low), bounded_above = std::isfinite(high);
+  if (bounded_below && bounded_above) {
+    return "in " + std::string(with_low ? "[" : "(") + to_text(low) + ", " + to_text(high) + (with_high ? "]" : ")");
+  }
+  if (bounded_below) return (with_low ? "≥ " : "> ") + to_text(low);
+  if (bounded_above) return (with_high ? "≤ " : "< ") + to_text(high);
+  return "";
+}
+
+Section with_cases(Section section, Key selector, std::vector<Section> cases) {
+  for (const Section& one : cases) selector.choices.push_back(one.name);
+  section.selector = selector.name;
+  section.keys.insert(section.keys.begin(), std::move(selector));
+  section.cases = std::move(cases);
+  return section;
+}
+
+std::string expected(const Key& key) {
+  std::string text = "expected " + describe(key.kind) + joined(key.choices);
+  if (const std::string range = key.range.text(); !range.empty()) text += " " + range;
+  if (!key.unit.empty()) text += ", in " + key.unit;
+  return text;
+}
+
+const Section& schema() {
+  static const Section whole = {
+      .meaning = "",
+      .keys = {verbose},
+      .sections = {discretization(), node_sets(), materials_section(), blocks(), conditions(), solver(), output(),
+                   history()},
+      .hints = {{"Contact", "reserved: not in this version"},
+                {"Damage Models", "reserved: not in this version"},
+                {"Compute Class Parameters", "unknown section; numbers of the whole body are chosen in 'History'"}}};
+  return whole;
+}
+
+}  // namespace strut::deck

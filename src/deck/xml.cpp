@@ -1,0 +1,83 @@
+#include "deck/xml.hpp"
+
+#include <Teuchos_StringInputSource.hpp>
+#include <Teuchos_XMLObject.hpp>
+#include <algorithm>
+#include <set>
+
+#include "deck/numbers.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+// Teuchos writes file, throw number and condition before its own words: "XML parse error at line 7: …".
+void add_syntax_error(const std::string& what, Problems& problems) {
+  const std::string mark = "XML parse error at ";
+  const std::size_t begin = what.find(mark);
+  if (begin == std::string::npos) {
+    problems.add("XML", "the file is empty; expected a <ParameterList>");
+    return;
+  }
+  std::string text(trimmed(what.substr(begin + mark.size())));
+  if (text.find("attribute value") != std::string::npos) {
+    text += " (inside a value write &lt; for < and &amp; for &, and close its quotes)";
+  }
+  const std::size_t colon = text.find(": ");
+  problems.add(text.substr(0, colon), "malformed XML: " + text.substr(std::min(text.size(), colon + 2)));
+}
+
+void read_parameter(const Teuchos::XMLObject& xml, const std::string& path, List& list, Problems& problems) {
+  const auto attribute = [&](const char* name) { return xml.hasAttribute(name) ? xml.getAttribute(name) : ""; };
+  if (xml.hasAttribute("name") && xml.hasAttribute("type") && xml.hasAttribute("value")) {
+    list.parameters.push_back({attribute("name"), attribute("type"), attribute("value")});
+  } else {
+    problems.add(path_to(path, "<Parameter> '" + attribute("name") + "'"), "needs the attributes name, type and value");
+  }
+}
+
+void report_duplicates(const List& list, const std::string& path, Problems& problems) {
+  std::multiset<std::string> names;
+  for (const Parameter& parameter : list.parameters) names.insert(parameter.name);
+  for (const List& sublist : list.lists) names.insert(sublist.name);
+  for (const std::string& name : std::set<std::string>(names.begin(), names.end())) {
+    const std::size_t count = names.count(name);
+    if (count > 1) problems.add(path_to(path, name), "given " + std::to_string(count) + " times; expected once");
+  }
+}
+
+List read_list(const Teuchos::XMLObject& xml, const std::string& path, Problems& problems) {
+  List list;
+  if (xml.hasAttribute("name")) list.name = xml.getAttribute("name");
+  for (int i = 0; i < xml.numContentLines(); ++i) {
+    const std::string text(trimmed(xml.getContentLine(i)));
+    if (!text.empty()) problems.add(path.empty() ? "(top)" : path, "stray text '" + text + "'");
+  }
+  for (int i = 0; i < xml.numChildren(); ++i) {
+    const Teuchos::XMLObject child = xml.getChild(i);
+    if (child.getTag() == "Parameter") {
+      read_parameter(child, path, list, problems);
+    } else if (child.getTag() == "ParameterList" && child.hasAttribute("name")) {
+      list.lists.push_back(read_list(child, path_to(path, child.getAttribute("name")), problems));
+    } else {
+      problems.add(path_to(path, "<" + child.getTag() + ">"), "expected <ParameterList name=\"…\"> or <Parameter …/>");
+    }
+  }
+  report_duplicates(list, path, problems);
+  return list;
+}
+
+}  // namespace
+
+std::optional<List> parse_xml(const std::string& text, Problems& problems) {
+  try {
+    const Teuchos::XMLObject root = Teuchos::StringInputSource(text).getObject();
+    if (root.getTag() == "ParameterList") return read_list(root, "", problems);
+    problems.add("<" + root.getTag() + ">", "expected the outermost element to be <ParameterList>");
+  } catch (const std::exception& error) {
+    add_syntax_error(error.what(), problems);
+  }
+  return std::nullopt;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,57 @@
+// What acts on points from outside: loads, prescribed motion, planes; and the work that each does.
+#pragma once
+
+#include <vector>
+
+#include "base/function.hpp"
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// One component of the motion of some points.
+struct PrescribedMotion {
+  std::vector<int> points;
+  int component;
+  Function value;     // of the reference position and time: m, or m/s
+  bool is_velocity;
+};
+
+struct BodyForce {
+  std::vector<int> points;
+  int component;
+  Function value;  // N/m³ of reference volume
+};
+
+// A plane without friction. Two-sided (symmetry): points keep their distance to it. One-sided (rigid wall): points stay
+// on the side that the normal points to; one that would pass is stopped on the plane, and is free to leave.
+struct Plane {
+  std::vector<int> points;
+  Vector point, normal;  // the normal of unit length
+  bool one_sided;
+};
+
+struct Conditions {
+  std::vector<BodyForce> body_forces;
+  std::vector<PrescribedMotion> motions;
+  std::vector<Plane> planes;  // applied last: nothing passes a wall
+};
+
+struct Work {
+  double external = 0;  // J done by loads and prescribed motion, this rank, since the start
+  double contact = 0;   // J done by one-sided planes (negative: what a plastic impact takes)
+};
+
+// Adds the body forces at time t (s) to the force density.
+void add_body_forces(const Conditions& conditions, double t, Body& body);
+
+// Puts the prescribed velocities at time t into the initial velocities, so that the first step needs no impulse.
+void start_motions(const Conditions& conditions, double t, double dt, Body& body);
+
+// Changes the velocities after the kick at time t, which carry the points to t + dt, to what the conditions allow. The
+// work of an impulse p on a point is p · ½(v⁻ + v⁺), exactly what the kinetic energy of central differences gains.
+void constrain(const Conditions& conditions, double t, double dt, Body& body, Work& work);
+
+// The work of the body forces over the kick, once velocities are final.
+double work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body);
+
+}  // namespace strut

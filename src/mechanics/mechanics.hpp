@@ -1,0 +1,43 @@
+// The door of mechanics: from the places of the points to the force on each, by state-based correspondence.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// A point at which a step went wrong.
+struct Failure {
+  int point;  // owned, local index
+  enum class Kind { inverted, no_stress } kind;
+};
+
+struct StepReport {
+  double steepest = 0;             // the largest ‖F⁻¹‖ (Frobenius; √3 undeformed): the stable step shrinks with it
+  std::optional<Failure> failure;  // the first on this rank; its stress is the old one
+};
+
+// Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
+// dt, and computes force_density, f = Σ {T − T'} V (internal force, N/m³). Halo exchanges run behind interior points.
+// dt = 0 leaves stress and state alone. `with_energy`: also stabilization_work.
+StepReport advance_stress_and_force(Body& body, double dt, bool with_energy);
+
+// Collective. The linearised operator with the elastic moduli in the current state, applied to a field:
+// result = −f(v)/ρ (1/s² times v's unit). `directions` holds v in the place of y: a scratch copy of body.sites.
+// The geometric stiffness (of the order stress/modulus) is left out.
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, std::vector<ForceState>& scratch,
+                   std::vector<Vector>& result);
+
+struct Energies {
+  double elastic = 0, dissipated = 0, stabilization = 0;  // J
+};
+
+// Collective: sums over all ranks, after a step with_energy.
+Energies stored_energies(const Body& body);
+
+// "element 17 of block foam, reference position (…), now at (…): …": what the failure is and its likely cause.
+std::string describe(const Failure& failure, const Body& body);
+
+}  // namespace strut

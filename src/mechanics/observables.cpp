@@ -1,0 +1,163 @@
+#include "mechanics/observables.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <span>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+std::span<const double> components(const double& scalar) { return {&scalar, 1}; }
+template <class Matrix>
+std::span<const double> components(const Matrix& matrix) {
+  return {matrix.data(), static_cast<std::size_t>(matrix.size())};
+}
+
+// An observable from a function of body and point that returns a double, Vector, Symmetric or (row by row) Tensor.
+template <class Value>
+Observable observable(std::string name, std::string meaning, Value value, bool nodal = false) {
+  const auto fill = [value](const Body& body, std::vector<double>& out) {
+    out.clear();
+    for (int i = 0; i < body.owned(); ++i) {
+      const auto v = value(body, i);
+      for (const double c : components(v)) out.push_back(c);
+    }
+  };
+  using Result = decltype(value(std::declval<const Body&>(), 0));
+  int count = 1;
+  if constexpr (!std::is_same_v<Result, double>) count = static_cast<int>(Result::SizeAtCompileTime);
+  return {std::move(name), count, nodal, std::move(meaning), fill};
+}
+
+// Eigen stores columns; files want rows.
+Tensor by_rows(const Tensor& t) { return t.transpose(); }
+
+Symmetric cauchy(const Body& body, int i) {
+  const MaterialPoint& p = body.points[i];
+  return symmetric_part(p.rotation * to_tensor(p.stress) * p.rotation.transpose());
+}
+
+std::vector<Observable> kinematic() {
+  return {
+      observable("Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
+      observable("Velocity", "at the time of the frame, m/s",
+                 [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
+      observable("Force", "internal force and loads, N",
+                 [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volumes[i]; }, true),
+      observable("Force_Density", "the same per reference volume, N/m³",
+                 [](const Body& b, int i) { return b.force_density[i]; }, true),
+      observable("Deformation_Gradient", "F",
+                 [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
+      observable("Rotation_Tensor", "R of F = V R", [](const Body& b, int i) { return by_rows(b.points[i].rotation); }),
+      observable("Left_Stretch_Tensor", "V of F = V R",
+                 [](const Body& b, int i) {
+                   const MaterialPoint& p = b.points[i];
+                   return symmetric_part(p.deformation_gradient * p.rotation.transpose());
+                 }),
+      observable("Jacobian", "det F", [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
+  };
+}
+
+std::vector<Observable> stresses() {
+  return {
+      observable("Cauchy_Stress", "Pa", cauchy),
+      observable("Unrotated_Cauchy_Stress", "Rᵀ σ R, Pa", [](const Body& b, int i) { return b.points[i].stress; }),
+      observable("Von_Mises_Stress", "√(3/2 s:s), Pa", [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
+      observable("Pressure", "−tr σ/3, Pa", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
+  };
+}
+
+std::vector<Observable> fixed_properties() {
+  return {
+      observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volumes[i]; }),
+      observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
+      observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizons[i]; }),
+      observable("Number_Of_Neighbors", "size of the family",
+                 [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
+      observable("Element_Id", "the mesh's own number",
+                 [](const Body& b, int i) { return static_cast<double>(b.domain.cloud.element_ids[i]); }),
+      observable("Proc_Num", "the rank that owns the point",
+                 [](const Body& b, int) { return static_cast<double>(b.domain.communicator.rank()); }),
+  };
+}
+
+// One column of the state of the laws that have it.
+Observable state_variable(const std::string& name) {
+  const auto fill = [name](const Body& body, std::vector<double>& out) {
+    out.assign(body.owned(), 0);
+    for (const MaterialBlock& block : body.blocks) {
+      const auto copy = [&]<class L>(const L&) {
+        const auto at = std::find(L::state_names.begin(), L::state_names.end(), name);
+        if (at == L::state_names.end()) return;
+        const double* column = block.state.data() + (at - L::state_names.begin()) * block.points.size();
+        for (std::size_t k = 0; k < block.points.size(); ++k) out[block.points[k]] = column[k];
+      };
+      std::visit(copy, block.material.law);
+    }
+  };
+  return {name, 1, false, "state of the material law", fill};
+}
+
+std::vector<std::string> names_of(const std::vector<Observable>& all) {
+  std::vector<std::string> names;
+  for (const Observable& o : all) names.push_back(o.name);
+  return names;
+}
+
+const Observable& find(const std::vector<Observable>& all, const std::string& name, const std::string& where) {
+  for (const Observable& o : all) {
+    if (o.name == name) return o;
+  }
+  const std::vector<std::string> valid = names_of(all);
+  throw Error(where + " > " + name + ": no such variable" + did_you_mean(name, valid) + "; valid are " + joined(valid));
+}
+
+}  // namespace
+
+std::vector<Observable> observables(const Body& body) {
+  std::vector<Observable> all = kinematic();
+  for (auto group : {stresses(), fixed_properties()}) all.insert(all.end(), group.begin(), group.end());
+  std::set<std::string> states;
+  for (const MaterialBlock& block : body.blocks) {
+    std::visit([&]<class L>(const L&) { states.insert(L::state_names.begin(), L::state_names.end()); },
+               block.material.law);
+  }
+  for (const std::string& name : states) all.push_back(state_variable(name));
+  return all;
+}
+
+std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
+                               const std::string& where) {
+  std::vector<Observable> result;
+  for (const std::string& name : names) result.push_back(find(all, name, where));
+  return result;
+}
+
+Extreme::Extreme(const std::vector<Observable>& all, const std::string& name, const std::string& where) : name_(name) {
+  const std::string kind = name.substr(0, 4);
+  if (kind != "Max_" && kind != "Min_") {
+    throw Error(where + " > " + name + ": expected Max_ or Min_ and the name of a variable; variables are " +
+                joined(names_of(all)));
+  }
+  sign_ = kind == "Max_" ? 1 : -1;
+  observable_ = find(all, name.substr(4), where);
+}
+
+double Extreme::local(const Body& body) const {
+  std::vector<double> values;
+  observable_.fill(body, values);
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < values.size(); i += observable_.components) {
+    const double value = observable_.components == 1
+                             ? values[i]
+                             : Eigen::Map<const Eigen::VectorXd>(&values[i], observable_.components).norm();
+    best = std::max(best, sign_ * value);
+  }
+  return best;
+}
+
+}  // namespace strut

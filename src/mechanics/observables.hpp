@@ -1,0 +1,44 @@
+// What a run can show of its points: one table, from which output, history and the errors about names are made.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+struct Observable {
+  std::string name;
+  int components = 1;  // 1, 3, 6 or 9, as Exodus output names them
+  bool nodal = false;
+  std::string meaning;  // with its unit
+  // Writes the components of every owned point, point by point.
+  std::function<void(const Body&, std::vector<double>&)> fill;
+};
+
+// All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
+std::vector<Observable> observables(const Body& body);
+
+// The members of `all` that `names` ask for; throws Error that lists the valid names when one is unknown. `where`: the
+// place in the deck.
+std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
+                               const std::string& where);
+
+// "Max_X" and "Min_X" of an observable X (the length of a vector): collective, over all points of all ranks.
+class Extreme {
+ public:
+  // Throws Error like chosen().
+  Extreme(const std::vector<Observable>& all, const std::string& name, const std::string& where);
+  const std::string& name() const { return name_; }
+  double local(const Body& body) const;  // of this rank, negated for a minimum, so that all ranks take the maximum
+  double value(double largest) const { return sign_ * largest; }
+
+ private:
+  std::string name_;
+  Observable observable_;
+  double sign_ = 1;
+};
+
+}  // namespace strut

@@ -1,0 +1,106 @@
+// From the places of the points to the force state of each: F, rotation, law, first Piola–Kirchhoff stress.
+#include "mechanics/stress.hpp"
+
+#include "base/rotation.hpp"
+#include "mechanics/bonds.hpp"
+#include "points/parallel.hpp"
+
+namespace strut {
+
+namespace {
+
+template <class L>
+typename L::State load(const MaterialBlock& block, std::size_t k) {
+  std::array<double, materials::state_size<L>> columns{};
+  for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = block.state[c * block.points.size() + k];
+  return materials::from_columns<L>(columns);
+}
+
+template <class L>
+void store(MaterialBlock& block, std::size_t k, const typename L::State& state) {
+  const auto columns = materials::to_columns<L>(state);
+  for (std::size_t c = 0; c < columns.size(); ++c) block.state[c * block.points.size() + k] = columns[c];
+}
+
+// d dt = Rᵀ D R dt, the increment of strain in the unrotated frame at mid-step: L dt = ΔF F_mid⁻¹ is exact because F is
+// linear in y and the velocity constant over the step.
+Symmetric unrotated_increment(const Tensor& old_F, const Tensor& new_F, const Tensor& mid_rotation) {
+  const Tensor L = (new_F - old_F) * (0.5 * (old_F + new_F)).inverse();
+  return symmetric_part(mid_rotation.transpose() * L * mid_rotation);
+}
+
+// Advances one point to the deformation gradient F. False: the law found no stress.
+template <class L>
+bool advance(const L& law, MaterialPoint& point, typename L::State& state, const Tensor& F, double J, double dt) {
+  const Tensor rotation = updated_rotation(point.rotation, F);
+  const Tensor mid_rotation = 0.5 * (point.rotation + rotation);
+  const Symmetric increment = unrotated_increment(point.deformation_gradient, F, mid_rotation);
+  const auto [stress, converged] = law.step({increment / dt, dt, J}, point.stress, state);
+  if (converged) point.stress = stress;
+  point.rotation = rotation;
+  point.deformation_gradient = F;
+  return converged;
+}
+
+// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ
+ForceState force_state(const MaterialPoint& point, const Tensor& inverse_F, double J) {
+  const Tensor cauchy = point.rotation * to_tensor(point.stress) * point.rotation.transpose();
+  const Tensor A = J * cauchy * inverse_F.transpose() * to_tensor(point.shape_inverse) -
+                   point.stabilization * point.deformation_gradient;
+  return packed(A, point.stabilization);
+}
+
+template <bool with_energy, class L, class Weight>
+void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, Part part,
+                    StepReport& report) {
+  const auto [begin, end] = range(block, part);
+  int failed = -1;
+  Failure::Kind kind{};
+  const auto advance_point = [&](int k) {
+    const int i = block.points[k];
+    MaterialPoint& point = body.points[i];
+    const bonds::Gathered sums = bonds::gather<with_energy>(body.domain.families, body.sites.data(), i, weight);
+    const Tensor F = sums.moment * to_tensor(point.shape_inverse);
+    const double J = F.determinant();
+    if (!(J > 0)) {  // NaN too
+      failed = k, kind = Failure::Kind::inverted;
+      return 0.0;
+    }
+    if (dt > 0) {
+      typename L::State state = load<L>(block, k);
+      if (!advance(law, point, state, F, J, dt)) failed = k, kind = Failure::Kind::no_stress;
+      store<L>(block, k, state);
+    } else {
+      point.deformation_gradient = F;
+    }
+    const Tensor inverse_F = F.inverse();
+    body.force_states[i] = force_state(point, inverse_F, J);
+    if constexpr (with_energy) {
+      // ½ C Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F
+      body.stabilization_work[i] = 0.5 * point.stabilization * (sums.square - sums.moment.cwiseProduct(F).sum());
+    }
+    return inverse_F.squaredNorm();
+  };
+  const double steepest = largest(begin, end, 0, advance_point);
+  report.steepest = std::max(report.steepest, std::sqrt(steepest));
+  if (failed >= 0 && !report.failure) report.failure = Failure{block.points[failed], kind};
+}
+
+}  // namespace
+
+void advance_stress(Body& body, double dt, bool with_energy, Part part, StepReport& report) {
+  for (MaterialBlock& block : body.blocks) {
+    bonds::with_influence(body.influence, [&](auto weight) {
+      const auto with_law = [&](const auto& law) {
+        if (with_energy) {
+          advance_points<true>(body, block, law, weight, dt, part, report);
+        } else {
+          advance_points<false>(body, block, law, weight, dt, part, report);
+        }
+      };
+      std::visit(with_law, block.material.law);
+    });
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,44 @@
+// Points sorted into cubic cells: the search for pairs within a distance.
+#pragma once
+
+#include <vector>
+
+#include "base/tensors.hpp"
+
+namespace strut {
+
+class CellGrid {
+ public:
+  // `reach`: the largest distance (m) that will be asked for.
+  CellGrid(const std::vector<Vector>& points, double reach);
+
+  // Calls visit(j) for every point in the cells within `reach` of x: a superset of the points that near.
+  template <class Visit>
+  void visit_near(const Vector& x, Visit&& visit) const;
+
+ private:
+  Eigen::Array3i cell_of(const Vector& x) const;
+  std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * shape_[1] + j) * shape_[0] + i;
+  }
+
+  Vector origin_ = Vector::Zero();
+  double width_ = 1;
+  Eigen::Array3i shape_ = Eigen::Array3i::Ones();
+  std::vector<int> start_, members_;
+};
+
+template <class Visit>
+void CellGrid::visit_near(const Vector& x, Visit&& visit) const {
+  const Eigen::Array3i here = cell_of(x);
+  const Eigen::Array3i low = (here - 1).max(0), high = (here + 1).min(shape_ - 1);
+  for (int k = low[2]; k <= high[2]; ++k) {
+    for (int j = low[1]; j <= high[1]; ++j) {
+      // A row of cells along x is one run of members.
+      const int end = start_[index(high[0], j, k) + 1];
+      for (int m = start_[index(low[0], j, k)]; m < end; ++m) visit(members_[m]);
+    }
+  }
+}
+
+}  // namespace strut

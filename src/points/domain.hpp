@@ -1,0 +1,50 @@
+// The points of one rank ready for mechanics: owned points and ghosts, families, halo.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "points/cloud.hpp"
+#include "points/halo.hpp"
+
+namespace strut {
+
+// Who is within the horizon: for owned point i, neighbours[start[i]] … neighbours[start[i + 1] − 1], local indices of
+// owned or ghost points, ordered by global id so that every sum over a family is the same on any number of ranks.
+struct Families {
+  std::vector<std::size_t> start{0};
+  std::vector<int> neighbours;
+
+  std::size_t size(int i) const { return start[i + 1] - start[i]; }
+  std::size_t bonds() const { return neighbours.size(); }
+};
+
+// Local indices: [0, interior) owned, all neighbours owned; [interior, owned) owned, with ghosts in the family;
+// [owned, owned + ghosts) owned by other ranks.
+struct Domain {
+  Communicator communicator;
+  PointCloud cloud;  // owned points
+  int interior = 0;
+  int owned = 0;
+  int ghosts = 0;
+  // Owned points and ghosts.
+  std::vector<Vector> positions;  // m
+  std::vector<double> volumes;    // m³
+  std::vector<double> horizons;   // m
+  Families families;
+  Halo halo;
+};
+
+// Collective. `cloud`: as partitioned. `horizon`: δ of each block (m). Two points are bonded when |ξ| ≤ (δ_i + δ_j)/2,
+// which is symmetric, so that every bond is in both families.
+Domain make_domain(PointCloud cloud, const std::vector<double>& horizon, const Communicator& communicator);
+
+// What is wrong with a family, or nullptr: a shape tensor needs at least four neighbours that span space.
+// `spread`: Σ V ξ⊗ξ of the family.
+const char* degeneracy(std::size_t neighbours, const Tensor& spread);
+
+// Σ V ξ⊗ξ over the family of owned point i, m⁵.
+Tensor family_spread(const Domain& domain, int i);
+
+}  // namespace strut

@@ -1,0 +1,41 @@
+// Values of points that other ranks own: sent and received while this rank works on points that need none of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace strut {
+
+class Communicator;
+
+// Built on a Tpetra import from the map of owned points to the map of owned and ghost points.
+class Halo {
+ public:
+  // Collective. `owned`, `ghosts`: global ids in the order of local indices (ghosts follow the owned points).
+  Halo(const Communicator& communicator, const std::vector<std::int64_t>& owned,
+       const std::vector<std::int64_t>& ghosts);
+  ~Halo();
+  Halo(Halo&&) noexcept;
+  Halo& operator=(Halo&&) noexcept;
+
+  // Sends `width` consecutive doubles of every owned point that another rank needs: point i's start at
+  // data[i * stride]. One exchange at a time; finish() with the same arguments waits and fills the ghosts.
+  void start(const double* data, int stride, int width);
+  void finish(double* data, int stride, int width);
+
+  void exchange(double* data, int stride, int width) {
+    start(data, stride, width);
+    finish(data, stride, width);
+  }
+
+  std::int64_t bytes_sent() const { return bytes_sent_; }  // since the start, by this rank
+
+ private:
+  struct Plan;
+  std::unique_ptr<Plan> plan_;
+  std::int64_t bytes_sent_ = 0;
+};
+
+}  // namespace strut

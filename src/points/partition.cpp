@@ -1,0 +1,196 @@
+#include "points/partition.hpp"
+
+#include <zoltan_cpp.h>
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include "base/communicator.hpp"
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+// One point as it travels.
+struct Parcel {
+  std::int64_t id, element_id;
+  double position[3];
+  double volume;
+  int block;
+  std::uint64_t sets;
+};
+
+Parcel packed(const PointCloud& cloud, std::size_t i) {
+  const Vector& X = cloud.positions[i];
+  return {cloud.ids[i], cloud.element_ids[i], {X[0], X[1], X[2]}, cloud.volumes[i], cloud.blocks[i], cloud.sets[i]};
+}
+
+void append(PointCloud& cloud, const Parcel& parcel) {
+  cloud.ids.push_back(parcel.id);
+  cloud.element_ids.push_back(parcel.element_id);
+  cloud.positions.emplace_back(parcel.position[0], parcel.position[1], parcel.position[2]);
+  cloud.volumes.push_back(parcel.volume);
+  cloud.blocks.push_back(parcel.block);
+  cloud.sets.push_back(parcel.sets);
+}
+
+// What Zoltan's callbacks read and fill.
+struct Migration {
+  const PointCloud& from;
+  PointCloud arrived;
+};
+
+const PointCloud& cloud_of(void* data) { return static_cast<Migration*>(data)->from; }
+
+int count(void* data, int* error) {
+  *error = ZOLTAN_OK;
+  return static_cast<int>(cloud_of(data).size());
+}
+
+void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float*, int* error) {
+  const PointCloud& cloud = cloud_of(data);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    global[i] = static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]);
+    local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+  }
+  *error = ZOLTAN_OK;
+}
+
+int dimensions(void*, int* error) {
+  *error = ZOLTAN_OK;
+  return 3;
+}
+
+void place(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* position, int* error) {
+  std::copy_n(cloud_of(data).positions[*local].data(), 3, position);
+  *error = ZOLTAN_OK;
+}
+
+int parcel_size(void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int* error) {
+  *error = ZOLTAN_OK;
+  return sizeof(Parcel);
+}
+
+void pack(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int, int, char* buffer, int* error) {
+  const Parcel parcel = packed(cloud_of(data), *local);
+  std::memcpy(buffer, &parcel, sizeof parcel);
+  *error = ZOLTAN_OK;
+}
+
+void unpack(void* data, int, ZOLTAN_ID_PTR, int, char* buffer, int* error) {
+  Parcel parcel;
+  std::memcpy(&parcel, buffer, sizeof parcel);
+  append(static_cast<Migration*>(data)->arrived, parcel);
+  *error = ZOLTAN_OK;
+}
+
+void require(int status, const char* what) {
+  if (status != ZOLTAN_OK && status != ZOLTAN_WARN) throw Error(std::string("Zoltan failed to ") + what);
+}
+
+Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
+  float version = 0;
+  require(Zoltan_Initialize(0, nullptr, &version), "start");
+  const auto mpi = Teuchos::rcp_dynamic_cast<const Teuchos::MpiComm<int>>(communicator.teuchos());
+  Zoltan zoltan(*mpi->getRawMpiComm());
+  zoltan.Set_Param("DEBUG_LEVEL", "0");
+  zoltan.Set_Param("LB_METHOD", "RCB");
+  zoltan.Set_Param("RETURN_LISTS", "EXPORT");
+  zoltan.Set_Num_Obj_Fn(count, &migration);
+  zoltan.Set_Obj_List_Fn(list, &migration);
+  zoltan.Set_Num_Geom_Fn(dimensions, &migration);
+  zoltan.Set_Geom_Fn(place, &migration);
+  zoltan.Set_Obj_Size_Fn(parcel_size, &migration);
+  zoltan.Set_Pack_Obj_Fn(pack, &migration);
+  zoltan.Set_Unpack_Obj_Fn(unpack, &migration);
+  return zoltan;
+}
+
+// The same block and set names, no points.
+PointCloud emptied(const PointCloud& cloud) {
+  PointCloud result;
+  result.block_names = cloud.block_names;
+  result.set_names = cloud.set_names;
+  return result;
+}
+
+PointCloud bisected(const PointCloud& cloud, const Communicator& communicator) {
+  Migration migration{cloud, emptied(cloud)};
+  Zoltan zoltan = started_zoltan(communicator, migration);
+  int changed, gid_size, lid_size, imports, exports;
+  ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
+  int *import_ranks, *import_parts, *export_ranks, *export_parts;
+  require(zoltan.LB_Partition(changed, gid_size, lid_size, imports, import_gids, import_lids, import_ranks, import_parts,
+                              exports, export_gids, export_lids, export_ranks, export_parts),
+          "partition the points");
+  std::vector<char> leaves(cloud.size(), 0);
+  for (int k = 0; k < exports; ++k) leaves[export_lids[k]] = 1;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!leaves[i]) append(migration.arrived, packed(cloud, i));
+  }
+  require(zoltan.Migrate(-1, nullptr, nullptr, nullptr, nullptr, exports, export_gids, export_lids, export_ranks,
+                         export_parts),
+          "move the points");
+  Zoltan::LB_Free_Part(&import_gids, &import_lids, &import_ranks, &import_parts);
+  Zoltan::LB_Free_Part(&export_gids, &export_lids, &export_ranks, &export_parts);
+  return std::move(migration.arrived);
+}
+
+// The place of a cell of the 2²¹ cube along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004).
+std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
+  constexpr int bits = 21;
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t swap = x[i] & q ? 0 : (x[0] ^ x[i]) & (q - 1);
+      x[0] ^= x[i] & q ? q - 1 : swap;
+      x[i] ^= swap;
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t gray = 0;
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
+    if (x[2] & q) gray ^= q - 1;
+  }
+  std::uint64_t key = 0;
+  for (int bit = bits - 1; bit >= 0; --bit) {
+    for (const std::uint32_t coordinate : x) key = key << 1 | ((coordinate ^ gray) >> bit & 1u);
+  }
+  return key;
+}
+
+std::vector<int> along_curve(const PointCloud& cloud) {
+  Eigen::AlignedBox3d box;
+  for (const Vector& X : cloud.positions) box.extend(X);
+  const double size = cloud.size() == 0 ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
+  std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vector place = (cloud.positions[i] - box.min()) / size * ((1 << 21) - 1);
+    const auto cell = place.cast<std::uint32_t>();
+    keys.emplace_back(hilbert_key({cell[0], cell[1], cell[2]}), cloud.ids[i]);
+  }
+  std::vector<int> order(cloud.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return keys[a] < keys[b]; });
+  return order;
+}
+
+}  // namespace
+
+PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator) {
+  const PointCloud mine = communicator.size() == 1 ? cloud : bisected(cloud, communicator);
+  return reordered(mine, along_curve(mine));
+}
+
+PointCloud reordered(const PointCloud& cloud, const std::vector<int>& order) {
+  PointCloud result = emptied(cloud);
+  for (const int i : order) append(result, packed(cloud, i));
+  return result;
+}
+
+}  // namespace strut

@@ -1,0 +1,116 @@
+#include "report.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "base/timing.hpp"
+
+namespace strut {
+
+namespace {
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char line[256];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+std::string as_size(double bytes) {
+  return bytes < 1e9 ? formatted("%.1f MB", bytes / 1e6) : formatted("%.2f GB", bytes / 1e9);
+}
+
+}  // namespace
+
+std::string as_duration(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  if (seconds < 60) return formatted("%.1f s", seconds);
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return formatted("%ld min %ld s", whole / 60, whole % 60);
+  return formatted("%ld h %ld min", whole / 3600, whole % 3600 / 60);
+}
+
+Progress::Progress(const Communicator& communicator, double initial_time, double final_time)
+    : speaks_(communicator.rank() == 0), terminal_(isatty(STDOUT_FILENO) != 0), initial_(initial_time),
+      final_(final_time) {}
+
+double Progress::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Progress::show(int step, double time, double dt) {
+  if (!speaks_) return;
+  const double share = (time - initial_) / (final_ - initial_);
+  const int now = static_cast<int>(share * (terminal_ ? 100 : 10) + 1e-9);
+  const bool quiet = terminal_ ? std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(200) : now == shown_;
+  if (quiet && share < 1) return;
+  if (now == shown_ && !terminal_) return;
+  shown_ = now;
+  last_ = std::chrono::steady_clock::now();
+  const std::string left = share > 0 ? as_duration(elapsed() * (1 - share) / share) : "unknown";
+  const std::string facts = formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
+  if (terminal_) {
+    const int filled = static_cast<int>(30 * share + 1e-9);
+    std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left << "   "
+              << std::flush;
+  } else {
+    std::cout << facts << left << std::endl;
+  }
+}
+
+void Progress::finish() {
+  if (speaks_ && terminal_) std::cout << std::endl;
+}
+
+double predicted_memory(const Scene& scene) {
+  double bytes = 0;
+  for (const MaterialBlock& block : scene.body.blocks) {
+    bytes += footprint(block.material).per_point * static_cast<double>(block.points.size());
+  }
+  bytes += sizeof(int) * static_cast<double>(scene.body.domain.families.bonds());
+  return scene.body.domain.communicator.sum(bytes);
+}
+
+std::string describe_scene(const Scene& scene) {
+  std::ostringstream text;
+  const double neighbours = static_cast<double>(scene.bonds) / static_cast<double>(scene.points);
+  const double memory = predicted_memory(scene);
+  const int ranks = scene.body.domain.communicator.size();
+  text << formatted("%lld points, %lld bonds (%.1f a point), %s for points and bonds, %d rank%s\n",
+                    static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbours,
+                    as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s");
+  if (scene.dropped > 0) {
+    text << "dropped " << scene.dropped << " points with too few neighbours (Degenerate Points = Drop)\n";
+  }
+  return text.str();
+}
+
+std::string step_warning(const StepControl& control, double limit) {
+  if (!(control.fixed_dt > limit)) return "";
+  return formatted("WARNING: Fixed dt = %.4g s is above the stable step of %.4g s: the run will probably blow up\n",
+                   control.fixed_dt, limit);
+}
+
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds) {
+  std::ostringstream text;
+  text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");
+  for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
+    text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
+  }
+  const double point_steps = static_cast<double>(scene.points) * solver.steps();
+  const double core_seconds = seconds * scene.body.domain.communicator.size();
+  text << formatted("%-26s %10.3f\n", "whole run", seconds);
+  text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
+                    point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
+  text << formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n", ledger.time,
+                    ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization);
+  text << formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
+                    ledger.external, ledger.contact, ledger.balance_error);
+  return text.str();
+}
+
+}  // namespace strut

@@ -1,0 +1,42 @@
+// What a run tells the person who waits for it. Rank 0 speaks.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "deck/deck.hpp"
+#include "setup.hpp"
+
+namespace strut {
+
+// A bar with the time left on a terminal; a line every tenth of the way in a log.
+class Progress {
+ public:
+  Progress(const Communicator& communicator, double initial_time, double final_time);
+  void show(int step, double time, double dt);
+  void finish();
+
+ private:
+  double elapsed() const;
+  bool speaks_, terminal_;
+  double initial_, final_;
+  int shown_ = -1;  // hundredths on a terminal, tenths in a log
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+};
+
+// What was read: points, bonds, memory, blocks.
+std::string describe_scene(const Scene& scene);
+
+// Bytes that the points and bonds of all ranks take.
+double predicted_memory(const Scene& scene);
+
+// Warnings that a person should see before a long run: a fixed step above the stable one.
+std::string step_warning(const StepControl& control, double limit);
+
+// Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end.
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds);
+
+// "1.3 s", "4 min 10 s", "2 h 3 min"
+std::string as_duration(double seconds);
+
+}  // namespace strut

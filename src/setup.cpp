@@ -1,0 +1,257 @@
+#include "setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "io/exodus.hpp"
+#include "points/partition.hpp"
+
+namespace strut {
+
+namespace {
+
+PointCloud read_mesh(const deck::Discretization& discretization, const Communicator& communicator) {
+  const Timed timed(phase("Mesh in"));
+  return discretization.type == deck::MeshType::exodus ? io::read_exodus(discretization.mesh, communicator)
+                                                       : io::read_text(discretization.mesh, communicator);
+}
+
+void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud) {
+  for (const deck::NodeSet& set : sets) {
+    if (cloud.set_names.size() >= 64) throw Error("Node Sets > " + set.name + ": mesh and deck have more than 64 node sets");
+    const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
+    cloud.set_names.push_back(set.name);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Vector& X = cloud.positions[i];
+      if (set.where(X[0], X[1], X[2], 0) != 0) cloud.sets[i] |= bit;
+    }
+  }
+}
+
+// The Blocks section that names a block of the mesh; "all" is for those that no section names.
+const deck::Block* section_of(const deck::Deck& deck, const std::string& block) {
+  const deck::Block* general = nullptr;
+  for (const deck::Block& section : deck.blocks) {
+    for (const std::string& name : section.block_names) {
+      if (name == block) return &section;
+      if (name == "all") general = &section;
+    }
+  }
+  return general;
+}
+
+std::string wrong_blocks(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<std::string> problems;
+  for (const deck::Block& section : deck.blocks) {
+    for (const std::string& name : section.block_names) {
+      const auto& valid = cloud.block_names;
+      if (name == "all" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
+      problems.push_back("Blocks > " + section.name + " > Block Names: the mesh has no block '" + name + "'" +
+                         did_you_mean(name, valid) + "; it has " + joined(valid));
+    }
+  }
+  for (const std::string& name : cloud.block_names) {
+    if (section_of(deck, name)) continue;
+    problems.push_back("Blocks: block '" + name + "' of the mesh has no material: name it in a section's Block Names");
+  }
+  return joined(problems, "\n");
+}
+
+std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<BlockMaterial> materials;
+  for (const std::string& name : cloud.block_names) {
+    const deck::Material& material = deck.materials[section_of(deck, name)->material];
+    const bool stabilized = material.stabilization == deck::StabilizationType::silling;
+    materials.push_back({material.density, material.law, stabilized ? material.stabilization_coefficient : 0.0});
+  }
+  return materials;
+}
+
+std::vector<double> block_horizons(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<double> horizons;
+  for (const std::string& name : cloud.block_names) horizons.push_back(section_of(deck, name)->horizon);
+  return horizons;
+}
+
+// A horizon that is smaller than the spacing, or a hundred times as large, is a slip of units.
+std::string wrong_horizons(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator) {
+  std::vector<double> sums(2 * cloud.block_names.size(), 0);  // volume and number of points of each block
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    sums[2 * cloud.blocks[i]] += cloud.volumes[i];
+    sums[2 * cloud.blocks[i] + 1] += 1;
+  }
+  communicator.sum(sums);
+  std::vector<std::string> problems;
+  for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
+    const deck::Block& section = *section_of(deck, cloud.block_names[b]);
+    const double spacing = std::cbrt(sums[2 * b] / std::max(1.0, sums[2 * b + 1]));
+    if (section.horizon > spacing && section.horizon < 20 * spacing) continue;
+    std::ostringstream text;
+    text << "Blocks > " << section.name << " > Horizon: " << section.horizon << " m does not fit the points of block "
+         << cloud.block_names[b] << ", whose mean spacing is " << spacing
+         << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
+    problems.push_back(text.str());
+  }
+  return joined(problems, "\n");
+}
+
+// Owned points whose family cannot carry a shape tensor; `text` tells of the first.
+std::vector<int> degenerate_points(const Domain& domain, std::string& text) {
+  std::vector<int> found;
+  for (int i = 0; i < domain.owned; ++i) {
+    const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
+    if (!reason) continue;
+    found.push_back(i);
+    if (found.size() > 1) continue;
+    const Vector& X = domain.positions[i];
+    std::ostringstream line;
+    line << "element " << domain.cloud.element_ids[i] << " of block "
+         << domain.cloud.block_names[domain.cloud.blocks[i]] << " at (" << X[0] << ", " << X[1] << ", " << X[2]
+         << ") m has " << domain.families.size(i) << " neighbours: " << reason;
+    text = line.str();
+  }
+  return found;
+}
+
+PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+    if (!std::binary_search(dropped.begin(), dropped.end(), i)) kept.push_back(i);
+  }
+  return reordered(cloud, kept);
+}
+
+// Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
+Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
+                      std::int64_t& dropped) {
+  const Timed timed(phase("Families"));
+  const std::vector<double> horizons = block_horizons(deck, cloud);
+  for (;;) {
+    Domain domain = make_domain(std::move(cloud), horizons, communicator);
+    std::string text;
+    const std::vector<int> degenerate = degenerate_points(domain, text);
+    const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
+    if (count == 0) return domain;
+    if (deck.discretization.degenerate == deck::DegeneratePoints::error) {
+      if (!text.empty()) {
+        text = "Discretization > Degenerate Points: " + std::to_string(count) +
+               " points have too few neighbours for a shape tensor; " + text +
+               ". Enlarge the horizon, mend the mesh, or say \"Drop\" to leave such points out";
+      }
+      raise_together(communicator, text);
+    }
+    dropped += count;
+    cloud = without(domain.cloud, degenerate);
+    if (communicator.sum(static_cast<std::int64_t>(cloud.size())) == 0) {
+      raise_together(communicator, "Discretization > Degenerate Points: no point is left after dropping");
+    }
+  }
+}
+
+// The owned points of a node set, a block, or all. Throws where there is no such set.
+std::vector<int> points_of(const PointCloud& cloud, const std::string& set, const std::string& where) {
+  const auto position = [&set](const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), set) - names.begin());
+  };
+  const std::size_t bit = position(cloud.set_names), block = position(cloud.block_names);
+  std::vector<std::string> valid{"all"};
+  valid.insert(valid.end(), cloud.set_names.begin(), cloud.set_names.end());
+  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
+  if (std::find(valid.begin(), valid.end(), set) == valid.end()) {
+    throw Error(where + " > Node Set: there is no node set or block '" + set + "'" + did_you_mean(set, valid) +
+                "; there are " + joined(valid));
+  }
+  std::vector<int> points;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+    const bool in = set == "all" || (bit < cloud.set_names.size() ? (cloud.sets[i] >> bit & 1) != 0
+                                                                  : cloud.blocks[i] == static_cast<int>(block));
+    if (in) points.push_back(i);
+  }
+  return points;
+}
+
+void set_initial_velocity(const deck::Condition& condition, const std::vector<int>& points, double t, Body& body) {
+  for (const int i : points) {
+    const Vector& X = body.domain.positions[i];
+    body.velocity[i][condition.component] = condition.value(X[0], X[1], X[2], t);
+  }
+}
+
+void add_condition(const deck::Condition& condition, double t, Scene& scene) {
+  std::vector<int> points =
+      points_of(scene.body.domain.cloud, condition.node_set, "Boundary Conditions > " + condition.name);
+  Conditions& all = scene.conditions;
+  const Vector normal = condition.normal.normalized();
+  switch (condition.type) {
+    case deck::ConditionType::initial_velocity:
+      return set_initial_velocity(condition, points, t, scene.body);
+    case deck::ConditionType::prescribed_displacement:
+    case deck::ConditionType::prescribed_velocity: {
+      const bool is_velocity = condition.type == deck::ConditionType::prescribed_velocity;
+      all.motions.push_back({std::move(points), condition.component, condition.value, is_velocity});
+      return;
+    }
+    case deck::ConditionType::body_force:
+      all.body_forces.push_back({std::move(points), condition.component, condition.value});
+      return;
+    case deck::ConditionType::symmetry_plane:
+    case deck::ConditionType::rigid_plane: {
+      const bool one_sided = condition.type == deck::ConditionType::rigid_plane;
+      all.planes.push_back({std::move(points), condition.point, normal, one_sided});
+    }
+  }
+}
+
+void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
+  std::vector<std::string> problems;
+  for (const deck::Condition& condition : deck.conditions) {
+    try {
+      add_condition(condition, deck.solver.initial_time, scene);
+    } catch (const Error& error) {
+      problems.push_back(error.what());
+    }
+  }
+  raise_together(communicator, joined(problems, "\n"));
+}
+
+Influence influence_of(deck::Influence influence) {
+  switch (influence) {
+    case deck::Influence::one:
+      return Influence::one;
+    case deck::Influence::linear_decay:
+      return Influence::linear_decay;
+    default:
+      return Influence::cubic_decay;
+  }
+}
+
+}  // namespace
+
+Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
+  PointCloud cloud = read_mesh(deck.discretization, communicator);
+  raise_together(communicator, wrong_blocks(deck, cloud));
+  raise_together(communicator, wrong_horizons(deck, cloud, communicator));
+  add_node_sets(deck.node_sets, cloud);
+  {
+    const Timed timed(phase("Partition"));
+    cloud = partitioned(cloud, communicator);
+  }
+  std::int64_t dropped = 0;
+  const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
+  Domain domain = healthy_domain(deck, std::move(cloud), communicator, dropped);
+  Scene scene{make_body(std::move(domain), influence_of(deck.discretization.influence), materials),
+              {},
+              {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor},
+              0,
+              0,
+              dropped};
+  scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
+  scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
+  add_conditions(deck, scene, communicator);
+  return scene;
+}
+
+}  // namespace strut

@@ -1,0 +1,23 @@
+// From a deck to the objects of a run: the one place that knows both.
+#pragma once
+
+#include "deck/deck.hpp"
+#include "mechanics/conditions.hpp"
+#include "mechanics/mechanics.hpp"
+#include "solvers/central_difference.hpp"
+
+namespace strut {
+
+struct Scene {
+  Body body;
+  Conditions conditions;
+  StepControl control;
+  std::int64_t points = 0, bonds = 0, dropped = 0;  // over all ranks
+};
+
+// Collective. Reads the mesh, makes node sets, partition, families, body, initial velocities and conditions.
+// Throws one Error on all ranks for what only mesh and deck together show: blocks and node sets that do not exist,
+// horizons below the spacing, points with too few neighbours.
+Scene set_up(const deck::Deck& deck, const Communicator& communicator);
+
+}  // namespace strut

@@ -1,0 +1,139 @@
+#include "simulation.hpp"
+
+#include <csignal>
+#include <iostream>
+#include <optional>
+
+#include "base/timing.hpp"
+#include "deck/deck.hpp"
+#include "io/exodus.hpp"
+#include "io/history.hpp"
+#include "mechanics/observables.hpp"
+#include "report.hpp"
+#include "schedule.hpp"
+#include "setup.hpp"
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+void catch_signals() {
+  std::signal(SIGINT, [](int) { signalled = 1; });
+  std::signal(SIGTERM, [](int) { signalled = 1; });
+}
+
+// The frames of the result file.
+class Frames {
+ public:
+  Frames(const deck::Deck& deck, const Scene& scene)
+      : schedule(deck.output.enabled, deck.output.frequency, deck.output.interval, deck.solver.initial_time) {
+    if (!deck.output.enabled) return;
+    variables_ = chosen(observables(scene.body), deck.output.variables, "Output > Output Variables");
+    std::vector<io::OutputField> fields;
+    for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
+    columns_.resize(fields.size());
+    const Body& body = scene.body;
+    writer_.emplace(deck.output.file, body.domain.communicator, body.domain.cloud, std::move(fields));
+  }
+
+  void write(double time, const Body& body) {
+    static Teuchos::Time& timer = phase("Output");
+    const Timed timed(timer);
+    for (std::size_t v = 0; v < variables_.size(); ++v) variables_[v].fill(body, columns_[v]);
+    writer_->write(time, columns_);
+    schedule.done(time);
+  }
+
+  Schedule schedule;
+
+ private:
+  std::vector<Observable> variables_;
+  std::vector<std::vector<double>> columns_;
+  std::optional<io::ExodusWriter> writer_;
+};
+
+// The table of the ledger and of asked-for extremes over time.
+class History {
+ public:
+  History(const deck::Deck& deck, const Scene& scene)
+      : schedule(deck.history.enabled, deck.history.frequency, deck.history.interval, deck.solver.initial_time) {
+    if (!deck.history.enabled) return;
+    std::vector<std::string> names{"Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy",
+                                   "Plastic_Work", "Stabilization_Energy", "Contact_Work", "External_Work",
+                                   "Balance_Error", "Momentum_X",   "Momentum_Y",     "Momentum_Z"};
+    for (const std::string& name : deck.history.variables) {
+      extremes_.emplace_back(observables(scene.body), name, "History > Variables");
+      names.push_back(name);
+    }
+    file_.emplace(deck.history.file, scene.body.domain.communicator, names);
+  }
+
+  void write(const Ledger& now, const Body& body) {
+    static Teuchos::Time& timer = phase("History");
+    const Timed timed(timer);
+    std::vector<double> row{now.time,       now.dt,         now.kinetic,       now.elastic,
+                            now.dissipated, now.stabilization, now.contact,    now.external,
+                            now.balance_error, now.momentum[0], now.momentum[1], now.momentum[2]};
+    const std::size_t fixed = row.size();
+    for (const Extreme& e : extremes_) row.push_back(e.local(body));
+    body.domain.communicator.max(std::span(row).subspan(fixed));
+    for (std::size_t k = 0; k < extremes_.size(); ++k) row[fixed + k] = extremes_[k].value(row[fixed + k]);
+    file_->write(row);
+    schedule.done(now.time);
+  }
+
+  Schedule schedule;
+
+ private:
+  std::vector<Extreme> extremes_;
+  std::optional<io::HistoryFile> file_;
+};
+
+void say(const Communicator& communicator, const std::string& text) {
+  if (communicator.rank() == 0) std::cout << text << std::flush;
+}
+
+// Everything after set-up: the loop over steps. Returns the ledger at the end.
+Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Frames& frames, History& history) {
+  const double final_time = deck.solver.final_time;
+  Progress progress(scene.body.domain.communicator, deck.solver.initial_time, final_time);
+  for (;;) {
+    const double now = solver.time();
+    const bool last = now >= final_time || solver.stop_agreed();
+    solver.kick(final_time);
+    if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
+    if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
+      history.write(solver.ledger(), scene.body);
+    }
+    progress.show(solver.steps(), now, solver.dt());
+    if (last) break;
+    if (signalled) solver.request_stop();
+    const double next = now + solver.dt();
+    solver.move(next >= final_time || signalled || history.schedule.due(solver.steps() + 1, next));
+  }
+  progress.finish();
+  return solver.ledger();
+}
+
+}  // namespace
+
+bool run(const std::filesystem::path& deck_file, const Communicator& communicator) {
+  const auto start = std::chrono::steady_clock::now();
+  const deck::Deck deck = deck::read(deck_file, communicator);
+  Scene scene = set_up(deck, communicator);
+  say(communicator, describe_scene(scene));
+  Frames frames(deck, scene);
+  History history(deck, scene);
+  catch_signals();
+  CentralDifference solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time);
+  say(communicator, step_warning(scene.control, solver.stable_step()));
+  const Ledger ledger = step_through(deck, scene, solver, frames, history);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  say(communicator, closing_report(scene, solver, ledger, seconds));
+  return !solver.stop_agreed();
+}
+
+}  // namespace strut

@@ -1,0 +1,18 @@
+// A run, from deck to result.
+#pragma once
+
+#include <filesystem>
+
+namespace strut {
+
+class Communicator;
+
+// Collective. Runs the deck; what it writes is where the deck says. Throws Error on all ranks. Returns false when a
+// signal (SIGINT, SIGTERM) ended it early, with everything written so far readable.
+bool run(const std::filesystem::path& deck, const Communicator& communicator);
+
+// Collective. Validates the deck and its mesh and prints what the run would do: points, bonds, memory, stable step,
+// number of steps, time.
+void check(const std::filesystem::path& deck, const Communicator& communicator);
+
+}  // namespace strut

@@ -1,0 +1,136 @@
+#include "solvers/central_difference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "points/parallel.hpp"
+
+namespace strut {
+
+namespace {
+
+// The estimate is renewed when the steepest ‖F⁻¹‖ has grown by this factor since the last one (until then the step
+// shrinks in proportion), and after so many steps in any case, when it may also grow again.
+constexpr double renewal_growth = 1.1;
+constexpr int renewal_steps = 1000;
+
+}  // namespace
+
+CentralDifference::CentralDifference(Body& body, Conditions conditions, StepControl control, double initial_time)
+    : body_(body), conditions_(std::move(conditions)), control_(control), time_(initial_time) {
+  check(advance_stress_and_force(body_, 0, true));
+  estimate_step();
+}
+
+void CentralDifference::estimate_step() {
+  limit_ = stable_.estimate(body_);
+  steepest_at_estimate_ = steepest_;
+  steps_since_estimate_ = 0;
+}
+
+void CentralDifference::choose_step(double final_time) {
+  previous_dt_ = dt_;
+  if (control_.fixed_dt > 0) {
+    dt_ = control_.fixed_dt;
+  } else {
+    if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
+    dt_ = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
+  }
+  const double left = final_time - time_;
+  // The last two steps share what is left, so that none is tiny.
+  if (left > 0 && left < 2 * dt_) dt_ = left > dt_ * (1 + 1e-9) ? 0.5 * left : left;
+}
+
+void CentralDifference::kick(double final_time) {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  choose_step(final_time);
+  const Timed timed(timer);
+  add_body_forces(conditions_, time_, body_);
+  if (steps_ == 0) start();
+  const double kick = 0.5 * (previous_dt_ + dt_);
+  work_before_ = work_;
+  for_each_point(0, body_.owned(), [&](int i) {
+    body_.previous_velocity[i] = body_.velocity[i];
+    body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
+  });
+  constrain(conditions_, time_, dt_, body_, work_);
+  work_.external += work_of_body_forces(conditions_, time_, kick, body_);
+  if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
+}
+
+// Initial velocities belong to the initial time: the mid-step before it is half a step back.
+void CentralDifference::start() {
+  previous_dt_ = dt_;
+  start_motions(conditions_, time_, dt_, body_);
+  for_each_point(0, body_.owned(), [&](int i) {
+    body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i];
+  });
+}
+
+void CentralDifference::move(bool with_energy) {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  {
+    const Timed timed(timer);
+    for_each_point(0, body_.owned(),
+                   [&](int i) { body_.sites[i].current.head<3>() += dt_ * body_.velocity[i].array(); });
+  }
+  time_ += dt_;
+  ++steps_;
+  ++steps_since_estimate_;
+  check(advance_stress_and_force(body_, dt_, with_energy));
+}
+
+// One reduction a step: whether a point failed anywhere, whether to stop, and how far the deformation has gone.
+void CentralDifference::check(const StepReport& report) {
+  double agreed[] = {report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.steepest};
+  {
+    static Teuchos::Time& timer = phase("Agreement of ranks");
+    const Timed timed(timer);
+    body_.domain.communicator.max(agreed);
+  }
+  stop_agreed_ = agreed[1] > 0;
+  steepest_ = agreed[2];
+  if (agreed[0] == 0) return;
+  std::ostringstream text;
+  if (report.failure) {
+    text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);
+  }
+  raise_together(body_.domain.communicator, text.str());
+}
+
+// What the body holds and has dissipated, less what was put in.
+double CentralDifference::imbalance(const Ledger& now) const {
+  return now.kinetic + now.elastic + now.dissipated + now.stabilization - now.contact - now.external - put_in_;
+}
+
+Ledger CentralDifference::ledger() {
+  Ledger now;
+  now.time = time_;
+  now.dt = dt_;
+  // Half of the impulse around time() falls before it.
+  double sums[6] = {0, 0.5 * (work_before_.contact + work_.contact), 0.5 * (work_before_.external + work_.external),
+                    0, 0, 0};
+  for (int i = 0; i < body_.owned(); ++i) {
+    const Vector v = 0.5 * (body_.previous_velocity[i] + body_.velocity[i]);
+    sums[0] += 0.5 * body_.mass(i) * v.squaredNorm();
+    for (int c = 0; c < 3; ++c) sums[3 + c] += body_.mass(i) * v[c];
+  }
+  body_.domain.communicator.sum(sums);
+  const Energies stored = stored_energies(body_);
+  now.kinetic = sums[0];
+  now.contact = sums[1];
+  now.external = sums[2];
+  now.momentum = Vector(sums[3], sums[4], sums[5]);
+  now.elastic = stored.elastic;
+  now.dissipated = stored.dissipated;
+  now.stabilization = stored.stabilization;
+  const double held = now.kinetic + now.elastic + now.dissipated + now.stabilization;
+  largest_energy_ = std::max({largest_energy_, held, std::abs(put_in_ + now.contact + now.external)});
+  now.balance_error = largest_energy_ > 0 ? std::abs(imbalance(now)) / largest_energy_ : 0;
+  return now;
+}
+
+}  // namespace strut

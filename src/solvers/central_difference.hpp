@@ -1,0 +1,66 @@
+// Explicit central differences (leap-frog form): velocities live at mid-steps, places and forces at steps.
+#pragma once
+
+#include "mechanics/conditions.hpp"
+#include "mechanics/mechanics.hpp"
+#include "solvers/stable_step.hpp"
+
+namespace strut {
+
+// The ledger of a run at one time.
+struct Ledger {
+  double time = 0, dt = 0;                                                     // s
+  double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;          // J
+  double contact = 0, external = 0;                                            // J, work done on the body so far
+  double balance_error = 0;  // |stored + dissipated − put in| over the largest sum of energies so far
+  Vector momentum = Vector::Zero();  // kg m/s
+};
+
+struct StepControl {
+  double fixed_dt = 0;  // s; 0: from the stable step
+  double safety_factor = 0.8;
+};
+
+class CentralDifference {
+ public:
+  // Collective. Computes the initial forces and step. Throws Error when the initial state already fails.
+  CentralDifference(Body& body, Conditions conditions, StepControl control, double initial_time);
+
+  double time() const { return time_; }
+  int steps() const { return steps_; }
+  double dt() const { return dt_; }
+  double stable_step() const { return limit_; }  // 2/ω_max now, s
+
+  // One step is kick(); then, if wanted, a look at the body and its ledger, both at time(); then move().
+  // kick: velocities from the mid-step before time() to the one after. The step does not pass `final_time`.
+  void kick(double final_time);
+  // move: places to time() + dt, then stresses and forces there. Throws Error on all ranks when a point fails.
+  // `with_energy`: the ledger will be asked for at the new time.
+  void move(bool with_energy);
+
+  Ledger ledger();  // collective; after kick()
+
+  // Set by a signal on any rank: agreed upon by all at the end of move().
+  bool stop_agreed() const { return stop_agreed_; }
+  void request_stop() { stop_requested_ = true; }
+
+ private:
+  void choose_step(double final_time);
+  void estimate_step();
+  void start();
+  void check(const StepReport& report);
+  double imbalance(const Ledger& now) const;
+
+  Body& body_;
+  Conditions conditions_;
+  StepControl control_;
+  StableStep stable_;
+  Work work_, work_before_;  // at the mid-steps after and before time()
+  double time_, dt_ = 0, previous_dt_ = 0;
+  double limit_ = 0, steepest_ = 0, steepest_at_estimate_ = 0;
+  double put_in_ = 0, largest_energy_ = 0;
+  int steps_ = 0, steps_since_estimate_ = 0;
+  bool stop_requested_ = false, stop_agreed_ = false;
+};
+
+}  // namespace strut

@@ -1,0 +1,117 @@
+#include "solvers/stable_step.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "base/timing.hpp"
+
+namespace strut {
+
+namespace {
+
+using Field = std::vector<Vector>;
+
+// Σ m a·b over all ranks: M⁻¹K is symmetric in this product.
+double inner(const Body& body, const Field& a, const Field& b) {
+  double sum = 0;
+  for (int i = 0; i < body.owned(); ++i) sum += body.mass(i) * a[i].dot(b[i]);
+  return body.domain.communicator.sum(sum);
+}
+
+// A fixed pseudo-random direction that depends on the point's id alone, not on who owns it (SplitMix64).
+Vector noise(std::int64_t id) {
+  Vector v;
+  for (int c = 0; c < 3; ++c) {
+    std::uint64_t z = static_cast<std::uint64_t>(3 * id + c) + 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    v[c] = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53 - 0.5;
+  }
+  return v;
+}
+
+Field start_field(const Body& body, const Field& mode) {
+  Field field(body.owned());
+  for (int i = 0; i < body.owned(); ++i) field[i] = noise(body.domain.cloud.ids[i]);
+  if (mode.empty()) return field;
+  // Mostly the old mode; enough noise to find a new one that has overtaken it.
+  const double scale = 0.1 / std::sqrt(inner(body, field, field));
+  const double old = 1 / std::sqrt(inner(body, mode, mode));
+  for (int i = 0; i < body.owned(); ++i) field[i] = old * mode[i] + scale * field[i];
+  return field;
+}
+
+void scale_by(Field& field, double factor) {
+  for (Vector& v : field) v *= factor;
+}
+
+// Rounded down to 10 bits of mantissa.
+double rounded_down(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::floor(mantissa * 1024) / 1024, exponent);
+}
+
+// The tridiagonal matrix of Lanczos and its basis.
+struct Lanczos {
+  std::vector<double> diagonal, beside;
+  std::vector<Field> basis;
+};
+
+Lanczos iterate(Body& body, const Field& start, int iterations) {
+  std::vector<Site> directions = body.sites;
+  std::vector<ForceState> scratch(body.force_states.size());
+  Lanczos lanczos;
+  Field q = start, image(body.owned());
+  scale_by(q, 1 / std::sqrt(inner(body, q, q)));
+  for (int k = 0; k < iterations; ++k) {
+    for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = q[i].array();
+    lanczos.basis.push_back(q);
+    apply_tangent(body, body.domain.halo, directions, scratch, image);
+    lanczos.diagonal.push_back(inner(body, image, q));
+    // Against the whole basis: it is short, and ghosts of converged modes would spoil the residual.
+    for (const Field& earlier : lanczos.basis) {
+      const double overlap = inner(body, image, earlier);
+      for (int i = 0; i < body.owned(); ++i) image[i] -= overlap * earlier[i];
+    }
+    const double length = std::sqrt(inner(body, image, image));
+    lanczos.beside.push_back(length);
+    if (!(length > 1e-10 * std::abs(lanczos.diagonal.front()))) break;  // the basis is invariant
+    q = image;
+    scale_by(q, 1 / length);
+  }
+  return lanczos;
+}
+
+// The Ritz vector Σ weights[k] basis[k].
+void combine(const std::vector<Field>& basis, const Eigen::VectorXd& weights, Field& result) {
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i].setZero();
+    for (std::size_t k = 0; k < basis.size(); ++k) result[i] += weights[k] * basis[k][i];
+  }
+}
+
+}  // namespace
+
+double StableStep::estimate(Body& body) {
+  static Teuchos::Time& timer = phase("Stable step");
+  const Timed timed(timer);
+  mode_ = start_field(body, mode_);
+  double bound = 0;
+  for (int cycle = 0; cycle < most_cycles; ++cycle) {
+    const Lanczos lanczos = iterate(body, mode_, basis_size);
+    const int n = static_cast<int>(lanczos.diagonal.size());
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    const Eigen::Map<const Eigen::VectorXd> diagonal(lanczos.diagonal.data(), n), beside(lanczos.beside.data(), n - 1);
+    ritz.computeFromTridiagonal(diagonal, beside, Eigen::ComputeEigenvectors);
+    const Eigen::VectorXd weights = ritz.eigenvectors().col(n - 1);
+    const double value = ritz.eigenvalues()[n - 1];
+    const double residual = std::abs(lanczos.beside[n - 1] * weights[n - 1]);
+    combine(lanczos.basis, weights, mode_);
+    bound = value + residual;
+    if (!(residual > accuracy * value)) break;
+  }
+  return bound > 0 ? rounded_down(2 / std::sqrt(bound)) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace strut

@@ -1,0 +1,25 @@
+// The largest stable step of central differences, 2/ω_max, in the current state.
+#pragma once
+
+#include "mechanics/mechanics.hpp"
+
+namespace strut {
+
+// Restarted Lanczos iteration on the linearised operator M⁻¹K (mechanics: apply_tangent). Ritz values approach ω²_max
+// from below; the residual of the last one is added, so that the estimate errs on the safe side.
+class StableStep {
+ public:
+  // Collective. 2/ω_max in s, rounded down to a part in a thousand so that round-off, which depends on the number of
+  // ranks, does not reach the step. Infinity for a body without stiffness. Later calls start from the mode found last,
+  // which makes them cheaper.
+  double estimate(Body& body);
+
+  static constexpr int basis_size = 8;      // vectors kept: 24 bytes a point each while the estimate runs
+  static constexpr int most_cycles = 8;     // of basis_size products each
+  static constexpr double accuracy = 0.02;  // of ω²_max: 1 % of the step
+
+ private:
+  std::vector<Vector> mode_;  // the mode found last
+};
+
+}  // namespace strut

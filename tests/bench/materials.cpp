@@ -1,0 +1,114 @@
+// Time per point of one constitutive step, as the loop over the points of a block makes it.
+// Sample run: bench_materials --benchmark_repetitions=7 --benchmark_report_aggregates_only=true
+// The column items_per_second is points per second; the counter ns_per_point is what the design's limits speak of.
+#include <benchmark/benchmark.h>
+
+#include <random>
+#include <vector>
+
+#include "materials/laws.hpp"
+
+namespace {
+
+using namespace strut;
+using namespace strut::materials;
+
+constexpr int points = 4096;   // a few hundred kB: in cache, so that the law is timed and not the memory
+constexpr double dt = 1e-8;    // s
+constexpr double bulk = 90e9;  // Pa, copper
+constexpr double shear = 42e9;
+constexpr double yield_stress = 50e6;
+
+const J2 power_law{bulk, shear, {yield_stress, PowerHardening{0.00218, 0.1}, PowerRate{1e-3, 0.01}}};
+const J2 linear_law{bulk, shear, {yield_stress, LinearHardening{100e6}, NoRate{}}};
+const J2 table_law{
+    bulk,
+    shear,
+    {yield_stress, TableHardening{{0, 0.1, 0.3, 1.0}, {50e6, 90e6, 120e6, 140e6}}, JohnsonCookRate{1, 0.02}}};
+
+// Deviatoric rates of the given size (von Mises strain rate about `size`), each point in its own direction.
+std::vector<Symmetric> random_rates(double size) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<Symmetric> rates(points);
+  for (auto& rate : rates) {
+    for (double& r : rate) r = normal(random);
+    rate *= size / std::sqrt(2.0 / 3 * double_dot(rate, rate));
+  }
+  return rates;
+}
+
+// The points of a block, stepped once per call with all rates multiplied by `factor`.
+template <Law L>
+struct Block {
+  const L law;
+  std::vector<Symmetric> rates;
+  std::vector<Symmetric> stress = std::vector<Symmetric>(points, Symmetric::Zero());
+  std::vector<typename L::State> state = std::vector<typename L::State>(points);
+
+  bool advance(double factor) {
+    bool converged = true;
+    for (int i = 0; i < points; ++i) {
+      const auto [next, good] = law.step({factor * rates[i], dt, 1.0}, stress[i], state[i]);
+      stress[i] = next;
+      converged &= good;
+    }
+    return converged;
+  }
+
+  // Each call follows the table of factors round and round.
+  void time(benchmark::State& run, const std::vector<double>& factors) {
+    std::size_t turn = 0;
+    for (auto _ : run) {
+      if (!advance(factors[turn++ % factors.size()])) run.SkipWithError("a step did not converge");
+    }
+    run.SetItemsProcessed(run.iterations() * points);
+    run.counters["ns_per_point"] = benchmark::Counter(1e-9 * points * static_cast<double>(run.iterations()),
+                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  }
+};
+
+// There and back below the yield stress.
+const std::vector<double> back_and_forth{1, 1, -1, -1};
+// Flow at a rate that changes by about 2 % or 20 % from step to step: the last rate is a guess and not the answer.
+const std::vector<double> steady{1.0, 1.02, 1.05, 1.06, 1.04, 1.02, 0.99, 0.98};
+const std::vector<double> unsteady{1.0, 1.1, 0.95, 0.8, 0.9, 1.05, 1.2, 1.0};
+
+void elastic(benchmark::State& run) { Block<Elastic>{{bulk, shear}, random_rates(1e3)}.time(run, back_and_forth); }
+
+void j2_below_yield(benchmark::State& run) { Block<J2>{power_law, random_rates(1e3)}.time(run, back_and_forth); }
+
+// Hardened by one per cent of strain, then back and forth under the flow stress, above the first yield stress.
+void j2_hardened_elastic(benchmark::State& run) {
+  Block<J2> block{power_law, random_rates(1e4)};
+  for (int i = 0; i < 100; ++i) block.advance(1);
+  for (auto& rate : block.rates) rate /= 100;
+  block.advance(-120);
+  block.time(run, back_and_forth);
+}
+
+void flow(benchmark::State& run, const J2& law, const std::vector<double>& factors) {
+  Block<J2> block{law, random_rates(1e4)};
+  for (int i = 0; i < 20; ++i) block.advance(1);
+  block.time(run, factors);
+}
+
+// Every other step yields from the elastic range: no rate of the last step to start from.
+void j2_first_yield(benchmark::State& run) {
+  Block<J2> block{power_law, random_rates(1e4)};
+  for (int i = 0; i < 20; ++i) block.advance(1);
+  block.time(run, {-0.5, 1.0});
+}
+
+BENCHMARK(elastic);
+BENCHMARK(j2_below_yield);
+BENCHMARK(j2_hardened_elastic);
+BENCHMARK_CAPTURE(flow, power_hardening_power_rate, power_law, steady);
+BENCHMARK_CAPTURE(flow, power_hardening_power_rate_unsteady, power_law, unsteady);
+BENCHMARK_CAPTURE(flow, linear_hardening_no_rate, linear_law, steady);
+BENCHMARK_CAPTURE(flow, table_hardening_johnson_cook_rate, table_law, steady);
+BENCHMARK(j2_first_yield);
+
+}  // namespace
+
+BENCHMARK_MAIN();

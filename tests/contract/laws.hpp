@@ -1,0 +1,63 @@
+// The table of laws that every contract test loops over. A new law is one line in table_of_laws().
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "materials/laws.hpp"
+
+namespace strut::testing {
+
+struct NamedLaw {
+  std::string name;  // letters, digits and _: part of the name of a test
+  materials::AnyLaw law;
+};
+inline void PrintTo(const NamedLaw& law, std::ostream* out) { *out << law.name; }
+
+// Copper: E 110 GPa, ν 0.296, σ_y 50 MPa, ε̄₀ 0.00218, ε̄̇₀ 1e-3 /s (Postek, Nowak & Pęcherski 2021); the other curves
+// are of the size that copper's have.
+inline constexpr double youngs = 110e9, poisson = 0.296;                                              // Pa, -
+inline constexpr double bulk = youngs / (3 * (1 - 2 * poisson)), shear = youngs / (2 * (1 + poisson));  // Pa
+inline constexpr double yield_stress = 50e6;                                                          // Pa
+
+inline const std::vector<std::pair<std::string, materials::Hardening>>& hardenings() {
+  using namespace materials;
+  static const std::vector<std::pair<std::string, Hardening>> table{
+      {"perfect", NoHardening{}},
+      {"linear", LinearHardening{100e6}},
+      {"power", PowerHardening{0.00218, 0.1}},
+      {"ludwik", LudwikHardening{292e6, 0.31}},
+      {"voce", VoceHardening{150e6, 8}},
+      {"table", TableHardening{{0, 0.002, 0.05, 0.3}, {50e6, 70e6, 150e6, 180e6}}},
+      {"softening", LinearHardening{-20e6}},
+      {"softening_table", TableHardening{{0, 0.01, 0.2, 0.5}, {50e6, 80e6, 60e6, 40e6}}},
+  };
+  return table;
+}
+
+inline const std::vector<std::pair<std::string, materials::Rate>>& rates() {
+  using namespace materials;
+  static const std::vector<std::pair<std::string, Rate>> table{
+      {"no_rate", NoRate{}},
+      {"weak_power", PowerRate{1e-3, 0.01}},
+      {"strong_power", PowerRate{1e-3, 0.1}},
+      {"johnson_cook", JohnsonCookRate{1, 0.025}},
+  };
+  return table;
+}
+
+inline std::vector<NamedLaw> table_of_laws() {
+  std::vector<NamedLaw> table;
+  table.push_back({"elastic", materials::Elastic{bulk, shear}});
+  for (const auto& [hardening_name, hardening] : hardenings()) {
+    for (const auto& [rate_name, rate] : rates()) {
+      table.push_back({"j2_" + hardening_name + "_" + rate_name,
+                       materials::J2{bulk, shear, {yield_stress, hardening, rate}}});
+    }
+  }
+  return table;
+}
+
+}  // namespace strut::testing

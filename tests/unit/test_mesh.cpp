@@ -1,0 +1,167 @@
+// strut-mesh: points, volumes and node sets of what it makes, and what it says about wrong recipes.
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include "base/communicator.hpp"
+#include "io/exodus.hpp"
+#include "tool.hpp"
+
+namespace strut {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+class MeshTool : public testing::ToolTest {
+ protected:
+  testing::Outcome make(const std::string& recipe) const {
+    return run(std::string(STRUT_MESH) + " " + write("mesh.recipe", recipe) + " " + path("mesh.g"));
+  }
+  testing::Outcome make_input(const std::string& name) const {
+    return run(std::string(STRUT_MESH) + " " + STRUT_SOURCE_DIR + "/inputs/taylor/" + name + " " + path("mesh.g"));
+  }
+  PointCloud points() const { return io::read_exodus(path("mesh.g"), Communicator()); }
+
+  PointCloud made(const std::string& recipe) const {
+    const testing::Outcome outcome = make(recipe);
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    return points();
+  }
+};
+
+double volume(const PointCloud& cloud) { return std::accumulate(cloud.volumes.begin(), cloud.volumes.end(), 0.0); }
+
+// How many points are in each set.
+std::map<std::string, int> set_sizes(const PointCloud& cloud) {
+  std::map<std::string, int> sizes;
+  for (std::size_t k = 0; k < cloud.set_names.size(); ++k) {
+    for (const std::uint64_t bits : cloud.sets) sizes[cloud.set_names[k]] += bits >> k & 1;
+  }
+  return sizes;
+}
+
+Vector centre_of_mass(const PointCloud& cloud) {
+  Vector sum = Vector::Zero();
+  for (std::size_t i = 0; i < cloud.size(); ++i) sum += cloud.volumes[i] * cloud.positions[i];
+  return sum / volume(cloud);
+}
+
+// Σ V x² and Σ V y² of a section of 4-fold symmetry are the same, Σ V x y vanishes.
+void expect_fourfold(const PointCloud& cloud) {
+  Tensor moment = Tensor::Zero();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    moment += cloud.volumes[i] * cloud.positions[i] * cloud.positions[i].transpose();
+  }
+  EXPECT_NEAR(moment(0, 0), moment(1, 1), 1e-12 * moment(0, 0));
+  EXPECT_NEAR(moment(0, 1), 0, 1e-12 * moment(0, 0));
+}
+
+TEST_F(MeshTool, LatticeCylinderOfThePublishedBar) {
+  ASSERT_EQ(make_input("bar.recipe").status, 0);
+  const PointCloud cloud = points();
+  EXPECT_EQ(cloud.size(), 20720);
+  const double spacing = 0.324 / 140;
+  for (const double v : cloud.volumes) ASSERT_NEAR(v, std::pow(spacing, 3), 1e-9 * v);
+  const std::map<std::string, int> expected = {{"bar_zmin", 148}, {"bar_zmax", 148}, {"foot", 148}, {"top", 148}};
+  EXPECT_EQ(set_sizes(cloud), expected);
+  expect_fourfold(cloud);
+}
+
+TEST_F(MeshTool, LatticeCylinderOf227MetresPerSecond) {
+  ASSERT_EQ(make_input("bar-227.recipe").status, 0);
+  EXPECT_EQ(points().size(), 8060);
+}
+
+TEST_F(MeshTool, FittedCylindersHaveTheVolumeOfTheirPolygon) {
+  for (const auto& [name, radius, length] :
+       {std::tuple("bar-fitted.recipe", 0.016, 0.324), std::tuple("bar-227-fitted.recipe", 0.0032, 0.0324)}) {
+    ASSERT_EQ(make_input(name).status, 0);
+    const PointCloud cloud = points();
+    const double sides = 48;  // 12 cells across
+    const double polygon = sides / 2 * radius * radius * std::sin(2 * pi / sides);
+    EXPECT_NEAR(volume(cloud), polygon * length, 1e-9 * polygon * length);
+    EXPECT_NEAR(volume(cloud), pi * radius * radius * length, 0.003 * pi * radius * radius * length);
+    const auto [smallest, largest] = std::minmax_element(cloud.volumes.begin(), cloud.volumes.end());
+    EXPECT_GT(*smallest / *largest, 0.85);
+    expect_fourfold(cloud);
+  }
+}
+
+TEST_F(MeshTool, AxisThroughAPoint) {
+  // Squares whose centres lie within 1.5 spacings of one: it and its eight neighbours.
+  const PointCloud cloud = made("shape = cylinder\ncentred = point\nlength = 3\nradius = 1.5\nspacing = 1\n");
+  EXPECT_EQ(cloud.size(), 27);
+  EXPECT_NEAR((centre_of_mass(cloud) - Vector(0, 0, 1.5)).norm(), 0, 1e-12);
+  EXPECT_EQ(made("shape = cylinder\nlength = 3\nradius = 1.5\nspacing = 1\n").size(), 12);  // 4 about the corner
+}
+
+TEST_F(MeshTool, BoxFillsItsSizeAndHasSixFaces) {
+  const PointCloud cloud =
+      made("shape = box\nname = plate\nsize = 1 2 3.1\nspacing = 0.5\norigin = -1 10 0 # corner\n");
+  EXPECT_EQ(cloud.size(), 2 * 4 * 6);
+  EXPECT_NEAR(volume(cloud), 6.2, 1e-12);
+  EXPECT_NEAR((centre_of_mass(cloud) - Vector(-0.5, 11, 1.55)).norm(), 0, 1e-12);
+  const std::map<std::string, int> expected = {{"plate_xmin", 24}, {"plate_xmax", 24}, {"plate_ymin", 12},
+                                               {"plate_ymax", 12}, {"plate_zmin", 8},  {"plate_zmax", 8},
+                                               {"foot", 8},        {"top", 8}};
+  EXPECT_EQ(set_sizes(cloud), expected);
+}
+
+TEST_F(MeshTool, SpheresAreTheSamePointsAsHexahedra) {
+  for (const std::string shape : {"shape = cylinder\nmethod = fitted\nlength = 2\nradius = 1\nspacing = 0.3\n",
+                                  "shape = box\nsize = 1 2 3\nspacing = 0.4\norigin = 5 6 7\n"}) {
+    const PointCloud hexahedra = made(shape);
+    const PointCloud spheres = made(shape + "elements = sphere\n");
+    ASSERT_EQ(hexahedra.size(), spheres.size());
+    EXPECT_EQ(hexahedra.set_names, spheres.set_names);
+    EXPECT_EQ(hexahedra.sets, spheres.sets);
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+      EXPECT_NEAR((hexahedra.positions[i] - spheres.positions[i]).norm(), 0, 1e-12);
+      EXPECT_NEAR(hexahedra.volumes[i], spheres.volumes[i], 1e-12);
+    }
+  }
+}
+
+TEST_F(MeshTool, SeveralBodiesShareTheKeysBeforeThem) {
+  const PointCloud cloud = made(
+      "spacing = 1\nshape = box\n[body]\nname = plate\nsize = 4 4 1\nspacing = 0.5\n"
+      "[body]\nname = block\nsize = 2 2 2\norigin = 1 1 1\nelements = sphere\n");
+  EXPECT_EQ(cloud.block_names, (std::vector<std::string>{"plate", "block"}));
+  EXPECT_EQ(cloud.size(), 8 * 8 * 2 + 8);
+  EXPECT_NEAR(volume(cloud), 16 + 8, 1e-12);
+  const std::map<std::string, int> sizes = set_sizes(cloud);
+  EXPECT_EQ(sizes.size(), 12);
+  EXPECT_EQ(sizes.count("foot"), 0);
+  EXPECT_EQ(sizes.at("block_zmin"), 4);
+}
+
+TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
+  const testing::Outcome outcome = make("shape = cylindre\nspaceing = 1\nlength = -2\nspacing = 1\nsize = 1 2 3\n");
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* expected :
+       {"line 1: shape is 'cylindre', expected cylinder or box (did you mean 'cylinder'?)",
+        "line 2: unknown key 'spaceing' (did you mean 'spacing'?)", "line 3: length is '-2', expected a length > 0",
+        "line 5: a cylinder has no key 'size'", "lacks the key 'radius'"}) {
+    EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("mesh.g")));
+}
+
+TEST_F(MeshTool, OtherErrorsEndWithStatusOne) {
+  const std::string box = "shape = box\nsize = 1 1 1\nspacing = 0.5\n";
+  for (const std::string& recipe :
+       {box + "name = a\nname = b\n", box + "a line\n", box + "origin = 1 2\n", box + "name =\n", box + "radius = 1\n",
+        std::string("[body]\n") + box + "[body]\n" + box, std::string("shape = box\nsize = 1 1 1\nspacing = 1e-4\n"),
+        std::string("shape = cylinder\nlength = 1\nradius = 0.1\nspacing = 1\n")}) {
+    const testing::Outcome outcome = make(recipe);
+    EXPECT_EQ(outcome.status, 1) << recipe;
+    EXPECT_TRUE(outcome.text.starts_with("strut-mesh: ")) << outcome.text;
+  }
+  EXPECT_EQ(run(std::string(STRUT_MESH) + " /nowhere.recipe " + path("mesh.g")).status, 1);
+  EXPECT_EQ(run(std::string(STRUT_MESH) + " " + write("box.recipe", box) + " /nowhere/mesh.g").status, 1);
+  EXPECT_EQ(run(STRUT_MESH).status, 1);
+}
+
+}  // namespace
+}  // namespace strut

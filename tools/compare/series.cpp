@@ -1,0 +1,73 @@
+#include "compare/series.hpp"
+
+#include <charconv>
+#include <fstream>
+
+#include "base/errors.hpp"
+#include "io/exodus.hpp"
+
+namespace strut::compare {
+
+namespace {
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  for (std::size_t comma; (comma = line.find(',', begin)) != std::string::npos; begin = comma + 1) {
+    words.push_back(line.substr(begin, comma - begin));
+  }
+  words.push_back(line.substr(begin));
+  return words;
+}
+
+double number(const std::string& word) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) throw Error("'" + word + "' is not a number");
+  return value;
+}
+
+void read_row(const std::string& line, std::vector<Variable>& columns) {
+  const std::vector<std::string> words = split(line);
+  if (words.size() != columns.size()) {
+    throw Error(std::to_string(words.size()) + " values for " + std::to_string(columns.size()) + " columns");
+  }
+  for (std::size_t c = 0; c < words.size(); ++c) columns[c].frames[0].push_back(number(words[c]));
+}
+
+Series read_history(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!file) throw Error(path.string() + ": no such file, or it may not be read");
+  if (!std::getline(file, line)) throw Error(path.string() + ": it is empty");
+  Series series;
+  for (const std::string& name : split(line)) series.variables.push_back({name, "row", {{}}});
+  for (int row = 2; std::getline(file, line); ++row) {
+    try {
+      read_row(line, series.variables);
+    } catch (const Error& error) {
+      throw Error(path.string() + ", line " + std::to_string(row) + ": " + error.what());
+    }
+  }
+  return series;
+}
+
+Series read_exodus(const std::filesystem::path& path) {
+  io::ExodusResult result = io::read_result(path);
+  Series series{std::move(result.times), {}};
+  for (std::size_t v = 0; v < result.nodal.size(); ++v) {
+    series.variables.push_back({result.nodal_names[v], "node", std::move(result.nodal[v])});
+  }
+  for (std::size_t v = 0; v < result.element.size(); ++v) {
+    series.variables.push_back({result.element_names[v], "element", std::move(result.element[v])});
+  }
+  return series;
+}
+
+}  // namespace
+
+Series read_series(const std::filesystem::path& path) {
+  return path.extension() == ".csv" ? read_history(path) : read_exodus(path);
+}
+
+}  // namespace strut::compare

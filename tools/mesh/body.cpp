@@ -1,0 +1,174 @@
+#include "mesh/body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "base/errors.hpp"
+#include "mesh/section.hpp"
+
+namespace strut::mesh {
+
+namespace {
+
+constexpr double most_cells = 1e8;
+
+double exact_volume(const Body& body) {
+  if (body.shape == Body::Shape::box) return body.size.prod();
+  return std::numbers::pi * body.radius * body.radius * body.length;
+}
+
+double height(const Body& body) { return body.shape == Body::Shape::box ? body.size.z() : body.length; }
+
+int layers_of(const Body& body) {
+  const double cells = exact_volume(body) / std::pow(body.spacing, 3);
+  if (cells > most_cells)
+    throw Error("body '" + body.name + "' would have more than 10⁸ cells: the spacing is too small");
+  return std::max(1, static_cast<int>(std::lround(height(body) / body.spacing)));
+}
+
+Section section_of(const Body& body, double layer) {
+  if (body.shape == Body::Shape::box) return rectangle(body.size.x(), body.size.y(), body.spacing);
+  if (body.method == Body::Method::fitted) return fitted_disc(body.radius, layer);
+  return lattice_disc(body.radius, layer, body.centred);  // cubes: the fitted spacing in the plane, too
+}
+
+// A body in the making: a section and its layers, in the body's own coordinates.
+struct Extrusion {
+  const Section& section;
+  int layers;
+  double layer;  // thickness
+
+  io::Mesh hexahedra() const;
+  io::Mesh spheres() const;
+  std::vector<int> cells_touching(const std::vector<int>& nodes) const;
+  static std::vector<int> repeated(const std::vector<int>& base, int stride, int times);
+};
+
+// The numbers of `base` in each of `times` layers that hold `stride` numbers each.
+std::vector<int> Extrusion::repeated(const std::vector<int>& base, int stride, int times) {
+  std::vector<int> numbers;
+  for (int k = 0; k < times; ++k) {
+    for (const int number : base) numbers.push_back(number + k * stride);
+  }
+  return numbers;
+}
+
+std::vector<int> range(int begin, int end) {
+  std::vector<int> numbers;
+  for (int i = begin; i < end; ++i) numbers.push_back(i);
+  return numbers;
+}
+
+io::Mesh Extrusion::hexahedra() const {
+  io::Mesh mesh;
+  const int stride = static_cast<int>(section.nodes.size());
+  for (int k = 0; k <= layers; ++k) {
+    for (const Point& p : section.nodes) mesh.nodes.emplace_back(p.x(), p.y(), layer * k);
+  }
+  io::Mesh::Block& block = mesh.blocks.emplace_back();
+  block.type = "HEX8";
+  for (int k = 0; k < layers; ++k) {
+    for (const auto& cell : section.cells) {
+      std::vector<int>& nodes = block.elements.emplace_back();
+      for (const int level : {k, k + 1}) {
+        for (const int node : cell) nodes.push_back(node + level * stride);
+      }
+    }
+  }
+  mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range(layers * stride, (layers + 1) * stride)}};
+  for (const auto& [name, nodes] : section.sides) mesh.node_sets.push_back({name, repeated(nodes, stride, layers + 1)});
+  return mesh;
+}
+
+// One for each cell, in the sets that one of the cell's nodes would be in: the same points as from hexahedra.
+io::Mesh Extrusion::spheres() const {
+  io::Mesh mesh;
+  const int stride = static_cast<int>(section.cells.size());
+  io::Mesh::Block& block = mesh.blocks.emplace_back();
+  block.type = "SPHERE";
+  for (int k = 0; k < layers; ++k) {
+    for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
+      const Section::Shape shape = section.shape(cell);
+      block.elements.push_back({static_cast<int>(mesh.nodes.size())});
+      block.volumes.push_back(shape.area * layer);
+      mesh.nodes.emplace_back(shape.centroid.x(), shape.centroid.y(), (k + 0.5) * layer);
+    }
+  }
+  mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range((layers - 1) * stride, layers * stride)}};
+  for (const auto& [name, nodes] : section.sides) {
+    mesh.node_sets.push_back({name, repeated(cells_touching(nodes), stride, layers)});
+  }
+  return mesh;
+}
+
+std::vector<int> Extrusion::cells_touching(const std::vector<int>& nodes) const {
+  std::vector<char> marked(section.nodes.size(), 0);
+  for (const int node : nodes) marked[node] = 1;
+  std::vector<int> cells;
+  for (std::size_t c = 0; c < section.cells.size(); ++c) {
+    const auto& cell = section.cells[c];
+    if (std::any_of(cell.begin(), cell.end(), [&](int node) { return marked[node]; })) {
+      cells.push_back(static_cast<int>(c));
+    }
+  }
+  return cells;
+}
+
+std::string summary_of(const Body& body, const Section& section, int layers) {
+  double area = 0;
+  double smallest = INFINITY;
+  for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
+    area += section.shape(cell).area;
+    smallest = std::min(smallest, section.shape(cell).area);
+  }
+  const double cells = static_cast<double>(section.cells.size());
+  const double volume = area * height(body);
+  const double exact = exact_volume(body);
+  char text[500];
+  std::snprintf(
+      text, sizeof text,
+      "%s: %s, %s: %.0f points = %.0f in a layer x %d layers\n"
+      "  spacing along z %.6g m, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
+      "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
+      body.name.c_str(), body.shape == Body::Shape::box ? "box" : "cylinder",
+      body.method == Body::Method::fitted     ? "fitted"
+      : body.shape == Body::Shape::box        ? "lattice"
+      : body.centred == Body::Centred::corner ? "lattice, axis through a corner"
+                                              : "lattice, axis through a point",
+      cells * layers, cells, layers, height(body) / layers, std::sqrt(area / cells), std::sqrt(smallest), body.spacing,
+      volume, exact, 100 * (volume / exact - 1));
+  return text;
+}
+
+}  // namespace
+
+io::Mesh mesh_of(const Body& body, std::string& summary) {
+  const int layers = layers_of(body);
+  const double layer = height(body) / layers;
+  const Section section = section_of(body, layer);
+  const Extrusion extrusion{section, layers, layer};
+  io::Mesh mesh = body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
+  for (Vector& node : mesh.nodes) node += body.origin;
+  mesh.blocks[0].name = body.name;
+  for (auto& set : mesh.node_sets) set.name = body.name + "_" + set.name;
+  summary = summary_of(body, section, layers);
+  return mesh;
+}
+
+void append(io::Mesh& mesh, const io::Mesh& body) {
+  const int shift = static_cast<int>(mesh.nodes.size());
+  const auto shifted = [&](std::vector<int> nodes) {
+    for (int& node : nodes) node += shift;
+    return nodes;
+  };
+  mesh.nodes.insert(mesh.nodes.end(), body.nodes.begin(), body.nodes.end());
+  for (io::Mesh::Block block : body.blocks) {
+    for (std::vector<int>& element : block.elements) element = shifted(std::move(element));
+    mesh.blocks.push_back(std::move(block));
+  }
+  for (const io::Mesh::NodeSet& set : body.node_sets) mesh.node_sets.push_back({set.name, shifted(set.nodes)});
+}
+
+}  // namespace strut::mesh

@@ -1,0 +1,208 @@
+#include "mesh/recipe.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "base/errors.hpp"
+
+namespace strut::mesh {
+
+namespace {
+
+const std::vector<std::string> keys = {"name",   "shape",  "method", "centred", "elements",
+                                       "length", "radius", "size",   "spacing", "origin"};
+
+struct Entry {
+  std::string value;
+  int line = 0;
+};
+
+// The entries of one body, and what is wrong with them.
+class Entries {
+ public:
+  explicit Entries(int line) : line_(line) {}
+
+  int line() const { return line_; }
+  void set(const std::string& key, Entry entry) { entries_[key] = std::move(entry); }
+  const Entry* find(const std::string& key) const {
+    const auto place = entries_.find(key);
+    return place == entries_.end() ? nullptr : &place->second;
+  }
+  // All of `defaults` that this does not have itself.
+  void take_defaults(const Entries& defaults) { entries_.insert(defaults.entries_.begin(), defaults.entries_.end()); }
+
+ private:
+  int line_;
+  std::map<std::string, Entry> entries_;
+};
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t\r");
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+// Lines to entries; only whether a line is a known key with a value is checked here.
+class Lines {
+ public:
+  explicit Lines(std::vector<std::string>& problems) : problems_(problems) {}
+
+  std::vector<Entries> read(std::istream& stream) {
+    std::string text;
+    for (int number = 1; std::getline(stream, text); ++number) {
+      const std::string content = trimmed(text.substr(0, text.find('#')));
+      if (!content.empty()) read_line(content, number);
+    }
+    if (bodies_.empty()) return {common_};
+    for (Entries& body : bodies_) body.take_defaults(common_);
+    return bodies_;
+  }
+
+ private:
+  void read_line(const std::string& content, int number) {
+    if (content == "[body]") {
+      bodies_.emplace_back(number);
+      return;
+    }
+    const auto sign = content.find('=');
+    if (sign == std::string::npos) return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
+    const std::string key = trimmed(content.substr(0, sign));
+    const std::string value = trimmed(content.substr(sign + 1));
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      return fail(number, "unknown key '" + key + "'" + did_you_mean(key, keys) + "; keys are " + joined(keys));
+    }
+    Entries& body = bodies_.empty() ? common_ : bodies_.back();
+    if (value.empty()) return fail(number, "key '" + key + "' has no value");
+    if (const Entry* first = body.find(key)) {
+      return fail(number, "key '" + key + "' again (first in line " + std::to_string(first->line) + ")");
+    }
+    body.set(key, {value, number});
+  }
+
+  void fail(int line, const std::string& problem) {
+    problems_.push_back("line " + std::to_string(line) + ": " + problem);
+  }
+
+  std::vector<std::string>& problems_;
+  Entries common_{1};
+  std::vector<Entries> bodies_;
+};
+
+// Entries to a Body.
+class Converter {
+ public:
+  Converter(const Entries& entries, std::vector<std::string>& problems) : entries_(entries), problems_(problems) {}
+
+  Body convert() {
+    Body body;
+    if (const Entry* entry = entries_.find("name")) body.name = entry->value;
+    body.shape = choice<Body::Shape>("shape", {"cylinder", "box"}, std::nullopt);
+    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, "lattice");
+    body.elements = choice<Body::Elements>("elements", {"hex", "sphere"}, "hex");
+    body.spacing = length("spacing");
+    if (const Entry* entry = entries_.find("origin")) body.origin = vector(*entry);
+    body.shape == Body::Shape::cylinder ? convert_cylinder(body) : convert_box(body);
+    return body;
+  }
+
+ private:
+  void convert_cylinder(Body& body) {
+    body.length = length("length");
+    body.radius = length("radius");
+    body.centred = choice<Body::Centred>("centred", {"point", "corner"}, "corner");
+    refuse("size", "cylinder");
+    if (body.method == Body::Method::fitted) refuse("centred", "fitted cylinder");
+  }
+
+  void convert_box(Body& body) {
+    for (const char* key : {"length", "radius", "centred"}) refuse(key, "box");
+    if (body.method == Body::Method::fitted) fail(*entries_.find("method"), "a box has only the method lattice");
+    const Entry* entry = required("size");
+    if (entry == nullptr) return;
+    body.size = vector(*entry);
+    if (!(body.size.minCoeff() > 0)) fail(*entry, "size is '" + entry->value + "', expected three lengths > 0");
+  }
+
+  void fail(const Entry& entry, const std::string& problem) {
+    problems_.push_back("line " + std::to_string(entry.line) + ": " + problem);
+  }
+
+  void refuse(const std::string& key, const std::string& shape) {
+    if (const Entry* entry = entries_.find(key)) fail(*entry, "a " + shape + " has no key '" + key + "'");
+  }
+
+  const Entry* required(const std::string& key) {
+    const Entry* entry = entries_.find(key);
+    if (entry == nullptr) {
+      problems_.push_back("the body that starts in line " + std::to_string(entries_.line()) + " lacks the key '" + key +
+                          "'");
+    }
+    return entry;
+  }
+
+  template <class Enum>
+  Enum choice(const std::string& key, const std::vector<std::string>& words, std::optional<std::string> otherwise) {
+    const Entry* entry = otherwise ? entries_.find(key) : required(key);
+    if (entry == nullptr && !otherwise) return Enum{};
+    const std::string word = entry ? entry->value : *otherwise;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (words[i] == word) return static_cast<Enum>(i);
+    }
+    fail(*entry, key + " is '" + word + "', expected " + joined(words, " or ") + did_you_mean(word, words));
+    return Enum{};
+  }
+
+  static std::optional<double> number(const std::string& word) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+  }
+
+  double length(const std::string& key) {
+    const Entry* entry = required(key);
+    if (entry == nullptr) return 1;
+    const std::optional<double> value = number(entry->value);
+    if (!value || *value <= 0) fail(*entry, key + " is '" + entry->value + "', expected a length > 0 in m");
+    return value.value_or(1);
+  }
+
+  Vector vector(const Entry& entry) {
+    std::istringstream stream(entry.value);
+    std::vector<double> values;
+    for (std::string word; stream >> word;) values.push_back(number(word).value_or(NAN));
+    const bool fits = values.size() == 3 && std::isfinite(values[0] + values[1] + values[2]);
+    if (fits) return {values[0], values[1], values[2]};
+    fail(entry, "'" + entry.value + "' is not three numbers");
+    return Vector::Ones();
+  }
+
+  const Entries& entries_;
+  std::vector<std::string>& problems_;
+};
+
+}  // namespace
+
+std::vector<Body> read_recipe(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw Error(path.string() + ": it is a directory");
+  std::ifstream file(path);
+  if (!file) throw Error(path.string() + ": no such file, or it may not be read");
+  std::vector<std::string> problems;
+  std::vector<Body> bodies;
+  std::set<std::string> names;
+  for (const Entries& entries : Lines(problems).read(file)) {
+    bodies.push_back(Converter(entries, problems).convert());
+    if (!names.insert(bodies.back().name).second)
+      problems.push_back("two bodies are called '" + bodies.back().name + "'");
+  }
+  if (!problems.empty()) throw Error(path.string() + ":\n  " + joined(problems, "\n  "));
+  return bodies;
+}
+
+}  // namespace strut::mesh

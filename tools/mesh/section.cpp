@@ -1,0 +1,110 @@
+#include "mesh/section.hpp"
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "base/errors.hpp"
+
+namespace strut::mesh {
+
+namespace {
+
+// n × m cells of which `keep(i, j)` stay, the nodes (i, j) at `position(i, j)`; only nodes of a kept cell are numbered.
+Section grid(int n, int m, const std::function<bool(int, int)>& keep, const std::function<Point(int, int)>& position) {
+  Section section;
+  std::vector<int> numbers(static_cast<std::size_t>(n + 1) * (m + 1), -1);
+  const auto node = [&](int i, int j) {
+    int& number = numbers[static_cast<std::size_t>(j) * (n + 1) + i];
+    if (number < 0) {
+      number = static_cast<int>(section.nodes.size());
+      section.nodes.push_back(position(i, j));
+    }
+    return number;
+  };
+  for (int j = 0; j < m; ++j) {
+    for (int i = 0; i < n; ++i) {
+      if (keep(i, j)) section.cells.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)});
+    }
+  }
+  return section;
+}
+
+bool all(int, int) { return true; }
+
+// Shirley & Chiu's map of the square [-1, 1]² to the unit disc: squares about the origin become circles, and areas are
+// all multiplied by π/4, so that equal squares give cells of equal area (but for the sagitta of their edges).
+Point disc_of_square(double u, double v) {
+  if (u == 0 && v == 0) return Point::Zero();
+  const double quarter = std::numbers::pi / 4;
+  const bool sideways = std::abs(u) >= std::abs(v);
+  const double radius = sideways ? u : v;
+  const double angle = quarter * (sideways ? v / u : u / v);
+  const double along = radius * std::cos(angle);
+  const double across = radius * std::sin(angle);
+  return sideways ? Point(along, across) : Point(across, along);
+}
+
+double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+std::vector<int> nodes_where(const Section& section, const std::function<bool(const Point&)>& here) {
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < section.nodes.size(); ++n) {
+    if (here(section.nodes[n])) nodes.push_back(static_cast<int>(n));
+  }
+  return nodes;
+}
+
+}  // namespace
+
+Section::Shape Section::shape(std::size_t cell) const {
+  const Point& origin = nodes[cells[cell][0]];
+  Shape shape{Point::Zero(), 0};
+  for (int t = 1; t <= 2; ++t) {  // two triangles
+    const Point a = nodes[cells[cell][t]] - origin;
+    const Point b = nodes[cells[cell][t + 1]] - origin;
+    shape.area += cross(a, b) / 2;
+    shape.centroid += cross(a, b) / 2 * (a + b) / 3;
+  }
+  shape.centroid = origin + shape.centroid / shape.area;
+  return shape;
+}
+
+Section lattice_disc(double radius, double spacing, Body::Centred centred) {
+  const bool corner = centred == Body::Centred::corner;
+  const int half = static_cast<int>(std::ceil(radius / spacing)) + 1;
+  const int n = corner ? 2 * half : 2 * half + 1;
+  // In units of half a spacing, these are exact integers: the section is symmetric to the last bit.
+  const double square = std::pow(2 * radius / spacing, 2) * (1 + 1e-12);
+  const auto keep = [&](int i, int j) {
+    const double x = 2 * i + 1 - n;
+    const double y = 2 * j + 1 - n;
+    return x * x + y * y <= square;
+  };
+  const auto position = [&](int i, int j) { return Point((2 * i - n) * spacing / 2, (2 * j - n) * spacing / 2); };
+  Section section = grid(n, n, keep, position);
+  if (section.cells.empty()) throw Error("no cell's centre lies within the radius: the spacing is too large");
+  return section;
+}
+
+Section fitted_disc(double radius, double spacing) {
+  // n² cells for the area π radius² at the spacing; an odd n would have a much smaller cell in the middle.
+  const double wanted = radius * std::sqrt(std::numbers::pi) / spacing;
+  const int n = std::max(2, 2 * static_cast<int>(std::lround(wanted / 2)));
+  return grid(n, n, all, [&](int i, int j) -> Point {
+    return radius * disc_of_square((2 * i - n) / static_cast<double>(n), (2 * j - n) / static_cast<double>(n));
+  });
+}
+
+Section rectangle(double a, double b, double spacing) {
+  const int n = std::max(1, static_cast<int>(std::lround(a / spacing)));
+  const int m = std::max(1, static_cast<int>(std::lround(b / spacing)));
+  Section section = grid(n, m, all, [&](int i, int j) { return Point(a * i / n, b * j / m); });
+  section.sides = {{"xmin", nodes_where(section, [](const Point& p) { return p.x() == 0; })},
+                   {"xmax", nodes_where(section, [&](const Point& p) { return p.x() == a; })},
+                   {"ymin", nodes_where(section, [](const Point& p) { return p.y() == 0; })},
+                   {"ymax", nodes_where(section, [&](const Point& p) { return p.y() == b; })}};
+  return section;
+}
+
+}  // namespace strut::mesh

@@ -1,0 +1,37 @@
+// Cross-sections of quadrilaterals, the bodies' shapes in the plane.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh/recipe.hpp"
+
+namespace strut::mesh {
+
+using Point = Eigen::Vector2d;
+
+struct Section {
+  std::vector<Point> nodes;
+  std::vector<std::array<int, 4>> cells;                        // nodes, counter-clockwise
+  std::vector<std::pair<std::string, std::vector<int>>> sides;  // named lines of nodes
+
+  struct Shape {
+    Point centroid;
+    double area = 0;
+  };
+  Shape shape(std::size_t cell) const;
+};
+
+// Squares of the spacing whose centres lie within the radius; the axis meets a centre or a corner of four.
+Section lattice_disc(double radius, double spacing, Body::Centred centred);
+
+// An even number of cells across, all of nearly the same area, the outer nodes on the circle.
+Section fitted_disc(double radius, double spacing);
+
+// The lower corner at the origin; sides xmin, xmax, ymin, ymax.
+Section rectangle(double a, double b, double spacing);
+
+}  // namespace strut::mesh

@@ -1,0 +1,164 @@
+// One material point, driven along a path of strain, of stress, or of some components of each: the same driver serves
+// strut-point and the contract tests of the laws.
+// Physics: small logarithmic strain in the unrotated frame, d = Δε/Δt, J = exp(tr ε). Method: where stress is
+// prescribed, Newton on the strain increments with a numerical tangent. Units: Pa, 1/s, s, strain -.
+#pragma once
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "base/tensors.hpp"
+#include "materials/law.hpp"
+
+namespace strut::point {
+
+// For each component xx yy zz xy yz zx: is its stress prescribed, or the increment of its strain?
+using StressPrescribed = std::array<bool, 6>;
+
+inline constexpr StressPrescribed all_strain{};
+inline constexpr StressPrescribed all_stress{true, true, true, true, true, true};
+inline constexpr StressPrescribed lateral_stress{false, true, true, false, false, false};  // of a bar along x
+
+template <materials::Law L>
+class Driver {
+ public:
+  explicit Driver(L law) : law_(std::move(law)) {}
+
+  double time = 0;
+  Symmetric strain = Symmetric::Zero();  // logarithmic
+  Symmetric stress = Symmetric::Zero();  // unrotated Cauchy
+  typename L::State state{};
+
+  const L& law() const { return law_; }
+
+  // One step of length dt. Where stress is prescribed it becomes that of `target`; the other strains grow by
+  // `increment`. Returns false, and leaves the point as it was, where no such step is found.
+  bool advance(const Symmetric& increment, const Symmetric& target, const StressPrescribed& prescribed, double dt) {
+    Symmetric trial = increment;
+    const std::array<int, 6> order = prescribed_first(prescribed);
+    const auto count = std::count(prescribed.begin(), prescribed.end(), true);
+    for (int i = 0; i < count; ++i) trial[order[i]] = last_rate_[order[i]] * dt;
+    Outcome outcome = evaluate(trial, dt);
+    const Unknowns unknowns{order, static_cast<int>(count), target};
+    for (int i = 0; i < most_iterations; ++i) {
+      if (!outcome.converged) return false;
+      if (unknowns.residual(outcome.stress) <= tolerance * scale(outcome.stress, target)) {
+        commit(trial, outcome, dt);
+        return true;
+      }
+      if (!improve(unknowns, dt, trial, outcome)) return false;
+    }
+    return false;
+  }
+
+  bool advance_strain(const Symmetric& increment, double dt) {
+    return advance(increment, Symmetric::Zero(), all_strain, dt);
+  }
+  bool advance_uniaxial_strain(double increment, double dt) {
+    return advance_strain(Symmetric{increment, 0, 0, 0, 0, 0}, dt);
+  }
+  bool advance_uniaxial_stress(double increment, double dt) {
+    return advance(Symmetric{increment, 0, 0, 0, 0, 0}, Symmetric::Zero(), lateral_stress, dt);
+  }
+  bool advance_stress(const Symmetric& target, double dt) {
+    return advance(Symmetric::Zero(), target, all_stress, dt);
+  }
+
+ private:
+  // Of the largest stress of the step. A law solves for its own stress to some 1e-12.
+  static constexpr double tolerance = 1e-10;
+  // Newton takes three to six, a start far off some more.
+  static constexpr int most_iterations = 50;
+
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+
+  struct Outcome {
+    Symmetric stress;
+    typename L::State state;
+    bool converged;
+  };
+
+  // The components whose stress is prescribed, first `count` of `order`.
+  struct Unknowns {
+    std::array<int, 6> order;
+    int count;
+    Symmetric target;
+
+    Column excess(const Symmetric& stress) const {
+      Column r(count);
+      for (int i = 0; i < count; ++i) r[i] = stress[order[i]] - target[order[i]];
+      return r;
+    }
+    double residual(const Symmetric& stress) const {
+      return count == 0 ? 0 : excess(stress).template lpNorm<Eigen::Infinity>();
+    }
+  };
+
+  static std::array<int, 6> prescribed_first(const StressPrescribed& prescribed) {
+    std::array<int, 6> order{0, 1, 2, 3, 4, 5};
+    std::stable_partition(order.begin(), order.end(), [&](int i) { return prescribed[i]; });
+    return order;
+  }
+
+  static double scale(const Symmetric& stress, const Symmetric& target) {
+    return std::max(stress.lpNorm<Eigen::Infinity>(), target.lpNorm<Eigen::Infinity>());
+  }
+
+  Outcome evaluate(const Symmetric& increment, double dt) const {
+    Outcome outcome{stress, state, true};
+    const double J = std::exp(trace(strain + increment));
+    const auto [next, converged] = law_.step({increment / dt, dt, J}, stress, outcome.state);
+    outcome.stress = next;
+    outcome.converged = converged && next.allFinite();
+    return outcome;
+  }
+
+  // ∂σ/∂Δε by forward differences. The step is small against the increment, over which the law curves, but no smaller
+  // than moves a metal's stress by some 100 Pa, far above its round-off.
+  Block tangent(const Unknowns& unknowns, double dt, const Symmetric& increment, const Outcome& at) const {
+    const double h = std::max(1e-6 * increment.lpNorm<Eigen::Infinity>(), 1e-9);
+    Block K(unknowns.count, unknowns.count);
+    for (int j = 0; j < unknowns.count; ++j) {
+      Symmetric moved = increment;
+      moved[unknowns.order[j]] += h;
+      const Symmetric change = (evaluate(moved, dt).stress - at.stress) / h;
+      for (int i = 0; i < unknowns.count; ++i) K(i, j) = change[unknowns.order[i]];
+    }
+    return K;
+  }
+
+  // A Newton step, halved until it comes closer; false where no fraction of it does.
+  bool improve(const Unknowns& unknowns, double dt, Symmetric& increment, Outcome& outcome) const {
+    const Column full = tangent(unknowns, dt, increment, outcome).fullPivLu().solve(-unknowns.excess(outcome.stress));
+    if (!full.allFinite()) return false;
+    const double before = unknowns.residual(outcome.stress);
+    for (double fraction = 1; fraction > 1e-6; fraction /= 2) {
+      Symmetric moved = increment;
+      for (int i = 0; i < unknowns.count; ++i) moved[unknowns.order[i]] += fraction * full[i];
+      const Outcome next = evaluate(moved, dt);
+      if (next.converged && unknowns.residual(next.stress) < before) {
+        increment = moved;
+        outcome = next;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void commit(const Symmetric& increment, const Outcome& outcome, double dt) {
+    time += dt;
+    strain += increment;
+    last_rate_ = increment / dt;
+    stress = outcome.stress;
+    state = outcome.state;
+  }
+
+  L law_;
+  Symmetric last_rate_ = Symmetric::Zero();  // where Newton starts
+};
+
+}  // namespace strut::point
