@@ -131,7 +131,7 @@ struct FlowStress {
 
   // σ̄(ε̄, ε̇) where the curve at rest has been evaluated.
   Value at_rate(double strain_rate, const Curve& h) const {
-    const Curve r = [&]() -> Curve { if (const auto* p = std::get_if<PowerRate>(&rate)) return (*p)(strain_rate); if (std::holds_alternative<NoRate>(rate)) return {1, 0}; return std::get_if<JohnsonCookRate>(&rate)->operator()(strain_rate); }();
+    const Curve r = std::visit([strain_rate](const auto& law) { return law(strain_rate); }, rate);
     return {h.value * r.value, h.slope * r.value, h.value * r.slope};
   }
 

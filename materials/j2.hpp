@@ -77,8 +77,8 @@ struct J2 {
 
   // Residual of the return relative to σ_trial: a few thousand times the round-off of the flow stress.
   static constexpr double tolerance = 1e-12;
-  // A Newton step that is shorter than this part of Δε̄ is the last: it leaves an error of its square in a flow stress
-  // that is smooth over the step, 1e-12 again, and saves an evaluation.
+  // A Newton step that is shorter than this part of Δε̄ is the last: it leaves an error of its square, 1e-12 again, in a
+  // flow stress that is smooth (at a kink, 1e-6 of what the step adds to it), and saves an evaluation.
   static constexpr double last_step = 1e-6;
   // Newton needs 3 on average and 11 at worst; bisection alone reaches round-off in about 50.
   static constexpr int most_iterations = 100;

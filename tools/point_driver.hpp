@@ -63,9 +63,7 @@ class Driver {
   bool advance_uniaxial_stress(double increment, double dt) {
     return advance(Symmetric{increment, 0, 0, 0, 0, 0}, Symmetric::Zero(), lateral_stress, dt);
   }
-  bool advance_stress(const Symmetric& target, double dt) {
-    return advance(Symmetric::Zero(), target, all_stress, dt);
-  }
+  bool advance_stress(const Symmetric& target, double dt) { return advance(Symmetric::Zero(), target, all_stress, dt); }
 
  private:
   // Of the largest stress of the step. A law solves for its own stress to some 1e-12.

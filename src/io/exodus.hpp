@@ -1,5 +1,4 @@
-// Exodus II in and out: the one room door behind which exodusII.h is used. All calls are collective; rank 0 holds the
-// file.
+// Exodus II in and out: the one door behind which exodusII.h is used. Calls with a Communicator are collective.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +16,10 @@ class Communicator;
 namespace strut::io {
 
 // Reads hex8 (volume by exact integration, centroid), tet4 and sphere elements (attributes: radius, volume; a file with
-// one attribute has the radius only). Block names: the file's, else "block_<id>". Node sets: the file's names, else
-// "nodelist_<id>"; a point belongs to a set when any node of its element does. Each rank receives a contiguous slice.
-// Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
-// (names element and block), more than 64 node sets.
+// one attribute has the radius only, one with none has an element variable Volume). Block names: the file's, else
+// "block_<id>". Node sets: the file's names, else "nodelist_<id>"; a point belongs to a set when any node of its
+// element does. Each rank receives a contiguous slice. Throws Error on all ranks: file missing, not Exodus, unsupported
+// element type, no elements, volume not positive (names element and block), more than 64 node sets.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator);
 
 // Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.

@@ -18,9 +18,9 @@ inline void PrintTo(const NamedLaw& law, std::ostream* out) { *out << law.name; 
 
 // Copper: E 110 GPa, ν 0.296, σ_y 50 MPa, ε̄₀ 0.00218, ε̄̇₀ 1e-3 /s (Postek, Nowak & Pęcherski 2021); the other curves
 // are of the size that copper's have.
-inline constexpr double youngs = 110e9, poisson = 0.296;                                              // Pa, -
+inline constexpr double youngs = 110e9, poisson = 0.296;                                                // Pa, -
 inline constexpr double bulk = youngs / (3 * (1 - 2 * poisson)), shear = youngs / (2 * (1 + poisson));  // Pa
-inline constexpr double yield_stress = 50e6;                                                          // Pa
+inline constexpr double yield_stress = 50e6;                                                            // Pa
 
 inline const std::vector<std::pair<std::string, materials::Hardening>>& hardenings() {
   using namespace materials;
@@ -53,8 +53,8 @@ inline std::vector<NamedLaw> table_of_laws() {
   table.push_back({"elastic", materials::Elastic{bulk, shear}});
   for (const auto& [hardening_name, hardening] : hardenings()) {
     for (const auto& [rate_name, rate] : rates()) {
-      table.push_back({"j2_" + hardening_name + "_" + rate_name,
-                       materials::J2{bulk, shear, {yield_stress, hardening, rate}}});
+      table.push_back(
+          {"j2_" + hardening_name + "_" + rate_name, materials::J2{bulk, shear, {yield_stress, hardening, rate}}});
     }
   }
   return table;

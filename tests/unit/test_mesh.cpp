@@ -153,7 +153,8 @@ TEST_F(MeshTool, OtherErrorsEndWithStatusOne) {
   for (const std::string& recipe :
        {box + "name = a\nname = b\n", box + "a line\n", box + "origin = 1 2\n", box + "name =\n", box + "radius = 1\n",
         std::string("[body]\n") + box + "[body]\n" + box, std::string("shape = box\nsize = 1 1 1\nspacing = 1e-4\n"),
-        std::string("shape = cylinder\nlength = 1\nradius = 0.1\nspacing = 1\n")}) {
+        std::string("shape = cylinder\nlength = 1\nradius = 0.1\nspacing = 1\n"),
+        std::string("shape = cylinder\nlength = 1e-9\nradius = 1\nspacing = 1e-2\n")}) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1) << recipe;
     EXPECT_TRUE(outcome.text.starts_with("strut-mesh: ")) << outcome.text;

@@ -22,9 +22,15 @@ double exact_volume(const Body& body) {
 double height(const Body& body) { return body.shape == Body::Shape::box ? body.size.z() : body.length; }
 
 int layers_of(const Body& body) {
-  const double cells = exact_volume(body) / std::pow(body.spacing, 3);
-  if (cells > most_cells)
+  const double across = 2 * body.radius;
+  const Vector extent = body.shape == Body::Shape::box ? body.size : Vector(across, across, body.length);
+  if (extent.maxCoeff() / body.spacing > most_cells || (extent / body.spacing).cwiseMax(1).prod() > most_cells) {
     throw Error("body '" + body.name + "' would have more than 10⁸ cells: the spacing is too small");
+  }
+  // A lattice's cubes take the thickness of a layer, which must not be far from what was asked for.
+  if (body.shape == Body::Shape::cylinder && body.length < body.spacing / 2) {
+    throw Error("body '" + body.name + "' is shorter than half a cell: the spacing is too large");
+  }
   return std::max(1, static_cast<int>(std::lround(height(body) / body.spacing)));
 }
 

@@ -1,0 +1,430 @@
+// What every law must do, whatever it stands for: looped over the table of laws.
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "formulas.hpp"
+#include "laws.hpp"
+#include "point_driver.hpp"
+
+namespace strut::testing {
+namespace {
+
+using namespace materials;
+
+template <class... Laws>
+constexpr bool all_keep_the_contract(const std::variant<Laws...>*) {
+  return (Law<Laws> && ...);
+}
+static_assert(all_keep_the_contract(static_cast<const AnyLaw*>(nullptr)));
+
+class LawTest : public ::testing::TestWithParam<NamedLaw> {
+ protected:
+  // The test, for the law that the variant holds.
+  template <class Test>
+  void with_law(Test&& test) const {
+    std::visit(test, GetParam().law);
+  }
+};
+
+using Random = std::mt19937_64;
+
+Symmetric random_tensor(Random& random, double size) {
+  std::normal_distribution<double> normal;
+  Symmetric t;
+  for (double& component : t) component = normal(random);
+  return size * t / std::sqrt(double_dot(t, t));
+}
+
+Tensor random_rotation(Random& random) {
+  std::normal_distribution<double> normal;
+  Tensor t;
+  for (int i = 0; i < 9; ++i) t(i) = normal(random);
+  Tensor Q = Eigen::HouseholderQR<Tensor>(t).householderQ();
+  if (Q.determinant() < 0) Q.col(0) = -Q.col(0);
+  return Q;
+}
+
+Symmetric rotated(const Tensor& Q, const Symmetric& s) { return symmetric_part(Q * to_tensor(s) * Q.transpose()); }
+
+double power_of_ten(Random& random, double from, double to) {
+  return std::pow(10, std::uniform_real_distribution<double>(from, to)(random));
+}
+
+// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length.
+std::vector<PointStep> wild_path(Random& random, int steps) {
+  std::vector<PointStep> path;
+  for (int i = 0; i < steps; ++i) {
+    path.push_back({random_tensor(random, power_of_ten(random, 0, 7)), power_of_ten(random, -10, -6),
+                    std::uniform_real_distribution<double>(0.5, 2)(random)});
+  }
+  return path;
+}
+
+template <Law L>
+struct Point {
+  Symmetric stress = Symmetric::Zero();
+  typename L::State state{};
+
+  bool advance(const L& law, const PointStep& step) {
+    const PointStress next = law.step(step, stress, state);
+    stress = next.stress;
+    return next.converged;
+  }
+};
+
+// The column of that name, or -1.
+template <Law L>
+int column(std::string_view name) {
+  const auto found = std::find(L::state_names.begin(), L::state_names.end(), name);
+  return found == L::state_names.end() ? -1 : static_cast<int>(found - L::state_names.begin());
+}
+
+template <Law L>
+bool is_finite(const typename L::State& state) {
+  for (const double value : to_columns<L>(state)) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
+// ---- The state ------------------------------------------------------------------------------------------------------
+
+TEST_P(LawTest, NamesEveryColumnOfItsState) {
+  with_law([]<Law L>(const L&) {
+    for (const auto name : L::state_names) {
+      EXPECT_FALSE(name.empty());
+      EXPECT_EQ(std::count(L::state_names.begin(), L::state_names.end(), name), 1) << name;
+    }
+    std::array<double, state_size<L>> columns{};
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = 1.5 + static_cast<double>(i);
+    EXPECT_EQ(to_columns<L>(from_columns<L>(columns)), columns);
+  });
+}
+
+TEST_P(LawTest, NothingHappensToAnUnloadedPointAtRest) {
+  with_law([]<Law L>(const L& law) {
+    Point<L> point;
+    EXPECT_TRUE(point.advance(law, {Symmetric::Zero(), 1e-7, 1}));
+    EXPECT_EQ(point.stress, Symmetric(Symmetric::Zero()));
+    EXPECT_EQ(to_columns<L>(point.state), to_columns<L>(typename L::State{}));
+  });
+}
+
+// ---- The frame ------------------------------------------------------------------------------------------------------
+
+// Rotating the rates rotates the stress and leaves the state. Rotation and sums carry 1e-15 of the largest trial stress
+// of the step, which can be a hundred times the stress itself; the solution of the law 1e-12 of it; over 40 steps.
+TEST_P(LawTest, IsIsotropic) {
+  with_law([]<Law L>(const L& law) {
+    Random random(1);
+    for (int path = 0; path < 10; ++path) {
+      const Tensor Q = random_rotation(random);
+      Point<L> here, there;
+      auto largest = to_columns<L>(here.state);
+      double largest_stress = 0;
+      for (int i = 0; i < 40; ++i) {
+        const Symmetric rate = random_tensor(random, power_of_ten(random, 3, 5));
+        ASSERT_TRUE(here.advance(law, {rate, 1e-8, 1}));
+        ASSERT_TRUE(there.advance(law, {rotated(Q, rate), 1e-8, 1}));
+        largest_stress = std::max(largest_stress, here.stress.norm());
+        EXPECT_LE((rotated(Q, here.stress) - there.stress).norm(), 1e-9 * largest_stress);
+        const auto a = to_columns<L>(here.state), b = to_columns<L>(there.state);
+        for (std::size_t c = 0; c < a.size(); ++c) {
+          largest[c] = std::max(largest[c], std::abs(a[c]));
+          EXPECT_NEAR(a[c], b[c], 1e-9 * largest[c]) << L::state_names[c];
+        }
+      }
+    }
+  });
+}
+
+// ---- The yield surface ----------------------------------------------------------------------------------------------
+
+// Round-off of the von Mises stress: 1e-16 of the largest component, which is the trial's, some 10 × μ here; the law's
+// own solution: 1e-9 of the flow stress, room for a last Newton step that crosses a kink of a table.
+TEST_P(LawTest, TheStressIsNeverAboveTheFlowStressAndOnItWhileItFlows) {
+  with_law([]<Law L>(const L& law) {
+    Random random(2);
+    for (int path = 0; path < 30; ++path) {
+      Point<L> point;
+      for (const PointStep& step : wild_path(random, 50)) {
+        const double before = law.dissipation(point.state);
+        const double trial = point.stress.norm() + 10 * bulk * step.rate.norm() * step.dt;
+        ASSERT_TRUE(point.advance(law, step));
+        const double limit = law.flow_stress(point.state), q = von_mises(point.stress);
+        const double error = 1e-9 * limit + 1e-14 * (trial + point.stress.norm());
+        EXPECT_LE(q, limit + error);
+        if (law.dissipation(point.state) > before) {
+          EXPECT_GE(q, limit - error);
+        }
+      }
+    }
+  });
+}
+
+TEST_P(LawTest, PlasticStrainAndWorkNeverFall) {
+  with_law([]<Law L>(const L& law) {
+    Random random(3);
+    const int strain = column<L>("Equivalent_Plastic_Strain");
+    for (int path = 0; path < 30; ++path) {
+      Point<L> point;
+      for (const PointStep& step : wild_path(random, 50)) {
+        const Point<L> old = point;
+        ASSERT_TRUE(point.advance(law, step));
+        EXPECT_GE(law.dissipation(point.state), law.dissipation(old.state));
+        if (strain >= 0) {
+          EXPECT_GE(to_columns<L>(point.state)[strain], to_columns<L>(old.state)[strain]);
+        }
+      }
+      EXPECT_GE(law.elastic_energy(point.stress), 0);
+    }
+  });
+}
+
+// Unloading and small steps within the surface are elastic: Hooke's law to round-off, and no dissipation.
+TEST_P(LawTest, IsElasticBelowYield) {
+  with_law([]<Law L>(const L& law) {
+    Random random(4);
+    const Moduli moduli = law.moduli();
+    for (int i = 0; i < 100; ++i) {
+      Point<L> point;
+      const Symmetric strain = random_tensor(random, 1e-4);  // 2μ √1.5 × 1e-4 is a fifth of the yield stress
+      ASSERT_TRUE(point.advance(law, {strain / 1e-8, 1e-8, 1}));
+      const Symmetric hooke = spherical(moduli.bulk * trace(strain)) + 2 * moduli.shear * deviator(strain);
+      EXPECT_LE((point.stress - hooke).norm(), 1e-14 * bulk * 1e-4 * 10);
+      EXPECT_NEAR(law.elastic_energy(point.stress), 0.5 * double_dot(hooke, strain),
+                  1e-13 * double_dot(hooke.cwiseAbs(), strain.cwiseAbs()));
+      EXPECT_EQ(law.dissipation(point.state), 0);
+    }
+  });
+}
+
+// ---- Closed forms ---------------------------------------------------------------------------------------------------
+
+// The plastic strain of a monotone path is what the strain has beyond Hooke's law, so strain, stress and their last
+// differences give ε̄ and ε̄̇ without a look at the state. The law solves to 1e-12 of the trial stress in each of 200
+// steps; with 1e-9 a wrong digit anywhere shows.
+constexpr double closed_form_tolerance = 1e-9;
+
+void expect_flow_stress(const AnyLaw& law, double von_mises, double plastic_strain, double plastic_rate) {
+  const J2* j2 = std::get_if<J2>(&law);
+  if (j2 == nullptr) {
+    EXPECT_NEAR(plastic_strain, 0, 1e-15);
+    return;
+  }
+  const double expected = printed_flow_stress(j2->flow, plastic_strain, plastic_rate);
+  EXPECT_NEAR(von_mises, expected, closed_form_tolerance * expected);
+}
+
+TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
+  with_law([]<Law L>(const L& law) {
+    constexpr double rate = 1e4, dt = 1e-8;
+    point::Driver<L> point(law);
+    double old_plastic = 0, plastic = 0, q = 0;
+    for (int i = 0; i < 200; ++i) {
+      ASSERT_TRUE(point.advance_uniaxial_strain(rate * dt, dt));
+      q = point.stress[0] - point.stress[1];
+      // q = 2μ ε − 3μ ε̄, p = K ε
+      old_plastic = std::exchange(plastic, (2 * shear * point.strain[0] - q) / (3 * shear));
+    }
+    EXPECT_NEAR(trace(point.stress) / 3, bulk * point.strain[0], 1e-12 * bulk * point.strain[0]);
+    expect_flow_stress(law, q, plastic, (plastic - old_plastic) / dt);
+  });
+}
+
+TEST_P(LawTest, UniaxialStressIsTheClosedForm) {
+  with_law([]<Law L>(const L& law) {
+    constexpr double rate = 1e4, dt = 1e-8;
+    point::Driver<L> point(law);
+    double old_plastic = 0, plastic = 0;
+    for (int i = 0; i < 200; ++i) {
+      ASSERT_TRUE(point.advance_uniaxial_stress(rate * dt, dt)) << i;
+      // σ = E (ε − ε̄), and the sides are free
+      old_plastic = std::exchange(plastic, point.strain[0] - point.stress[0] / youngs);
+    }
+    EXPECT_LE(point.stress.template tail<5>().norm(), 1e-9 * point.stress[0]);
+    EXPECT_NEAR(trace(point.strain), point.stress[0] / (3 * bulk), 1e-12);  // plastic flow keeps the volume
+    expect_flow_stress(law, point.stress[0], plastic, (plastic - old_plastic) / dt);
+  });
+}
+
+// ---- The step -------------------------------------------------------------------------------------------------------
+
+// A path of strain that turns all the time: ε(t) = ½ a (1 − cos 2πt) + b sin 2πt, t from 0 to 1 in 1e-6 s.
+template <Law L>
+Point<L> turning_path(const L& law, int steps) {
+  constexpr double pi = 3.14159265358979323846, duration = 1e-6;
+  const Symmetric a{0.02, -0.01, -0.008, 0.006, 0, 0.003}, b{0.001, 0.004, -0.006, 0.002, 0.009, 0};
+  const auto strain = [&](double t) -> Symmetric {
+    return 0.5 * (1 - std::cos(2 * pi * t)) * a + std::sin(2 * pi * t) * b;
+  };
+  Point<L> point;
+  const double dt = duration / steps;
+  for (int i = 0; i < steps; ++i) {
+    const Symmetric increment = strain((i + 1.0) / steps) - strain(static_cast<double>(i) / steps);
+    EXPECT_TRUE(point.advance(law, {increment / dt, dt, 1}));
+  }
+  return point;
+}
+
+// Stress and dissipation, each divided by its size, against those of a step so small that its error is 1/50 of theirs.
+template <Law L>
+double turning_error(const L& law, const Point<L>& exact, int steps) {
+  const Point<L> point = turning_path(law, steps);
+  const double stress = (point.stress - exact.stress).norm() / yield_stress;
+  const double work =
+      law.dissipation(exact.state) == 0 ? 0 : std::abs(law.dissipation(point.state) / law.dissipation(exact.state) - 1);
+  return stress + work;
+}
+
+// Order 1: a step eight times smaller leaves 1/8 of the error; 1/5 allows for kinks of the curves that fall anywhere in
+// a step. A law that is exact there (elastic) leaves round-off.
+TEST_P(LawTest, ConvergesWithTheStep) {
+  with_law([]<Law L>(const L& law) {
+    const Point<L> exact = turning_path(law, 64000);
+    const double coarse = turning_error(law, exact, 160), fine = turning_error(law, exact, 1280);
+    EXPECT_LE(coarse, 0.1);
+    EXPECT_LE(fine, coarse / 5 + 1e-10);
+  });
+}
+
+// The same strain in steps seven times as long. Without rate dependence proportional flow is exact in any step; with
+// it the rate at the end of a step stands for the rate within, and in this test that is at most 0.3 %, where the point
+// starts to flow: one step's worth of the way.
+TEST_P(LawTest, PlasticStrainDoesNotDependOnTheStep) {
+  with_law([]<Law L>(const L& law) {
+    const int strain = column<L>("Equivalent_Plastic_Strain");
+    if (strain < 0) GTEST_SKIP() << "no plastic strain";
+    double found[2];
+    for (const int coarse : {0, 1}) {
+      point::Driver<L> point(law);
+      const double dt = coarse ? 7e-8 : 1e-8;
+      for (int i = 0; i < (coarse ? 100 : 700); ++i) ASSERT_TRUE(point.advance_uniaxial_strain(1e5 * dt, dt));
+      found[coarse] = to_columns<L>(point.state)[strain];
+    }
+    EXPECT_GT(found[0], 0.4);  // of a strain of 0.7, two thirds
+    EXPECT_NEAR(found[1], found[0], 1e-5 * found[0]);
+  });
+}
+
+// ---- Energy ---------------------------------------------------------------------------------------------------------
+
+// At J = 1 the trapezoid of the stress power is what is stored and what is dissipated, to the round-off of the sum and
+// the 1e-12 of the law's solution, whether a step starts to flow or not.
+TEST_P(LawTest, WorkIsStoredOrDissipated) {
+  with_law([]<Law L>(const L& law) {
+    Random random(5);
+    Point<L> point;
+    double work = 0, size = 0;
+    for (int i = 0; i < 500; ++i) {
+      const PointStep step{random_tensor(random, power_of_ten(random, 3, 4.5)), 1e-8, 1};
+      const Symmetric old = point.stress;
+      ASSERT_TRUE(point.advance(law, step));
+      const double done = 0.5 * step.dt * double_dot(old + point.stress, step.rate);
+      work += done;
+      size += std::abs(done);
+    }
+    const double balance = law.elastic_energy(point.stress) + law.dissipation(point.state);
+    EXPECT_NEAR(work, balance, 1e-10 * size);
+  });
+}
+
+// ---- Bad input ------------------------------------------------------------------------------------------------------
+
+template <Law L>
+void expect_no_silent_nonsense(const L& law, Point<L> point, const PointStep& step, std::string_view what) {
+  const bool converged = point.advance(law, step);
+  EXPECT_TRUE(!converged || (point.stress.allFinite() && is_finite<L>(point.state))) << what;
+}
+
+TEST_P(LawTest, BadInputIsReported) {
+  with_law([]<Law L>(const L& law) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    const Symmetric shearing{0, 0, 0, 1e6, 0, 0};
+    Point<L> flowing;
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(flowing.advance(law, {shearing, 1e-8, 1}));
+    for (const Point<L>& point : {Point<L>{}, flowing}) {
+      for (const double bad : {nan, inf, -inf, 1e300, -1e300, 1e160, 1e30}) {
+        for (int c = 0; c < 6; ++c) {
+          PointStep step{shearing, 1e-8, 1};
+          step.rate[c] = bad;
+          expect_no_silent_nonsense(law, point, step, "rate");
+          Point<L> stressed = point;
+          stressed.stress[c] = bad;
+          expect_no_silent_nonsense(law, stressed, {shearing, 1e-8, 1}, "stress");
+        }
+        expect_no_silent_nonsense(law, point, {shearing, bad, 1}, "dt");
+        expect_no_silent_nonsense(law, point, {shearing, 1e-8, bad}, "J");
+      }
+      expect_no_silent_nonsense(law, point, {shearing, 0, 1}, "dt 0");
+    }
+  });
+}
+
+TEST_P(LawTest, ANaNIsNotConverged) {
+  with_law([]<Law L>(const L& law) {
+    Point<L> point;
+    const Symmetric rate{0, 0, 0, std::numeric_limits<double>::quiet_NaN(), 0, 0};
+    EXPECT_FALSE(point.advance(law, {rate, 1e-8, 1}));
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, LawTest, ::testing::ValuesIn(table_of_laws()),
+                         [](const auto& info) { return info.param.name; });
+
+// ---- J2 alone -------------------------------------------------------------------------------------------------------
+
+// Linear hardening in uniaxial strain: ε̄ = (2μ ε − σ_y)/(3μ + H), in one step as in many, to round-off.
+TEST(J2Test, LinearHardeningIsExactInAnyStep) {
+  constexpr double H = 100e6, strain = 0.35, exact = (2 * shear * strain - yield_stress) / (3 * shear + H);
+  for (const int steps : {1, 7, 49}) {
+    point::Driver<J2> point(J2{bulk, shear, {yield_stress, LinearHardening{H}, NoRate{}}});
+    for (int i = 0; i < steps; ++i) ASSERT_TRUE(point.advance_uniaxial_strain(strain / steps, 1e-6 / steps));
+    EXPECT_NEAR(point.state.equivalent_plastic_strain, exact, 1e-11 * exact);
+  }
+}
+
+TEST(J2Test, ARateExponentOfZeroIsNoRate) {
+  const J2 free{bulk, shear, {yield_stress, PowerHardening{0.00218, 0.1}, NoRate{}}};
+  const J2 zero{bulk, shear, {yield_stress, PowerHardening{0.00218, 0.1}, PowerRate{1e-3, 0}}};
+  Random random(6);
+  Point<J2> a, b;
+  for (const PointStep& step : wild_path(random, 200)) {
+    ASSERT_TRUE(a.advance(free, step));
+    ASSERT_TRUE(b.advance(zero, step));
+    // Newton may take another way to the same root: 1e-12 of the trial stress, which is up to 1e4 of the flow stress.
+    EXPECT_NEAR(a.state.equivalent_plastic_strain, b.state.equivalent_plastic_strain,
+                1e-11 * (1 + a.state.equivalent_plastic_strain));
+  }
+}
+
+// Very slow and very sudden flow, and yielding by a hair: the root lies anywhere in 15 decades of its bracket.
+TEST(J2Test, FindsTheRootWhereverItLies) {
+  for (const auto& [hardening_name, hardening] : hardenings()) {
+    for (const auto& [rate_name, rate] : rates()) {
+      const J2 law{bulk, shear, {yield_stress, hardening, rate}};
+      for (double over = 1e-9; over < 1e4; over *= 10) {
+        for (const double dt : {1e-10, 1e-6, 1.0}) {
+          Point<J2> point;
+          const double strain = yield_stress * (1 + over) / (3 * shear);  // von Mises stress of the trial: 3μ × strain
+          const Symmetric rate_of_strain = Symmetric{1, -0.5, -0.5, 0, 0, 0} * (strain / dt);
+          ASSERT_TRUE(point.advance(law, {rate_of_strain, dt, 1}))
+              << hardening_name << " " << rate_name << " " << over << " " << dt;
+          EXPECT_GE(point.state.equivalent_plastic_strain, 0);
+          EXPECT_LE(point.state.equivalent_plastic_strain, strain);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strut::testing
