@@ -124,9 +124,10 @@ struct FlowStress {
   };
   Value operator()(double strain, double strain_rate) const { return at_rate(strain_rate, at_rest(strain)); }
 
-  // σ̄(ε̄, 0) and its slope.
+  // σ̄(ε̄, 0) and its slope; a curve that softens ends at zero.
   Curve at_rest(double strain) const {
-    return std::visit([this, strain](const auto& law) { return law(yield_stress, strain); }, hardening);
+    const Curve h = std::visit([this, strain](const auto& law) { return law(yield_stress, strain); }, hardening);
+    return h.value < 0 ? Curve{0, 0} : h;
   }
 
   // σ̄(ε̄, ε̇) where the curve at rest has been evaluated.

@@ -38,14 +38,15 @@ struct J2 {
     const double bound = flow.lower_bound();
     if (q2 <= bound * bound) return elastic(trial, state);
     const Curve at_rest = flow.at_rest(state.equivalent_plastic_strain);
-    if (at_rest.value >= 0 && q2 <= at_rest.value * at_rest.value) return elastic(trial, state);
+    if (q2 <= at_rest.value * at_rest.value) return elastic(trial, state);
     // Here also with a NaN, of which no comparison is true.
     const double q = std::sqrt(q2);
     const Flow f = solve(q, at_rest, state, step.dt);
+    const double rate = f.increment / step.dt;
     const double work = step.J * f.increment * mean_stress(stress, s, q, f.stress);
-    if (!f.converged || !std::isfinite(work)) return {trial, false};
+    if (!f.converged || !(rate >= 0) || !std::isfinite(rate + work)) return {trial, false};
     state.equivalent_plastic_strain += f.increment;
-    state.plastic_strain_rate = f.increment / step.dt;
+    state.plastic_strain_rate = rate;
     state.plastic_work += work;
     return {returned(trial, s, f.stress / q), true};
   }

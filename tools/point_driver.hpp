@@ -37,19 +37,18 @@ class Driver {
   // One step of length dt. Where stress is prescribed it becomes that of `target`; the other strains grow by
   // `increment`. Returns false, and leaves the point as it was, where no such step is found.
   bool advance(const Symmetric& increment, const Symmetric& target, const StressPrescribed& prescribed, double dt) {
+    const Goal goal{prescribed, target};
     Symmetric trial = increment;
-    const std::array<int, 6> order = prescribed_first(prescribed);
-    const auto count = std::count(prescribed.begin(), prescribed.end(), true);
-    for (int i = 0; i < count; ++i) trial[order[i]] = last_rate_[order[i]] * dt;
+    for (int i = 0; i < 6; ++i) {
+      if (prescribed[i]) trial[i] = last_rate_[i] * dt;
+    }
     Outcome outcome = evaluate(trial, dt);
-    const Unknowns unknowns{order, static_cast<int>(count), target};
-    for (int i = 0; i < most_iterations; ++i) {
-      if (!outcome.converged) return false;
-      if (unknowns.residual(outcome.stress) <= tolerance * scale(outcome.stress, target)) {
+    for (int i = 0; i < most_iterations && outcome.converged; ++i) {
+      if (goal.distance(outcome.stress) <= tolerance * scale(outcome.stress, target)) {
         commit(trial, outcome, dt);
         return true;
       }
-      if (!improve(unknowns, dt, trial, outcome)) return false;
+      if (!improve(goal, dt, trial, outcome)) return false;
     }
     return false;
   }
@@ -66,13 +65,12 @@ class Driver {
   bool advance_stress(const Symmetric& target, double dt) { return advance(Symmetric::Zero(), target, all_stress, dt); }
 
  private:
-  // Of the largest stress of the step. A law solves for its own stress to some 1e-12.
+  // Of the scale of the stress. A law solves for its own stress to some 1e-12.
   static constexpr double tolerance = 1e-10;
   // Newton takes three to six, a start far off some more.
   static constexpr int most_iterations = 50;
 
-  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+  using Matrix = Eigen::Matrix<double, 6, 6>;
 
   struct Outcome {
     Symmetric stress;
@@ -80,30 +78,24 @@ class Driver {
     bool converged;
   };
 
-  // The components whose stress is prescribed, first `count` of `order`.
-  struct Unknowns {
-    std::array<int, 6> order;
-    int count;
+  struct Goal {
+    StressPrescribed prescribed;
     Symmetric target;
 
-    Column excess(const Symmetric& stress) const {
-      Column r(count);
-      for (int i = 0; i < count; ++i) r[i] = stress[order[i]] - target[order[i]];
+    Symmetric excess(const Symmetric& stress) const {  // 0 where the strain is given
+      Symmetric r = Symmetric::Zero();
+      for (int i = 0; i < 6; ++i) {
+        if (prescribed[i]) r[i] = stress[i] - target[i];
+      }
       return r;
     }
-    double residual(const Symmetric& stress) const {
-      return count == 0 ? 0 : excess(stress).template lpNorm<Eigen::Infinity>();
-    }
+    double distance(const Symmetric& stress) const { return excess(stress).template lpNorm<Eigen::Infinity>(); }
   };
 
-  static std::array<int, 6> prescribed_first(const StressPrescribed& prescribed) {
-    std::array<int, 6> order{0, 1, 2, 3, 4, 5};
-    std::stable_partition(order.begin(), order.end(), [&](int i) { return prescribed[i]; });
-    return order;
-  }
-
-  static double scale(const Symmetric& stress, const Symmetric& target) {
-    return std::max(stress.lpNorm<Eigen::Infinity>(), target.lpNorm<Eigen::Infinity>());
+  // Of the stress of the step: at its start, wanted at its end, and found there.
+  double scale(const Symmetric& found, const Symmetric& target) const {
+    return std::max(
+        {stress.lpNorm<Eigen::Infinity>(), target.lpNorm<Eigen::Infinity>(), found.lpNorm<Eigen::Infinity>()});
   }
 
   Outcome evaluate(const Symmetric& increment, double dt) const {
@@ -115,30 +107,32 @@ class Driver {
     return outcome;
   }
 
-  // ∂σ/∂Δε by forward differences. The step is small against the increment, over which the law curves, but no smaller
-  // than moves a metal's stress by some 100 Pa, far above its round-off.
-  Block tangent(const Unknowns& unknowns, double dt, const Symmetric& increment, const Outcome& at) const {
+  // ∂σ/∂Δε by forward differences, with the rows of the unit matrix (times a modulus, for the pivots) where the strain
+  // is given. The step is small against the increment, over which the law curves, but no smaller than moves a metal's
+  // stress by some 100 Pa, far above its round-off.
+  Matrix tangent(const Goal& goal, double dt, const Symmetric& increment, const Outcome& at) const {
     const double h = std::max(1e-6 * increment.lpNorm<Eigen::Infinity>(), 1e-9);
-    Block K(unknowns.count, unknowns.count);
-    for (int j = 0; j < unknowns.count; ++j) {
+    Matrix K = law_.moduli().bulk * Matrix::Identity();
+    for (int j = 0; j < 6; ++j) {
       Symmetric moved = increment;
-      moved[unknowns.order[j]] += h;
+      moved[j] += h;
       const Symmetric change = (evaluate(moved, dt).stress - at.stress) / h;
-      for (int i = 0; i < unknowns.count; ++i) K(i, j) = change[unknowns.order[i]];
+      for (int i = 0; i < 6; ++i) {
+        if (goal.prescribed[i]) K(i, j) = change[i];
+      }
     }
     return K;
   }
 
   // A Newton step, halved until it comes closer; false where no fraction of it does.
-  bool improve(const Unknowns& unknowns, double dt, Symmetric& increment, Outcome& outcome) const {
-    const Column full = tangent(unknowns, dt, increment, outcome).fullPivLu().solve(-unknowns.excess(outcome.stress));
+  bool improve(const Goal& goal, double dt, Symmetric& increment, Outcome& outcome) const {
+    const Symmetric full = tangent(goal, dt, increment, outcome).fullPivLu().solve(-goal.excess(outcome.stress));
     if (!full.allFinite()) return false;
-    const double before = unknowns.residual(outcome.stress);
+    const double before = goal.distance(outcome.stress);
     for (double fraction = 1; fraction > 1e-6; fraction /= 2) {
-      Symmetric moved = increment;
-      for (int i = 0; i < unknowns.count; ++i) moved[unknowns.order[i]] += fraction * full[i];
+      const Symmetric moved = increment + fraction * full;
       const Outcome next = evaluate(moved, dt);
-      if (next.converged && unknowns.residual(next.stress) < before) {
+      if (next.converged && goal.distance(next.stress) < before) {
         increment = moved;
         outcome = next;
         return true;

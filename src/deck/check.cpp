@@ -135,7 +135,8 @@ class Checker {
           path, "unknown " + what + " for " + section_.selector + " '" + case_->name + "'; it belongs to " + owners);
     }
     const std::string guess = did_you_mean(name, valid);
-    const bool list_them = guess.empty() && !valid.empty();
+    if (valid.empty()) return problems_.add(path, "unknown " + what + "; expected none here");
+    const bool list_them = guess.empty() && valid.size() <= few;
     problems_.add(path, "unknown " + what + guess + (list_them ? "; expected one of " + joined(valid) : ""));
   }
 
@@ -147,6 +148,8 @@ class Checker {
     }
     return joined(owners);
   }
+
+  static constexpr std::size_t few = 8;  // names that a reader takes in at a glance
 
   const List& list_;
   const Section& section_;

@@ -75,7 +75,7 @@ Function convert_expression(const Parameter& parameter, const Key& key) {
   if (const auto number = to_real(parameter.value)) in_range(*number, parameter, key);
   try {
     return Function::parse(parameter.value);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // the compiler throws others than Error too
     throw Error(std::string(trimmed(error.what())) + "; " + expected(key));
   }
 }
@@ -105,6 +105,7 @@ T or_refuse(const std::optional<T>& value, const Parameter& parameter, const Key
 }  // namespace
 
 Value convert(const Parameter& parameter, const Key& key) {
+  if (parameter.type.empty()) throw Error("has no type; expected the attributes name, type and value");
   if (std::find(types.begin(), types.end(), parameter.type) == types.end()) {
     throw Error("unknown type '" + parameter.type + "'" + did_you_mean(parameter.type, types) + "; expected one of " +
                 joined(types));

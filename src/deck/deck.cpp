@@ -43,7 +43,9 @@ void check_mesh(const fs::path& mesh, Problems& problems) {
 std::vector<NodeSet> node_sets(const Values& values, Problems& problems) {
   std::vector<NodeSet> sets;
   for (const std::string& name : values.keys()) {
-    if (name == "all") problems.add(path_to(values.path(), name), "is the set of all points; expected another name");
+    const std::string path = path_to(values.path(), name);
+    if (name == "all") problems.add(path, "is the set of all points; expected another name");
+    if (values.function(name).depends_on_time()) problems.add(path, "depends on t; expected an expression in x, y, z");
     sets.push_back({name, values.function(name)});
   }
   return sets;
@@ -74,7 +76,8 @@ int find_material(const Values& block, const std::vector<Material>& materials, P
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found != names.end() || !block.has("Material")) return static_cast<int>(found - names.begin());
   problems.add(path_to(block.path(), "Material"), "'" + wanted + "' is not defined" + did_you_mean(wanted, names) +
-                                                      "; expected one of Materials: " + joined(names));
+                                                      "; expected the name of a section of Materials" +
+                                                      (names.empty() ? "" : ": " + joined(names)));
   return 0;
 }
 
@@ -82,7 +85,7 @@ void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
   std::map<std::string, std::string> owners;  // block of the mesh -> section that has it
   const auto clash = [&](const Block& block, const std::string& name, const std::string& owner) {
     problems.add("Blocks > " + block.name + " > Block Names",
-                 "'" + name + "' is also in Blocks > " + owner + "; expected in one place");
+                 "'" + name + "' is named twice: here and in Blocks > " + owner + "; expected once");
   };
   for (const Block& block : blocks) {
     for (const std::string& name : block.block_names) {
@@ -225,7 +228,8 @@ std::string contents(const fs::path& file) {
   if (!fs::is_regular_file(file) || !stream) throw Error(file.string() + ": the deck is not a file that can be read");
   std::ostringstream text;
   text << stream.rdbuf();
-  return text.str();
+  const std::string byte_order_mark = "\xef\xbb\xbf";
+  return text.str().substr(text.str().starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
 }
 
 }  // namespace

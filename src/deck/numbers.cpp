@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstdlib>
 #include <sstream>
+#include <type_traits>
 
 namespace strut::deck {
 
@@ -15,7 +17,9 @@ std::optional<Number> parse(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   Number number{};
   const auto [rest, failure] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (failure != std::errc() || rest != text.data() + text.size()) return std::nullopt;
+  const bool too_large = std::is_floating_point_v<Number> && failure == std::errc::result_out_of_range;
+  if (too_large) number = static_cast<Number>(std::strtod(std::string(text).c_str(), nullptr));  // infinite, or 0
+  if ((failure != std::errc() && !too_large) || rest != text.data() + text.size()) return std::nullopt;
   return number;
 }
 

@@ -11,7 +11,7 @@ namespace strut::deck {
 std::string_view trimmed(std::string_view text);
 
 std::optional<int> to_integer(std::string_view text);
-std::optional<double> to_real(std::string_view text);  // may be infinite or not a number: "inf", "nan"
+std::optional<double> to_real(std::string_view text);  // may be infinite or not a number: "inf", "1e999", "nan"
 std::optional<bool> to_boolean(std::string_view text);
 
 // "0 0 1", "0, 0, 1" or, as Teuchos writes arrays, "{0, 0, 1}".

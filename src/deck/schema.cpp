@@ -34,44 +34,48 @@ std::string describe(Kind kind) {
   return "";
 }
 
-const Key verbose = {
-    .name = "Verbose", .kind = Kind::boolean, .fallback = "false", .meaning = "Accepted for Peridigm's decks; no effect."};
+const char* const reserved = "reserved: not in this version";
+
+const Key verbose = {.name = "Verbose",
+                     .kind = Kind::boolean,
+                     .fallback = "false",
+                     .meaning = "Accepted for Peridigm's decks; no effect."};
 
 Section discretization() {
   return {
       .name = "Discretization",
       .required = true,
       .meaning = "The points: where they are, and how much each sees of the others.",
-      .keys = {
-          {.name = "Type",
-           .kind = Kind::choice,
-           .choices = {"Exodus", "Text File"},
-           .required = true,
-           .meaning = "The mesh file's format: elements become points at their centroids, or a list of points.",
-           .hints = {{"PdQuickGrid", "there is no built-in grid: make a mesh file from a recipe"}}},
-          {.name = "Input Mesh File",
-           .kind = Kind::text,
-           .required = true,
-           .meaning = "Its path, relative to the deck's folder."},
-          {.name = "Influence Function",
-           .kind = Kind::choice,
-           .choices = {"One", "Linear Decay", "Cubic Decay"},
-           .fallback = "One",
-           .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
-          {.name = "Degenerate Points",
-           .kind = Kind::choice,
-           .choices = {"Error", "Drop"},
-           .fallback = "Error",
-           .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
-                      "gradient."}}};
+      .keys = {{.name = "Type",
+                .kind = Kind::choice,
+                .choices = {"Exodus", "Text File"},
+                .required = true,
+                .meaning = "The mesh file's format: elements become points at their centroids, or a list of points.",
+                .hints = {{"PdQuickGrid", "there is no built-in grid: make a mesh file from a recipe"}}},
+               {.name = "Input Mesh File",
+                .kind = Kind::text,
+                .required = true,
+                .meaning = "Its path, relative to the deck's folder."},
+               {.name = "Influence Function",
+                .kind = Kind::choice,
+                .choices = {"One", "Linear Decay", "Cubic Decay"},
+                .fallback = "One",
+                .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
+               {.name = "Degenerate Points",
+                .kind = Kind::choice,
+                .choices = {"Error", "Drop"},
+                .fallback = "Error",
+                .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
+                           "gradient."}}};
 }
 
 Section node_sets() {
-  return {.name = "Node Sets",
-          .meaning = "Sets of points besides those of the mesh; each key is the name of one.",
-          .any_key = Key{.name = any_name,
-                         .kind = Kind::expression,
-                         .meaning = "The points at whose reference position (m) this is not zero, e.g. `z &lt; 1e-3`."}};
+  return {
+      .name = "Node Sets",
+      .meaning = "Sets of points besides those of the mesh; each key is the name of one.",
+      .any_key = Key{.name = any_name,
+                     .kind = Kind::expression,
+                     .meaning = "The points at whose reference position (m) this is not zero, e.g. `z &lt; 1e-3`."}};
 }
 
 Section materials_section() {
@@ -82,8 +86,8 @@ Section materials_section() {
                .meaning = "The law; it decides on further keys.",
                .hints = {{"Elastic", "did you mean 'Elastic Correspondence'?"},
                          {"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
-                         {"Viscoplastic Needleman Correspondence", "did you mean 'Elastic Plastic Correspondence'? " +
-                                                                       power_laws}}};
+                         {"Viscoplastic Needleman Correspondence",
+                          "did you mean 'Elastic Plastic Correspondence'? " + power_laws}}};
   std::vector<Section> cases;
   for (const LawEntry& law : laws()) cases.push_back(law.schema);
   return {.name = "Materials",
@@ -93,25 +97,27 @@ Section materials_section() {
 }
 
 Section blocks() {
-  return {.name = "Blocks",
-          .required = true,
-          .meaning = "What the blocks of the mesh are made of.",
-          .sections = {{.name = any_name,
-                        .required = true,
-                        .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
-                        .keys = {{.name = "Block Names",
-                                  .kind = Kind::names,
-                                  .required = true,
-                                  .meaning = "Blocks of the mesh, or `all`."},
-                                 {.name = "Material",
-                                  .kind = Kind::text,
-                                  .required = true,
-                                  .meaning = "The name of a section in Materials."},
-                                 {.name = "Horizon",
-                                  .unit = "m",
-                                  .range = positive,
-                                  .required = true,
-                                  .meaning = "δ: points closer than this are neighbours."}}}}};
+  return {
+      .name = "Blocks",
+      .required = true,
+      .meaning = "What the blocks of the mesh are made of.",
+      .sections = {{.name = any_name,
+                    .required = true,
+                    .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
+                    .keys = {{.name = "Block Names",
+                              .kind = Kind::names,
+                              .required = true,
+                              .meaning = "Blocks of the mesh, or `all`."},
+                             {.name = "Material",
+                              .kind = Kind::text,
+                              .required = true,
+                              .meaning = "The name of a section in Materials."},
+                             {.name = "Horizon",
+                              .unit = "m",
+                              .range = positive,
+                              .required = true,
+                              .meaning = "δ: points closer than this are neighbours."}},
+                    .hints = {{"Damage Model", reserved}}}}};
 }
 
 Section along_axis(const std::string& type, const std::string& unit, const std::string& meaning) {
@@ -161,9 +167,10 @@ Section solver() {
       .name = "Solver",
       .required = true,
       .meaning = "The time that is simulated, and its steps.",
-      .keys = {verbose,
-               {.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."},
-               {.name = "Final Time", .unit = "s", .required = true, .meaning = "When it ends: after the initial time."}},
+      .keys =
+          {verbose,
+           {.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."},
+           {.name = "Final Time", .unit = "s", .required = true, .meaning = "When it ends: after the initial time."}},
       .sections = {{.name = "Verlet",
                     .meaning = "Explicit steps by central differences. Either of the keys, not both.",
                     .keys = {{.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "The same step always."},
@@ -177,42 +184,39 @@ Section solver() {
 
 Section output() {
   const std::string none = "Accepted for Peridigm's decks; no effect.";
-  return {
-      .name = "Output",
-      .meaning = "The fields of the points in time. Without this section there are none.",
-      .keys = {{.name = "Output File Type",
-                .kind = Kind::choice,
-                .choices = {"ExodusII"},
-                .fallback = "ExodusII",
-                .meaning = "The format."},
-               {.name = "Output Filename",
-                .kind = Kind::text,
-                .required = true,
-                .meaning = "Relative to the working folder; `.e` is appended if it has no suffix."},
-               {.name = "Output Frequency",
-                .kind = Kind::integer,
-                .unit = "steps",
-                .range = {.low = 1},
-                .meaning = "Every so many steps. Not together with Output Interval."},
-               {.name = "Output Interval",
-                .unit = "s",
-                .range = positive,
-                .meaning = "Every so much time. Where neither is given: 1/20 of the run."},
-               {.name = "Output Format", .kind = Kind::text, .meaning = none},
-               {.name = "Parallel Write", .kind = Kind::boolean, .meaning = none}},
-      .sections = {{.name = "Output Variables",
-                    .meaning = "The fields to write.",
-                    .any_key = Key{.name = any_name, .kind = Kind::boolean, .meaning = "A field, e.g. `Displacement`."}}}};
+  return {.name = "Output",
+          .meaning = "The fields of the points in time. Without this section there are none.",
+          .keys = {{.name = "Output File Type",
+                    .kind = Kind::choice,
+                    .choices = {"ExodusII"},
+                    .fallback = "ExodusII",
+                    .meaning = "The format."},
+                   {.name = "Output Filename",
+                    .kind = Kind::text,
+                    .required = true,
+                    .meaning = "Relative to the working folder; `.e` is appended if it has no suffix."},
+                   {.name = "Output Frequency",
+                    .kind = Kind::integer,
+                    .unit = "steps",
+                    .range = {.low = 1},
+                    .meaning = "Every so many steps. Not together with Output Interval."},
+                   {.name = "Output Interval",
+                    .unit = "s",
+                    .range = positive,
+                    .meaning = "Every so much time. Where neither is given: 1/20 of the run."},
+                   {.name = "Output Format", .kind = Kind::text, .meaning = none},
+                   {.name = "Parallel Write", .kind = Kind::boolean, .meaning = none}},
+          .sections = {
+              {.name = "Output Variables",
+               .meaning = "The fields to write.",
+               .any_key = Key{.name = any_name, .kind = Kind::boolean, .meaning = "A field, e.g. `Displacement`."}}}};
 }
 
 Section history() {
   return {
       .name = "History",
       .meaning = "Numbers of the whole body in time, as a table (CSV). Without this section there is none.",
-      .keys = {{.name = "Filename",
-                .kind = Kind::text,
-                .required = true,
-                .meaning = "Relative to the working folder."},
+      .keys = {{.name = "Filename", .kind = Kind::text, .required = true, .meaning = "Relative to the working folder."},
                {.name = "Frequency",
                 .kind = Kind::integer,
                 .unit = "steps",
@@ -264,8 +268,8 @@ const Section& schema() {
       .keys = {verbose},
       .sections = {discretization(), node_sets(), materials_section(), blocks(), conditions(), solver(), output(),
                    history()},
-      .hints = {{"Contact", "reserved: not in this version"},
-                {"Damage Models", "reserved: not in this version"},
+      .hints = {{"Contact", reserved},
+                {"Damage Models", reserved},
                 {"Compute Class Parameters", "unknown section; numbers of the whole body are chosen in 'History'"}}};
   return whole;
 }

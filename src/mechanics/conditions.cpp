@@ -16,18 +16,21 @@ double motion_velocity(const PrescribedMotion& motion, const Body& body, int i, 
   return (target - body.sites[i].current[motion.component]) / dt;
 }
 
-void constrain_motion(const PrescribedMotion& motion, double t, double dt, Body& body, Work& work) {
+void constrain_motion(const PrescribedMotion& motion, double t, double dt, Body& body, KickWork& work) {
   const int c = motion.component;
   for (const int i : motion.points) {
     double& v = body.velocity[i][c];
     const double imposed = motion_velocity(motion, body, i, t, dt);
-    work.external += body.mass(i) * (imposed - v) * 0.5 * (body.previous_velocity[i][c] + imposed);
+    const double half_impulse = 0.5 * body.mass(i) * (imposed - v);
+    work.before.external += half_impulse * body.previous_velocity[i][c];
+    work.after.external += half_impulse * imposed;
     v = imposed;
   }
 }
 
-void constrain_plane(const Plane& plane, double dt, Body& body, Work& work) {
+void constrain_plane(const Plane& plane, double dt, Body& body, KickWork& work) {
   const Vector& n = plane.normal;
+  const auto share = plane.one_sided ? &Work::contact : &Work::external;
   for (const int i : plane.points) {
     const double speed = n.dot(body.velocity[i]);
     double allowed = 0;
@@ -36,8 +39,9 @@ void constrain_plane(const Plane& plane, double dt, Body& body, Work& work) {
       if (gap + dt * speed >= 0) continue;
       allowed = -gap / dt;  // lands on the plane; one found behind it comes back
     }
-    const double mean = 0.5 * (n.dot(body.previous_velocity[i]) + allowed);
-    (plane.one_sided ? work.contact : work.external) += body.mass(i) * (allowed - speed) * mean;
+    const double half_impulse = 0.5 * body.mass(i) * (allowed - speed);
+    work.before.*share += half_impulse * n.dot(body.previous_velocity[i]);
+    work.after.*share += half_impulse * allowed;
     body.velocity[i] += (allowed - speed) * n;
   }
 }
@@ -51,27 +55,27 @@ void add_body_forces(const Conditions& conditions, double t, Body& body) {
 }
 
 void start_motions(const Conditions& conditions, double t, double dt, Body& body) {
-  Work none;
+  KickWork none;
   for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, dt, body, none);
   for (const Plane& plane : conditions.planes) {
     if (!plane.one_sided) constrain_plane(plane, dt, body, none);
   }
 }
 
-void constrain(const Conditions& conditions, double t, double dt, Body& body, Work& work) {
+void constrain(const Conditions& conditions, double t, double dt, Body& body, KickWork& work) {
   for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, dt, body, work);
   for (const Plane& plane : conditions.planes) constrain_plane(plane, dt, body, work);
 }
 
-double work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body) {
-  double work = 0;
+void add_work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body, KickWork& work) {
   for (const BodyForce& load : conditions.body_forces) {
+    const int c = load.component;
     for (const int i : load.points) {
-      const double mean = 0.5 * (body.previous_velocity[i] + body.velocity[i])[load.component];
-      work += at_point(load.value, body, i, t) * body.domain.volumes[i] * kick * mean;
+      const double half_impulse = 0.5 * at_point(load.value, body, i, t) * body.domain.volumes[i] * kick;
+      work.before.external += half_impulse * body.previous_velocity[i][c];
+      work.after.external += half_impulse * body.velocity[i][c];
     }
   }
-  return work;
 }
 
 }  // namespace strut

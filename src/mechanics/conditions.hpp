@@ -36,9 +36,18 @@ struct Conditions {
   std::vector<Plane> planes;  // applied last: nothing passes a wall
 };
 
+// J done on this rank's points.
 struct Work {
-  double external = 0;  // J done by loads and prescribed motion, this rank, since the start
-  double contact = 0;   // J done by one-sided planes (negative: what a plastic impact takes)
+  double external = 0;  // by loads and prescribed motion
+  double contact = 0;   // by one-sided planes (negative: what a plastic impact takes)
+
+  Work operator+(const Work& other) const { return {external + other.external, contact + other.contact}; }
+};
+
+// The work of an impulse p at a step is p · ½(v⁻ + v⁺), exactly what the kinetic energy of central differences gains.
+// One half, ½ p · v⁻, belongs to the interval before the step, the other to the one after.
+struct KickWork {
+  Work before, after;
 };
 
 // Adds the body forces at time t (s) to the force density.
@@ -47,11 +56,10 @@ void add_body_forces(const Conditions& conditions, double t, Body& body);
 // Puts the prescribed velocities at time t into the initial velocities, so that the first step needs no impulse.
 void start_motions(const Conditions& conditions, double t, double dt, Body& body);
 
-// Changes the velocities after the kick at time t, which carry the points to t + dt, to what the conditions allow. The
-// work of an impulse p on a point is p · ½(v⁻ + v⁺), exactly what the kinetic energy of central differences gains.
-void constrain(const Conditions& conditions, double t, double dt, Body& body, Work& work);
+// Changes the velocities after the kick at time t, which carry the points to t + dt, to what the conditions allow.
+void constrain(const Conditions& conditions, double t, double dt, Body& body, KickWork& work);
 
-// The work of the body forces over the kick, once velocities are final.
-double work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body);
+// Adds the work of the body forces over a kick of length `kick`, once velocities are final.
+void add_work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body, KickWork& work);
 
 }  // namespace strut

@@ -55,7 +55,8 @@ class CentralDifference {
   Conditions conditions_;
   StepControl control_;
   StableStep stable_;
-  Work work_, work_before_;  // at the mid-steps after and before time()
+  Work work_;           // up to the mid-step before time()
+  KickWork kick_work_;  // of the impulses at time()
   double time_, dt_ = 0, previous_dt_ = 0;
   double limit_ = 0, steepest_ = 0, steepest_at_estimate_ = 0;
   double put_in_ = 0, largest_energy_ = 0;

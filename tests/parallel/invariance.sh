@@ -1,0 +1,110 @@
+#!/bin/sh
+# A Taylor impact on 1, 2, 3 and 4 ranks: results and histories must be the same.
+#   invariance.sh strut strut-mesh strut-compare mpirun [its options]
+set -u
+strut=$1 mesh=$2 compare=$3
+shift 3  # "$@" is mpirun now
+
+folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-invariance-XXXXXX")
+cd "$folder" || exit 1
+trap 'rm -rf "$folder"' EXIT
+
+cat > bar.recipe <<END
+name    = bar
+shape   = cylinder
+length  = 0.12
+radius  = 0.016
+spacing = 0.004
+END
+"$mesh" bar.recipe bar.g || exit 1
+
+# deck NAME: a deck that writes NAME.e and NAME.csv. The step follows the deformation, so that its estimate is under
+# test, too; the foot is held by a motion that grows in time rather than by zero.
+deck() {
+  cat <<END
+<ParameterList>
+  <ParameterList name="Discretization">
+    <Parameter name="Type" type="string" value="Exodus"/>
+    <Parameter name="Input Mesh File" type="string" value="bar.g"/>
+  </ParameterList>
+  <ParameterList name="Materials">
+    <ParameterList name="copper">
+      <Parameter name="Material Model" type="string" value="Elastic Plastic Correspondence"/>
+      <Parameter name="Density" type="double" value="8960"/>
+      <Parameter name="Young's Modulus" type="double" value="110.0e9"/>
+      <Parameter name="Poisson's Ratio" type="double" value="0.296"/>
+      <Parameter name="Yield Stress" type="double" value="50.0e6"/>
+      <ParameterList name="Hardening">
+        <Parameter name="Type" type="string" value="Power Law"/>
+        <Parameter name="Reference Strain" type="double" value="0.00218"/>
+        <Parameter name="Exponent" type="double" value="0.1"/>
+      </ParameterList>
+      <ParameterList name="Rate">
+        <Parameter name="Type" type="string" value="Power Law"/>
+        <Parameter name="Reference Rate" type="double" value="1.0e-3"/>
+        <Parameter name="Exponent" type="double" value="0.01"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Blocks">
+    <ParameterList name="bar">
+      <Parameter name="Block Names" type="string" value="all"/>
+      <Parameter name="Material" type="string" value="copper"/>
+      <Parameter name="Horizon" type="double" value="0.0085"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Boundary Conditions">
+    <ParameterList name="flight">
+      <Parameter name="Type" type="string" value="Initial Velocity"/>
+      <Parameter name="Coordinate" type="string" value="z"/>
+      <Parameter name="Value" type="double" value="-80"/>
+    </ParameterList>
+    <ParameterList name="foot">
+      <Parameter name="Type" type="string" value="Prescribed Displacement"/>
+      <Parameter name="Node Set" type="string" value="foot"/>
+      <Parameter name="Coordinate" type="string" value="z"/>
+      <Parameter name="Value" type="string" value="-2.0*t*(1 + 10*x)"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Solver">
+    <Parameter name="Final Time" type="double" value="2.2e-4"/>
+  </ParameterList>
+  <ParameterList name="Output">
+    <Parameter name="Output Filename" type="string" value="$1.e"/>
+    <Parameter name="Output Frequency" type="int" value="50"/>
+    <ParameterList name="Output Variables">
+      <Parameter name="Displacement" type="bool" value="true"/>
+      <Parameter name="Velocity" type="bool" value="true"/>
+      <Parameter name="Cauchy_Stress" type="bool" value="true"/>
+      <Parameter name="Equivalent_Plastic_Strain" type="bool" value="true"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="History">
+    <Parameter name="Filename" type="string" value="$1.csv"/>
+    <Parameter name="Frequency" type="int" value="10"/>
+    <ParameterList name="Variables">
+      <Parameter name="Max_Displacement" type="bool" value="true"/>
+      <Parameter name="Max_Equivalent_Plastic_Strain" type="bool" value="true"/>
+      <Parameter name="Max_Von_Mises_Stress" type="bool" value="true"/>
+    </ParameterList>
+  </ParameterList>
+</ParameterList>
+END
+}
+
+failures=0
+for ranks in 1 2 3 4; do
+  deck ranks$ranks > deck.xml
+  if ! "$@" -np $ranks "$strut" deck.xml > log 2>&1; then
+    echo "FAILED: the run on $ranks ranks"
+    cat log
+    exit 1
+  fi
+  [ $ranks -eq 1 ] && grep ' steps, ' log
+  for kind in e csv; do
+    echo "$ranks ranks, .$kind:"
+    "$compare" ranks1.$kind ranks$ranks.$kind --relative 1e-9 || failures=$((failures + 1))
+  done
+done
+[ $failures -eq 0 ] && echo "passed"
+exit $((failures > 0))

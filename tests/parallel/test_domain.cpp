@@ -1,0 +1,246 @@
+// Partition, families and halo against a search over all pairs, on any number of ranks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "base/communicator.hpp"
+#include "points/domain.hpp"
+#include "points/partition.hpp"
+
+namespace strut {
+namespace {
+
+using Id = std::int64_t;
+using Pair = std::pair<Id, Id>;
+
+// A cloud as a reader delivers it: the rank's slice of points whose places are random but the same for all.
+struct Case {
+  int count;
+  std::vector<double> horizons;  // of the blocks, m
+  int seed;
+};
+
+PointCloud whole_cloud(const Case& c) {
+  std::mt19937 random(c.seed);
+  std::uniform_real_distribution<double> place(0, 1);
+  PointCloud cloud;
+  cloud.set_names = {"left"};
+  for (std::size_t b = 0; b < c.horizons.size(); ++b) cloud.block_names.push_back("block_" + std::to_string(b));
+  for (int id = 0; id < c.count; ++id) {
+    const double x = place(random), y = place(random), z = place(random);
+    cloud.ids.push_back(id);
+    cloud.element_ids.push_back(10 * id + 3);
+    cloud.positions.emplace_back(2 * x, y, 0.5 * z);
+    cloud.volumes.push_back(1e-3 + id);
+    cloud.blocks.push_back(static_cast<int>(x * static_cast<double>(c.horizons.size())));  // they touch at a plane
+    cloud.sets.push_back(x < 0.3 ? 1 : 0);
+  }
+  return cloud;
+}
+
+PointCloud slice(const PointCloud& whole, const Communicator& world) {
+  std::vector<int> mine;
+  const auto n = static_cast<int>(whole.size());
+  for (int i = n * world.rank() / world.size(); i < n * (world.rank() + 1) / world.size(); ++i) mine.push_back(i);
+  return reordered(whole, mine);
+}
+
+Domain domain_of(const Case& c, const Communicator& world) {
+  return make_domain(partitioned(slice(whole_cloud(c), world), world), c.horizons, world);
+}
+
+// The ids of owned points and ghosts, by local index: what the halo brings says who a ghost is.
+std::vector<Id> ids_of(Domain& domain) {
+  std::vector<double> values(domain.owned + domain.ghosts, -1);
+  for (int i = 0; i < domain.owned; ++i) values[i] = static_cast<double>(domain.cloud.ids[i]);
+  domain.halo.exchange(values.data(), 1, 1);
+  return {values.begin(), values.end()};
+}
+
+std::set<Pair> brute_force(const Case& c) {
+  const PointCloud cloud = whole_cloud(c);
+  std::set<Pair> pairs;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (std::size_t j = 0; j < cloud.size(); ++j) {
+      const double horizon = 0.5 * (c.horizons[cloud.blocks[i]] + c.horizons[cloud.blocks[j]]);
+      if (i != j && (cloud.positions[i] - cloud.positions[j]).norm() <= horizon) pairs.emplace(i, j);
+    }
+  }
+  return pairs;
+}
+
+// The bonds of all ranks, on every rank, each as often as it was found.
+std::vector<Pair> all_bonds(const Domain& domain, const std::vector<Id>& ids, const Communicator& world) {
+  std::vector<Id> mine;
+  for (int i = 0; i < domain.owned; ++i) {
+    for (std::size_t b = domain.families.start[i]; b < domain.families.start[i + 1]; ++b) {
+      mine.insert(mine.end(), {ids[i], ids[domain.families.neighbours[b]]});
+    }
+  }
+  std::vector<Id> all = world.gather(std::span<const Id>(mine));
+  world.broadcast(all);
+  std::vector<Pair> bonds;
+  for (std::size_t k = 0; k < all.size(); k += 2) bonds.emplace_back(all[k], all[k + 1]);
+  return bonds;
+}
+
+const Case dense = {600, {0.25, 0.12}, 1};
+
+class DomainOf : public testing::TestWithParam<Case> {
+ protected:
+  const Communicator world;
+  const PointCloud whole = whole_cloud(GetParam());
+  Domain domain = domain_of(GetParam(), world);
+  const std::vector<Id> ids = ids_of(domain);
+};
+
+TEST_P(DomainOf, EveryPointHasOneOwnerAndKeepsWhatItIs) {
+  std::vector<Id> all = world.gather(std::span<const Id>(domain.cloud.ids));
+  if (world.rank() == 0) {
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(all, whole.ids);
+  }
+  ASSERT_EQ(domain.owned, static_cast<int>(domain.cloud.size()));
+  for (int i = 0; i < domain.owned; ++i) {
+    const Id id = domain.cloud.ids[i];
+    EXPECT_EQ(domain.cloud.element_ids[i], whole.element_ids[id]);
+    EXPECT_EQ(domain.cloud.positions[i], whole.positions[id]);
+    EXPECT_EQ(domain.cloud.volumes[i], whole.volumes[id]);
+    EXPECT_EQ(domain.cloud.blocks[i], whole.blocks[id]);
+    EXPECT_EQ(domain.cloud.sets[i], whole.sets[id]);
+  }
+  EXPECT_EQ(domain.cloud.block_names, whole.block_names);
+  EXPECT_EQ(domain.cloud.set_names, whole.set_names);
+}
+
+TEST_P(DomainOf, FamiliesAreThoseOfASearchOverAllPairs) {
+  const std::vector<Pair> bonds = all_bonds(domain, ids, world);
+  const std::set<Pair> distinct(bonds.begin(), bonds.end());
+  EXPECT_EQ(distinct.size(), bonds.size());  // none twice
+  EXPECT_EQ(distinct, brute_force(GetParam()));
+}
+
+TEST_P(DomainOf, FamiliesAreSymmetric) {
+  const std::vector<Pair> bonds = all_bonds(domain, ids, world);
+  const std::set<Pair> distinct(bonds.begin(), bonds.end());
+  for (const auto& [i, j] : distinct) EXPECT_TRUE(distinct.contains({j, i})) << i << " " << j;
+}
+
+// Sums over a family must not depend on who owns its members.
+TEST_P(DomainOf, FamiliesAreInTheOrderOfIds) {
+  for (int i = 0; i < domain.owned; ++i) {
+    for (std::size_t b = domain.families.start[i] + 1; b < domain.families.start[i + 1]; ++b) {
+      EXPECT_LT(ids[domain.families.neighbours[b - 1]], ids[domain.families.neighbours[b]]);
+    }
+  }
+}
+
+TEST_P(DomainOf, GhostsAreWhatTheirOwnersSay) {
+  const std::set<Id> own(domain.cloud.ids.begin(), domain.cloud.ids.end());
+  std::set<Id> seen;
+  ASSERT_EQ(domain.positions.size(), ids.size());
+  for (std::size_t g = domain.owned; g < ids.size(); ++g) {
+    ASSERT_GE(ids[g], 0) << "the halo brings nothing";
+    EXPECT_FALSE(own.contains(ids[g]));
+    EXPECT_TRUE(seen.insert(ids[g]).second) << "twice";
+    EXPECT_EQ(domain.positions[g], whole.positions[ids[g]]);
+    EXPECT_EQ(domain.volumes[g], whole.volumes[ids[g]]);
+    EXPECT_EQ(domain.horizons[g], GetParam().horizons[whole.blocks[ids[g]]]);
+  }
+  if (world.size() == 1) {
+    EXPECT_EQ(domain.ghosts, 0);
+  }
+}
+
+TEST_P(DomainOf, InteriorPointsNeedNoGhostAndTheOthersDo) {
+  std::vector<char> used(domain.ghosts, 0);
+  for (int i = 0; i < domain.owned; ++i) {
+    bool has_ghost = false;
+    for (std::size_t b = domain.families.start[i]; b < domain.families.start[i + 1]; ++b) {
+      const int j = domain.families.neighbours[b];
+      ASSERT_GE(j, 0);
+      ASSERT_LT(j, domain.owned + domain.ghosts);
+      if (j < domain.owned) continue;
+      has_ghost = true;
+      used[j - domain.owned] = 1;
+    }
+    EXPECT_EQ(has_ghost, i >= domain.interior) << i;
+  }
+  EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "ghosts that nobody needs";
+}
+
+// Two fields side by side: only the one that is asked for travels, owned values stay.
+TEST_P(DomainOf, HaloMovesTheColumnsAskedForAndNoOthers) {
+  constexpr int stride = 5, width = 3;
+  std::vector<double> values(static_cast<std::size_t>(stride) * (domain.owned + domain.ghosts), -7);
+  const auto value = [](Id id, int c, int round) { return 10.0 * static_cast<double>(id) + c + 0.5 * round; };
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < domain.owned; ++i) {
+      for (int c = 0; c < width; ++c) values[stride * i + 1 + c] = value(ids[i], c, round);
+    }
+    domain.halo.start(values.data() + 1, stride, width);
+    domain.halo.finish(values.data() + 1, stride, width);
+    for (int i = 0; i < domain.owned + domain.ghosts; ++i) {
+      for (int c = 0; c < width; ++c) EXPECT_EQ(values[stride * i + 1 + c], value(ids[i], c, round));
+      EXPECT_EQ(values[stride * i], -7);
+      EXPECT_EQ(values[stride * i + 4], -7);
+    }
+  }
+  if (world.size() == 1) {
+    EXPECT_EQ(domain.halo.bytes_sent(), 0);
+  }
+}
+
+TEST_P(DomainOf, SpreadIsThatOfAllPairs) {
+  const std::set<Pair> pairs = brute_force(GetParam());
+  for (int i = 0; i < domain.owned; ++i) {
+    Tensor spread = Tensor::Zero();
+    for (auto pair = pairs.lower_bound({ids[i], -1}); pair != pairs.end() && pair->first == ids[i]; ++pair) {
+      const Vector xi = whole.positions[pair->second] - whole.positions[pair->first];
+      spread += whole.volumes[pair->second] * xi * xi.transpose();
+    }
+    // Both sum in the order of ids, but the compiler may contract one and not the other: some roundings.
+    EXPECT_LE((family_spread(domain, i) - spread).norm(), 1e-14 * spread.norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Points, DomainOf,
+                         testing::Values(dense, Case{600, {0.12, 0.25}, 2}, Case{500, {0.2}, 3},
+                                         Case{40, {0.3, 0.3}, 4},  // some without a neighbour
+                                         Case{3, {1.0}, 5},        // fewer points than ranks
+                                         Case{1, {1.0}, 6}),
+                         [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+// Points exactly at the horizon are neighbours on any number of ranks, in spite of the round-off of their places.
+TEST(Lattice, NeighboursAtExactlyTheHorizonAreIn) {
+  const Communicator world;
+  PointCloud cloud;
+  cloud.block_names = {"block_1"};
+  for (int n = 0; n < 6 * 6 * 6; ++n) {
+    cloud.ids.push_back(n);
+    cloud.positions.emplace_back(0.1 * (n % 6), 0.1 * (n / 6 % 6), 0.1 * (n / 36));
+  }
+  cloud.element_ids = cloud.ids;
+  cloud.volumes.assign(cloud.ids.size(), 1e-3);
+  cloud.blocks.assign(cloud.ids.size(), 0);
+  cloud.sets.assign(cloud.ids.size(), 0);
+  const Domain domain = make_domain(partitioned(slice(cloud, world), world), {0.1}, world);
+  const auto bonds = world.sum(static_cast<std::int64_t>(domain.families.bonds()));
+  EXPECT_EQ(bonds, 2 * 3 * 5 * 6 * 6);
+}
+
+// Every step waits for the rank with most points.
+TEST(Partition, IsEven) {
+  const Communicator world;
+  const Domain domain = domain_of(dense, world);
+  const double mean = static_cast<double>(dense.count) / world.size();
+  EXPECT_NEAR(domain.owned, mean, 0.1 * mean);  // Zoltan's own tolerance
+}
+
+}  // namespace
+}  // namespace strut

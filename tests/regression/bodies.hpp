@@ -1,0 +1,211 @@
+// Small meshes, decks made of parts, and runs whose body can be looked at while they go.
+#pragma once
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "base/errors.hpp"
+#include "deck/deck.hpp"
+#include "io/exodus.hpp"
+#include "setup.hpp"
+#include "temporary_folder.hpp"
+
+namespace strut::regression {
+
+// Hexahedra of edge `spacing`: those of an nx × ny × nz lattice at the origin whose centre is `inside`. They are the
+// block "bar", but for the `plate_layers` at the top, which are the block "plate".
+// Node sets: "foot" at z = 0, "top" at the other end.
+struct Lattice {
+  int nx = 4, ny = 4, nz = 6;
+  double spacing = 1e-3;  // m
+  int plate_layers = 0;
+  std::function<bool(double, double)> inside = [](double, double) { return true; };  // of x, y, m
+
+  io::Mesh mesh() const {
+    io::Mesh mesh;
+    for (int k = 0; k <= nz; ++k) {
+      for (int j = 0; j <= ny; ++j) {
+        for (int i = 0; i <= nx; ++i) mesh.nodes.push_back(spacing * Vector(i, j, k));
+      }
+    }
+    mesh.blocks.push_back({"bar", "HEX8", layers(0, nz - plate_layers), {}});
+    if (plate_layers > 0) mesh.blocks.push_back({"plate", "HEX8", layers(nz - plate_layers, nz), {}});
+    mesh.node_sets = {{"foot", level(0)}, {"top", level(nz)}};
+    return mesh;
+  }
+
+ private:
+  int node(int i, int j, int k) const { return (k * (ny + 1) + j) * (nx + 1) + i; }
+
+  std::vector<int> level(int k) const {
+    std::vector<int> nodes;
+    for (int n = node(0, 0, k); n < node(0, 0, k + 1); ++n) nodes.push_back(n);
+    return nodes;
+  }
+
+  std::vector<std::vector<int>> layers(int begin, int end) const {
+    std::vector<std::vector<int>> elements;
+    for (int k = begin; k < end; ++k) {
+      for (int j = 0; j < ny; ++j) {
+        for (int i = 0; i < nx; ++i) {
+          if (!inside((i + 0.5) * spacing, (j + 0.5) * spacing)) continue;
+          elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+                              node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
+                              node(i, j + 1, k + 1)});
+        }
+      }
+    }
+    return elements;
+  }
+};
+
+// <Parameter> and <ParameterList>.
+inline std::string key(const std::string& name, const std::string& value) {
+  return "<Parameter name=\"" + name + "\" type=\"string\" value=\"" + value + "\"/>\n";
+}
+inline std::string section(const std::string& name, const std::string& content) {
+  return "<ParameterList name=\"" + name + "\">\n" + content + "</ParameterList>\n";
+}
+
+// The conditions that most tests need.
+inline std::string along(const std::string& name, const std::string& type, const std::string& set,
+                         const std::string& axis, const std::string& value) {
+  return section(name, key("Type", type) + key("Node Set", set) + key("Coordinate", axis) + key("Value", value));
+}
+inline std::string plane(const std::string& name, const std::string& type, const std::string& set,
+                         const std::string& point, const std::string& normal) {
+  return section(name, key("Type", type) + key("Node Set", set) + key("Point", point) + key("Normal", normal));
+}
+
+// Copper. Elastic where no yield stress is given.
+inline std::string copper(const std::string& plasticity = "") {
+  const std::string model = plasticity.empty() ? "Elastic Correspondence" : "Elastic Plastic Correspondence";
+  return section("copper", key("Material Model", model) + key("Density", "8930") + key("Young's Modulus", "117e9") +
+                               key("Poisson's Ratio", "0.35") + plasticity);
+}
+
+// The parts of a deck; what is empty is left out.
+struct Parts {
+  std::string mesh_type = "Exodus", mesh_file = "bar.g", degenerate;
+  std::string node_sets;
+  std::string materials = copper();
+  std::string blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+  std::string conditions;
+  std::string times = key("Final Time", "5e-6");
+  std::string verlet = key("Safety Factor", "0.8");
+  std::string output, history;
+
+  std::string text() const {
+    const auto optional = [](const std::string& name, const std::string& content) {
+      return content.empty() ? "" : section(name, content);
+    };
+    const std::string degenerate_points = degenerate.empty() ? "" : key("Degenerate Points", degenerate);
+    return "<ParameterList>\n" +
+           section("Discretization", key("Type", mesh_type) + key("Input Mesh File", mesh_file) + degenerate_points) +
+           optional("Node Sets", node_sets) + section("Materials", materials) + section("Blocks", blocks) +
+           optional("Boundary Conditions", conditions) + section("Solver", times + section("Verlet", verlet)) +
+           optional("Output", output) + optional("History", history) + "</ParameterList>\n";
+  }
+};
+
+// `text` with the first `old` replaced; a test whose `old` is not there is wrong.
+inline std::string changed(std::string text, const std::string& old, const std::string& replacement) {
+  const std::size_t at = text.find(old);
+  if (at == std::string::npos) throw std::logic_error("the deck under test does not hold: " + old);
+  return text.replace(at, old.size(), replacement);
+}
+
+// A folder for a deck, its mesh and its results.
+class RunFolder {
+ public:
+  explicit RunFolder(const Lattice& lattice = {}) : folder_(world) {
+    run_on_root(world, [&] { io::write_mesh(folder_ / "bar.g", lattice.mesh()); });
+  }
+
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    run_on_root(world, [&] { std::ofstream(folder_ / name, std::ios::binary) << text; });
+    return folder_ / name;
+  }
+
+  const Communicator world;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+// A history as columns by name; throws where a line has not as many numbers as the header has names.
+using Table = std::map<std::string, std::vector<double>>;
+inline Table read_history(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line, word;
+  if (!std::getline(file, line)) throw Error(path.string() + ": no header");
+  std::vector<std::string> names;
+  for (std::istringstream header(line); std::getline(header, word, ',');) names.push_back(word);
+  Table table;
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    for (const std::string& name : names) {
+      if (!std::getline(row, word, ',')) throw Error(path.string() + ": a short line: " + line);
+      table[name].push_back(std::stod(word));
+    }
+    if (std::getline(row, word, ',')) throw Error(path.string() + ": a long line: " + line);
+  }
+  return table;
+}
+
+// A run in a test's own hands. `look` sees body and ledger at every step, the first and the last included.
+class Simulation {
+ public:
+  Simulation(const RunFolder& folder, const Parts& parts)
+      : deck(deck::read(folder.write("deck.xml", parts.text()), folder.world)),
+        scene(set_up(deck, folder.world)),
+        solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time) {}
+
+  // The ledger at the final time.
+  Ledger go(const std::function<void(const Ledger&)>& look = [](const Ledger&) {}) {
+    for (;;) {
+      solver.kick(deck.solver.final_time);
+      const Ledger now = solver.ledger();
+      look(now);
+      if (solver.time() >= deck.solver.final_time) return now;
+      solver.move(true);
+    }
+  }
+
+  Body& body() { return scene.body; }
+  const Vector& reference(int i) const { return scene.body.domain.positions[i]; }
+  bool in_set(int i, const std::string& name) const {
+    const PointCloud& cloud = scene.body.domain.cloud;
+    for (std::size_t k = 0; k < cloud.set_names.size(); ++k) {
+      if (cloud.set_names[k] == name) return (cloud.sets[i] >> k & 1) != 0;
+    }
+    throw std::logic_error("no set " + name);
+  }
+  // Over all ranks.
+  double mass() const {
+    double sum = 0;
+    for (int i = 0; i < scene.body.owned(); ++i) sum += scene.body.mass(i);
+    return scene.body.domain.communicator.sum(sum);
+  }
+  double volume() const {
+    double sum = 0;
+    for (int i = 0; i < scene.body.owned(); ++i) sum += scene.body.domain.volumes[i];
+    return scene.body.domain.communicator.sum(sum);
+  }
+
+  deck::Deck deck;
+  Scene scene;
+  CentralDifference solver;
+};
+
+}  // namespace strut::regression

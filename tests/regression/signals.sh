@@ -1,0 +1,122 @@
+#!/bin/sh
+# A run that is ended by a signal stops at the end of a step, and what it has written can be read.
+#   signals.sh strut strut-mesh strut-compare mpirun [its options]
+set -u
+strut=$1 mesh=$2 compare=$3
+shift 3  # "$@" is mpirun now
+
+folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-signals-XXXXXX")
+cd "$folder" || exit 1
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+cat > bar.recipe <<END
+shape = box
+size = 4e-3 4e-3 8e-3
+spacing = 1e-3
+END
+"$mesh" bar.recipe bar.g > mesh.log || { cat mesh.log; exit 1; }
+
+# Hours of computing, if nothing ends it.
+cat > deck.xml <<END
+<ParameterList>
+  <ParameterList name="Discretization">
+    <Parameter name="Type" type="string" value="Exodus"/>
+    <Parameter name="Input Mesh File" type="string" value="bar.g"/>
+  </ParameterList>
+  <ParameterList name="Materials">
+    <ParameterList name="copper">
+      <Parameter name="Material Model" type="string" value="Elastic Correspondence"/>
+      <Parameter name="Density" type="double" value="8930"/>
+      <Parameter name="Young's Modulus" type="double" value="117e9"/>
+      <Parameter name="Poisson's Ratio" type="double" value="0.35"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Blocks">
+    <ParameterList name="bar">
+      <Parameter name="Block Names" type="string" value="all"/>
+      <Parameter name="Material" type="string" value="copper"/>
+      <Parameter name="Horizon" type="double" value="2.01e-3"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Boundary Conditions">
+    <ParameterList name="twist">
+      <Parameter name="Type" type="string" value="Initial Velocity"/>
+      <Parameter name="Coordinate" type="string" value="x"/>
+      <Parameter name="Value" type="string" value="10*sin(500*z)"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="Solver">
+    <Parameter name="Final Time" type="double" value="10"/>
+  </ParameterList>
+  <ParameterList name="Output">
+    <Parameter name="Output Filename" type="string" value="result.e"/>
+    <Parameter name="Output Frequency" type="int" value="200"/>
+    <ParameterList name="Output Variables">
+      <Parameter name="Displacement" type="bool" value="true"/>
+    </ParameterList>
+  </ParameterList>
+  <ParameterList name="History">
+    <Parameter name="Filename" type="string" value="history.csv"/>
+    <Parameter name="Frequency" type="int" value="20"/>
+  </ParameterList>
+</ParameterList>
+END
+
+# Until the run has written 20 lines, or 20 s.
+wait_for_lines() {
+  tries=200
+  while [ "$(wc -l 2> /dev/null < history.csv || echo 0)" -lt 20 ]; do
+    tries=$((tries - 1))
+    [ $tries -gt 0 ] || { fail "$1: the run has not begun"; cat log; return; }
+    sleep 0.1
+  done
+}
+
+# Every line ends and has as many numbers as the header has names; the last frame of the result is of the last line.
+check_results() {
+  "$compare" result.e result.e > compare.log 2>&1 || { fail "$1: the result cannot be read"; cat compare.log; }
+  "$compare" history.csv history.csv > compare.log 2>&1 || { fail "$1: the history cannot be read"; cat compare.log; }
+  [ -z "$(tail -c 1 history.csv)" ] || fail "$1: the last line of the history is cut off"
+  awk -F , 'NR == 1 { n = NF } NF != n { exit 1 }' history.csv || fail "$1: the history has lines of different lengths"
+}
+
+# run NAME TARGET SIGNAL command…: starts the command, sends SIGNAL to the process whose number the file TARGET holds,
+# leaves the exit status in $status. Each rank writes its number to rank.N.
+run() {
+  name=$1 target=$2 signal=$3
+  shift 3
+  rm -f history.csv result.e rank.* pid
+  "$@" > log 2>&1 &
+  echo $! > pid
+  wait_for_lines "$name"
+  kill "-$signal" "$(cat "$target")" || fail "$name: no process to signal"
+  wait "$(cat pid)"
+  status=$?
+  check_results "$name"
+}
+
+# $$ stays the number of the process through exec.
+cat > start <<END
+echo \$\$ > rank.\${OMPI_COMM_WORLD_RANK:-\${PMI_RANK:-0}}
+exec "$strut" deck.xml
+END
+
+for signal in TERM INT; do
+  run "one process, SIG$signal" pid $signal "$strut" deck.xml
+  [ $status -eq 3 ] || { fail "one process, SIG$signal: exit status $status, expected 3"; cat log; }
+done
+
+# What mpirun makes of its ranks' exit status is its own affair; it may not be success.
+run "SIGTERM to the second of two ranks" rank.1 TERM "$@" -np 2 sh ./start
+[ $status -ne 0 ] || fail "SIGTERM to a rank: mpirun reports success"
+run "SIGINT to mpirun" pid INT "$@" -np 2 sh ./start
+[ $status -ne 0 ] || fail "SIGINT to mpirun: mpirun reports success"
+
+[ $failures -eq 0 ] && echo "passed"
+exit $((failures > 0))

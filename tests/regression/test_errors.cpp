@@ -1,0 +1,271 @@
+// The likeliest mistakes of a deck, and a run that fails: every rank throws the same text, and the text tells the user
+// where the mistake is, what stands there, what was expected and which name was meant.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iterator>
+#include <optional>
+
+#include "bodies.hpp"
+#include "simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A deck without mistakes; results go into the folder of the test, whose path stands for "@".
+Parts right_parts() {
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "400e6"));
+  parts.blocks =
+      section("metal", key("Block Names", "bar plate") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20") +
+                     along("wall", "Prescribed Displacement", "foot", "z", "0");
+  parts.times = key("Initial Time", "0") + key("Final Time", "5e-6");
+  parts.output = key("Output Filename", "@/result.e") + key("Output Frequency", "5") +
+                 section("Output Variables", key("Displacement", "true") + key("Von_Mises_Stress", "true"));
+  parts.history =
+      key("Filename", "@/history.csv") + key("Frequency", "1") + section("Variables", key("Max_Displacement", "true"));
+  return parts;
+}
+
+class Mistake : public testing::Test {
+ protected:
+  const RunFolder folder{[] {
+    Lattice lattice;
+    lattice.plate_layers = 2;
+    return lattice;
+  }()};
+  const Communicator& world = folder.world;
+
+  fs::path write_deck(std::string text) const {
+    const std::string here = folder.operator/("").parent_path().string();
+    for (std::size_t at; (at = text.find('@')) != std::string::npos;) text.replace(at, 1, here);
+    return folder.write("deck.xml", text);
+  }
+
+  // What this rank throws; nothing where it does not throw.
+  std::optional<std::string> outcome(const std::string& text) const {
+    const fs::path deck = write_deck(text);
+    testing::internal::CaptureStdout();
+    std::optional<std::string> error;
+    try {
+      run(deck, world);
+    } catch (const Error& thrown) {
+      error = thrown.what();
+    }
+    testing::internal::GetCapturedStdout();
+    return error;
+  }
+
+  // The text of the Error that every rank throws, without the folder's path.
+  std::string error(const std::string& text) const {
+    const std::optional<std::string> mine = outcome(text);
+    EXPECT_TRUE(mine.has_value()) << "rank " << world.rank() << " throws nothing";
+    std::string first = mine.value_or("");
+    world.broadcast(first);
+    EXPECT_EQ(mine.value_or(""), first) << "rank " << world.rank() << " throws another text than rank 0";
+    const std::string prefix = (folder / "").string();
+    for (std::size_t at; (at = first.find(prefix)) != std::string::npos;) first.erase(at, prefix.size());
+    return first;
+  }
+
+  void expect_error(const std::string& text, const std::vector<std::string>& fragments) const {
+    const std::string shown = error(text);
+    for (const std::string& fragment : fragments) {
+      EXPECT_NE(shown.find(fragment), std::string::npos) << "expected \"" << fragment << "\" in:\n" << shown;
+    }
+  }
+};
+
+// Without this none of the others would prove that it is the mistake that is refused.
+TEST_F(Mistake, NoneRuns) {
+  EXPECT_EQ(outcome(right_parts().text()).value_or("no error"), "no error");
+  if (world.rank() != 0) return;
+  EXPECT_GE(io::read_result(folder / "result.e").times.size(), 3u);
+  EXPECT_DOUBLE_EQ(read_history(folder / "history.csv").at("Time").back(), 5e-6);
+}
+
+TEST_F(Mistake, MisspeltKey) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"Horizon\"", "\"Horizn\""),
+               {"deck.xml", "Blocks > metal > Horizn: unknown key (did you mean 'Horizon'?)",
+                "Blocks > metal > Horizon: missing", "in m"});
+  expect_error(changed(deck, "\"Boundary Conditions\"", "\"Boundary Condition\""),
+               {"Boundary Condition: unknown section (did you mean 'Boundary Conditions'?)"});
+  expect_error(changed(deck, "\"Output Frequency\"", "\"Output Frequenzy\""),
+               {"Output > Output Frequenzy: unknown key (did you mean 'Output Frequency'?)"});
+}
+
+TEST_F(Mistake, HorizonInAnotherUnit) {
+  const std::string deck = right_parts().text();
+  const std::vector<std::string> both = {"Blocks > metal > Horizon", "mean spacing is 0.001 m", "between 1 and 20"};
+  for (const auto& [written, shown] :
+       {std::pair("2.01e-6", "2.01e-06 m"), {"2.01", "2.01 m"}, {"0.9e-3", "0.0009 m"}}) {
+    const std::string wrong = changed(deck, "2.01e-3", written);
+    expect_error(wrong, both);
+    expect_error(wrong, {shown, "block bar", "block plate"});
+  }
+}
+
+TEST_F(Mistake, BlocksOfDeckAndMeshDiffer) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "bar plate", "bar plat"),
+               {"Blocks > metal > Block Names", "no block 'plat' (did you mean 'plate'?)", "bar, plate",
+                "block 'plate' of the mesh has no material"});
+  expect_error(changed(deck, "bar plate", "plate"), {"Blocks: block 'bar' of the mesh has no material", "Block Names"});
+}
+
+TEST_F(Mistake, NodeSetThatIsNotThere) {
+  Parts parts = right_parts();
+  parts.conditions += along("pull", "Body Force", "tob", "x", "1");
+  expect_error(changed(parts.text(), "\"foot\"", "\"fooot\""),
+               {"Boundary Conditions > wall > Node Set", "'fooot' (did you mean 'foot'?)", "all, foot, top, bar, plate",
+                "Boundary Conditions > pull > Node Set", "'tob' (did you mean 'top'?)"});
+}
+
+TEST_F(Mistake, UnknownMaterial) {
+  const std::string deck = right_parts().text();
+  expect_error(
+      changed(deck, "\"Material\" type=\"string\" value=\"copper\"", "\"Material\" type=\"string\" value=\"coper\""),
+      {"Blocks > metal > Material: 'coper'", "did you mean 'copper'", "expected one of Materials: copper"});
+  expect_error(changed(deck, "Elastic Plastic Corr", "Elastic Plastik Corr"),
+               {"Materials > copper > Material Model: 'Elastic Plastik Correspondence'",
+                "did you mean 'Elastic Plastic Correspondence'", "expected one of"});
+}
+
+TEST_F(Mistake, ValuesOutsideTheirRange) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"8930\"", "\"-8930\""), {"Materials > copper > Density: '-8930'", "> 0", "kg/m³"});
+  expect_error(changed(deck, "\"5e-6\"", "\"-5e-6\""),
+               {"Solver > Final Time: '-5e-06'", "expected > Initial Time (0), in s"});
+}
+
+TEST_F(Mistake, MeshThatIsNoMesh) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "bar.g", "baar.g"), {"Discretization > Input Mesh File", "'baar.g' does not exist"});
+  expect_error(changed(deck, "bar.g", "."), {"Discretization > Input Mesh File", "not a file"});
+  folder.write("text.g", "0 0 0 1 1e-9\n");
+  expect_error(changed(deck, "bar.g", "text.g"), {"text.g", "not an Exodus"});
+  run_on_root(world, [&] {
+    fs::copy_file(folder / "bar.g", folder / "cut.g");
+    fs::resize_file(folder / "cut.g", fs::file_size(folder / "bar.g") / 2);
+  });
+  expect_error(changed(deck, "bar.g", "cut.g"), {"cut.g", "truncated"});
+}
+
+TEST_F(Mistake, NoPoints) {
+  Parts parts = right_parts();
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  folder.write("points.txt", "# x y z block volume\n");
+  expect_error(parts.text(), {"points.txt", "no points"});
+  run_on_root(world, [&] {
+    io::Mesh mesh = Lattice().mesh();
+    mesh.blocks[0].elements.clear();
+    io::write_mesh(folder / "empty.g", mesh);
+  });
+  expect_error(changed(right_parts().text(), "bar.g", "empty.g"), {"empty.g", "no elements"});
+}
+
+TEST_F(Mistake, OutputThatCannotBeWritten) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "@/result.e", "@/nowhere/result.e"), {"nowhere/result.e", "cannot create"});
+  expect_error(changed(deck, "@/history.csv", "@/nowhere/history.csv"), {"nowhere/history.csv", "cannot create"});
+  run_on_root(world, [&] {
+    fs::create_directory(folder / "taken.e");
+    fs::create_directory(folder / "taken.csv");
+  });
+  expect_error(changed(deck, "@/result.e", "@/taken.e"), {"taken.e", "cannot create"});
+  expect_error(changed(deck, "@/history.csv", "@/taken.csv"), {"taken.csv", "cannot create"});
+}
+
+TEST_F(Mistake, UnknownVariables) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"Displacement\"", "\"Displacment\""),
+               {"Output > Output Variables > Displacment", "did you mean 'Displacement'", "Velocity", "Cauchy_Stress",
+                "Equivalent_Plastic_Strain"});
+  expect_error(changed(deck, "\"Max_Displacement\"", "\"Max_Displacment\""),
+               {"History > Variables > Max_Displacment", "did you mean 'Displacement'"});
+  expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
+               {"History > Variables > Displacement", "expected Max_ or Min_"});
+}
+
+// A block and, far away, three points that have only each other.
+std::string points_with_stragglers() {
+  std::ostringstream text;
+  for (int n = 0; n < 4 * 4 * 6; ++n) text << n % 4 << "e-3 " << n / 4 % 4 << "e-3 " << n / 16 << "e-3 7 1e-9\n";
+  for (int n = 0; n < 3; ++n) text << "0.5 0.25 " << n << "e-3 7 1e-9\n";
+  return text.str();
+}
+
+Parts straggling_parts(const std::string& degenerate) {
+  Parts parts = right_parts();
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  parts.degenerate = degenerate;
+  parts.blocks = changed(parts.blocks, "bar plate", "block_7");
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20");
+  return parts;
+}
+
+TEST_F(Mistake, PointsWithTooFewNeighbours) {
+  folder.write("points.txt", points_with_stragglers());
+  expect_error(straggling_parts("Error").text(),
+               {"Discretization > Degenerate Points", "3 points have too few neighbours", "of block block_7",
+                "(0.5, 0.25, ", "has 2 neighbours: fewer than four", "\"Drop\""});
+  const std::string shown = error(straggling_parts("Error").text());
+  EXPECT_TRUE(shown.find("element 97 ") != std::string::npos || shown.find("element 98 ") != std::string::npos ||
+              shown.find("element 99 ") != std::string::npos)
+      << shown;
+}
+
+TEST_F(Mistake, PointsWithTooFewNeighboursAreDroppedOnRequest) {
+  folder.write("points.txt", points_with_stragglers());
+  const fs::path deck = write_deck(straggling_parts("Drop").text());
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run(deck, world));
+  const std::string shown = testing::internal::GetCapturedStdout();
+  if (world.rank() != 0) return;
+  EXPECT_NE(shown.find("dropped 3 points"), std::string::npos) << shown;
+  EXPECT_EQ(io::read_result(folder / "result.e").element[0][0].size(), 96u);
+}
+
+TEST_F(Mistake, AllPointsDropped) {
+  folder.write("points.txt", "0 0 0 7 1e-9\n1e-3 0 0 7 1e-9\n2e-3 0 0 7 1e-9\n3e-3 0 0 7 1e-9\n");
+  expect_error(straggling_parts("Drop").text(), {"Discretization > Degenerate Points", "no point is left"});
+}
+
+TEST_F(Mistake, SeveralAreReportedAtOnce) {
+  std::string deck = right_parts().text();
+  for (const auto& [old, replacement] : {std::pair("\"Horizon\"", "\"Horizn\""),
+                                         {"\"8930\"", "\"-8930\""},
+                                         {"bar.g", "baar.g"},
+                                         {"\"5e-6\"", "\"-5e-6\""},
+                                         {"Prescribed Displ", "Prescribd Displ"}}) {
+    deck = changed(deck, old, replacement);
+  }
+  expect_error(deck, {"deck.xml", "6 problems", "Blocks > metal > Horizn", "Blocks > metal > Horizon: missing",
+                      "Materials > copper > Density: '-8930'", "'baar.g' does not exist", "Solver > Final Time",
+                      "Boundary Conditions > wall > Type: 'Prescribd Displacement'"});
+}
+
+// The step is some ten times the stable one: the bar blows up within a few steps.
+TEST_F(Mistake, StepFarAboveTheStableOne) {
+  Parts parts = right_parts();
+  parts.verlet = key("Fixed dt", "2e-6");
+  parts.times = key("Final Time", "1e-3");
+  parts.output = changed(parts.output, "\"5\"", "\"1\"");
+  expect_error(parts.text(), {"at t = ", " s, step ", " of 2e-06 s: element ", " of block ", "reference position (",
+                              "now at (", "Likely causes: ", "step above the stable one"});
+  if (world.rank() != 0) return;
+  const io::ExodusResult result = io::read_result(folder / "result.e");
+  ASSERT_GE(result.times.size(), 2u);
+  EXPECT_EQ(result.times[0], 0);
+  EXPECT_EQ(result.nodal[0].size(), result.times.size());
+  EXPECT_EQ(read_history(folder / "history.csv").at("Time"), result.times);  // both were written at every step
+}
+
+}  // namespace
+}  // namespace strut::regression

@@ -1,0 +1,230 @@
+// Decks that are right: every key into the structs, and every default.
+#include <gtest/gtest.h>
+
+#include "deck_under_test.hpp"
+
+namespace strut::deck {
+namespace {
+
+std::string with_hardening(const std::string& parameters) {
+  return changed(small_deck, R"(value="50e6"/>)",
+                 R"(value="50e6"/><ParameterList name="Hardening">)" + parameters + "</ParameterList>");
+}
+
+materials::FlowStress flow(const Deck& deck) { return std::get<materials::J2>(deck.materials.front().law).flow; }
+
+TEST(Deck, ReadsPoints) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  EXPECT_EQ(deck.file, folder / "deck.xml");
+  EXPECT_EQ(deck.discretization.type, MeshType::text);
+  EXPECT_EQ(deck.discretization.mesh, folder / "bar.txt");
+  EXPECT_EQ(deck.discretization.influence, Influence::cubic_decay);
+  EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::drop);
+  ASSERT_EQ(deck.node_sets.size(), 1u);
+  EXPECT_EQ(deck.node_sets[0].name, "low");
+  EXPECT_NE(deck.node_sets[0].where(0, 0, 0.5e-3, 0), 0);
+  EXPECT_EQ(deck.node_sets[0].where(0, 0, 2e-3, 0), 0);
+}
+
+TEST(Deck, ReadsMaterials) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  ASSERT_EQ(deck.materials.size(), 2u);
+  const Material& copper = deck.materials[0];
+  EXPECT_EQ(copper.name, "copper");
+  EXPECT_EQ(copper.density, 8960);
+  EXPECT_EQ(copper.stabilization, StabilizationType::silling);
+  EXPECT_EQ(copper.stabilization_coefficient, 0.05);
+  const auto& j2 = std::get<materials::J2>(copper.law);
+  EXPECT_DOUBLE_EQ(j2.bulk, 110e9 / (3 * (1 - 2 * 0.296)));
+  EXPECT_DOUBLE_EQ(j2.shear, 110e9 / (2 * 1.296));
+  EXPECT_EQ(j2.flow.yield_stress, 50e6);
+  EXPECT_EQ(std::get<materials::PowerHardening>(j2.flow.hardening).reference_strain, 0.00218);
+  EXPECT_EQ(std::get<materials::PowerHardening>(j2.flow.hardening).exponent, 0.1);
+  EXPECT_EQ(std::get<materials::JohnsonCookRate>(j2.flow.rate).reference_rate, 2);
+  EXPECT_EQ(std::get<materials::JohnsonCookRate>(j2.flow.rate).coefficient, 0.03);
+  EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).bulk, 160e9);
+  EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).shear, 80e9);
+  EXPECT_EQ(deck.materials[1].stabilization, StabilizationType::none);
+}
+
+TEST(Deck, ReadsBlocks) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  ASSERT_EQ(deck.blocks.size(), 2u);
+  EXPECT_EQ(deck.blocks[0].name, "foam");
+  EXPECT_EQ(deck.blocks[0].block_names, (std::vector<std::string>{"block_1", "block_3"}));
+  EXPECT_EQ(deck.blocks[0].material, 0);
+  EXPECT_EQ(deck.blocks[0].horizon, 0.0065);
+  EXPECT_EQ(deck.blocks[1].material, 1);
+}
+
+TEST(Deck, ReadsConditions) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  ASSERT_EQ(deck.conditions.size(), 3u);
+  const Condition &flight = deck.conditions[0], &pull = deck.conditions[1], &wall = deck.conditions[2];
+  EXPECT_EQ(flight.name, "flight");
+  EXPECT_EQ(flight.type, ConditionType::initial_velocity);
+  EXPECT_EQ(flight.node_set, "all");
+  EXPECT_EQ(flight.component, 2);
+  EXPECT_EQ(flight.value(1, 2, 3, 4), -50);
+  EXPECT_EQ(pull.type, ConditionType::prescribed_displacement);
+  EXPECT_EQ(pull.node_set, "low");
+  EXPECT_EQ(pull.component, 1);
+  EXPECT_DOUBLE_EQ(pull.value(0, 2, 0, 3), 6e-3);
+  EXPECT_EQ(wall.type, ConditionType::rigid_plane);
+  EXPECT_EQ(wall.point, Vector(0, 0, -1e-3));
+  EXPECT_EQ(wall.normal, Vector(0, 0, 2));
+}
+
+TEST(Deck, ReadsEveryTypeOfCondition) {
+  const DeckFolder folder;
+  const std::vector<std::pair<std::string, ConditionType>> components = {
+      {"Initial Velocity", ConditionType::initial_velocity},
+      {"Prescribed Displacement", ConditionType::prescribed_displacement},
+      {"Prescribed Velocity", ConditionType::prescribed_velocity},
+      {"Body Force", ConditionType::body_force}};
+  for (const auto& [name, type] : components) {
+    EXPECT_EQ(folder.read(changed(full_deck, "Initial Velocity", name)).conditions[0].type, type);
+  }
+  const Deck deck = folder.read(changed(full_deck, "Rigid Plane", "Symmetry Plane"));
+  EXPECT_EQ(deck.conditions[2].type, ConditionType::symmetry_plane);
+}
+
+TEST(Deck, ReadsSolverOutputAndHistory) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  EXPECT_EQ(deck.solver.initial_time, 1e-4);
+  EXPECT_EQ(deck.solver.final_time, 3e-4);
+  EXPECT_EQ(deck.solver.fixed_dt, 1e-8);
+  EXPECT_TRUE(deck.output.enabled);
+  EXPECT_EQ(deck.output.file, "bar.e");
+  EXPECT_EQ(deck.output.frequency, 100);
+  EXPECT_FALSE(deck.output.interval);
+  EXPECT_EQ(deck.output.variables, (std::vector<std::string>{"Displacement", "Von_Mises_Stress"}));
+  EXPECT_TRUE(deck.history.enabled);
+  EXPECT_EQ(deck.history.file, "bar.csv");
+  EXPECT_FALSE(deck.history.frequency);
+  EXPECT_EQ(deck.history.interval, 1e-6);
+  EXPECT_EQ(deck.history.variables, std::vector<std::string>{"Max_Displacement"});
+}
+
+TEST(Deck, HasDefaults) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(small_deck);
+  EXPECT_EQ(deck.discretization.influence, Influence::one);
+  EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::error);
+  EXPECT_TRUE(deck.node_sets.empty());
+  EXPECT_TRUE(deck.conditions.empty());
+  EXPECT_EQ(deck.materials[0].stabilization, StabilizationType::silling);
+  EXPECT_EQ(deck.materials[0].stabilization_coefficient, 0.02);
+  EXPECT_TRUE(std::holds_alternative<materials::NoHardening>(flow(deck).hardening));
+  EXPECT_TRUE(std::holds_alternative<materials::NoRate>(flow(deck).rate));
+  EXPECT_EQ(deck.solver.initial_time, 0);
+  EXPECT_FALSE(deck.solver.fixed_dt);
+  EXPECT_EQ(deck.solver.safety_factor, 0.8);
+  EXPECT_FALSE(deck.output.enabled);
+  EXPECT_FALSE(deck.history.enabled);
+}
+
+TEST(Deck, HasDefaultIntervals) {
+  const DeckFolder folder;
+  const std::string output = changed(full_deck, R"(<Parameter name="Output Frequency" type="int" value="100"/>)", "");
+  EXPECT_DOUBLE_EQ(folder.read(output).output.interval.value(), 1e-5);
+  const std::string history = changed(full_deck, R"(<Parameter name="Interval" type="double" value="1e-6"/>)", "");
+  EXPECT_DOUBLE_EQ(folder.read(history).history.interval.value(), 2e-7);
+}
+
+TEST(Deck, KeepsTheSuffixOfTheOutput) {
+  const DeckFolder folder;
+  EXPECT_EQ(folder.read(changed(full_deck, R"(value="bar"/>)", R"(value="out/bar.exo"/>)")).output.file, "out/bar.exo");
+}
+
+TEST(Deck, ReadsEveryHardening) {
+  const DeckFolder folder;
+  const auto hardening = [&](const std::string& type, const std::string& keys) {
+    const std::string parameters = R"(<Parameter name="Type" type="string" value=")" + type + R"("/>)" + keys;
+    return flow(folder.read(with_hardening(parameters))).hardening;
+  };
+  const auto key = [](const std::string& name, const std::string& value) {
+    return "<Parameter name=\"" + name + "\" type=\"double\" value=\"" + value + "\"/>";
+  };
+  EXPECT_TRUE(std::holds_alternative<materials::NoHardening>(hardening("None", "")));
+  EXPECT_EQ(std::get<materials::LinearHardening>(hardening("Linear", key("Hardening Modulus", "1e9"))).modulus, 1e9);
+  const auto ludwik =
+      std::get<materials::LudwikHardening>(hardening("Ludwik", key("Modulus", "3e8") + key("Exponent", "0.31")));
+  EXPECT_EQ(ludwik.modulus, 3e8);
+  EXPECT_EQ(ludwik.exponent, 0.31);
+  const auto voce = std::get<materials::VoceHardening>(
+      hardening("Voce", key("Saturation Stress", "2e8") + key("Saturation Rate", "12")));
+  EXPECT_EQ(voce.saturation, 2e8);
+  EXPECT_EQ(voce.rate, 12);
+}
+
+TEST(Deck, ReadsTablesAsTextAndAsArrays) {
+  const DeckFolder folder;
+  const std::string type = R"(<Parameter name="Type" type="string" value="Table"/>)";
+  const std::string text = R"(<Parameter name="Strains" type="string" value="0 0.1, 0.5"/>
+                              <Parameter name="Stresses" type="string" value="50e6 60e6 70e6"/>)";
+  const std::string arrays = R"xml(<Parameter name="Strains" type="Array(double)" value="{0, 0.1, 0.5}"/>
+                                <Parameter name="Stresses" type="Array(int)" value="{50000000,60000000,70000000}"/>)xml";
+  for (const std::string& keys : {text, arrays}) {
+    const materials::FlowStress stress = flow(folder.read(with_hardening(type + keys)));
+    EXPECT_EQ(stress.yield_stress, 50e6);
+    EXPECT_EQ(std::get<materials::TableHardening>(stress.hardening).strains, (std::vector<double>{0, 0.1, 0.5}));
+    EXPECT_EQ(std::get<materials::TableHardening>(stress.hardening).stresses, (std::vector<double>{50e6, 60e6, 70e6}));
+  }
+  const std::string no_yield = R"(<Parameter name="Yield Stress" type="double" value="50e6"/>)";
+  EXPECT_EQ(flow(folder.read(changed(with_hardening(type + text), no_yield, ""))).yield_stress, 50e6);
+}
+
+TEST(Deck, ReadsThePowerLawOfRate) {
+  const DeckFolder folder;
+  const std::string deck = changed(changed(full_deck, "Johnson-Cook", "Power Law"), "\"Coefficient\"", "\"Exponent\"");
+  const auto rate = std::get<materials::PowerRate>(flow(folder.read(deck)).rate);
+  EXPECT_EQ(rate.reference_rate, 2);
+  EXPECT_EQ(rate.exponent, 0.03);
+}
+
+// Any two of the four constants give the same material.
+TEST(Deck, TakesAnyTwoElasticConstants) {
+  const DeckFolder folder;
+  const double K = 160e9, G = 80e9, E = 9 * K * G / (3 * K + G), nu = (3 * K - 2 * G) / (2 * (3 * K + G));
+  const std::vector<std::pair<std::string, double>> constants = {
+      {"Bulk Modulus", K}, {"Shear Modulus", G}, {"Young's Modulus", E}, {"Poisson's Ratio", nu}};
+  const auto key = [](const std::pair<std::string, double>& one) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "name=\"" << one.first << "\" type=\"double\" value=\"" << one.second << "\"";
+    return text.str();
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      std::string text = changed(full_deck, R"(name="Bulk Modulus" type="double" value="160e9")", key(constants[i]));
+      text = changed(text, R"(name="Shear Modulus" type="double" value="80e9")", key(constants[j]));
+      const auto elastic = std::get<materials::Elastic>(folder.read(text).materials[1].law);
+      EXPECT_NEAR(elastic.bulk, K, 1e-12 * K) << constants[i].first << ", " << constants[j].first;
+      EXPECT_NEAR(elastic.shear, G, 1e-12 * G) << constants[i].first << ", " << constants[j].first;
+    }
+  }
+}
+
+TEST(Deck, ReadsTheTaylorDecks) {
+  const DeckFolder folder;
+  folder.write("bar.g", "");
+  const std::filesystem::path inputs = std::filesystem::path(STRUT_SOURCE_DIR) / "inputs" / "taylor";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(inputs)) {
+    if (entry.path().extension() != ".xml") continue;
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    EXPECT_EQ(folder.error(text.str()), "") << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 9);
+}
+
+}  // namespace
+}  // namespace strut::deck

@@ -1,0 +1,78 @@
+// Bodies of points on a lattice, for tests.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "mechanics/mechanics.hpp"
+#include "points/partition.hpp"
+
+namespace strut {
+
+struct LatticeSpec {
+  Eigen::Array3i cells{8, 8, 8};
+  double spacing = 1;
+  double horizon = 3.015;   // in spacings
+  double perturbation = 0;  // the largest shift of a point in each direction, in spacings
+  Influence influence = Influence::one;
+  BlockMaterial material;
+};
+
+inline materials::AnyLaw elastic(double young, double poisson) {
+  return materials::Elastic{young / (3 * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
+}
+
+// All points on rank 0; the partition spreads them. Volumes are those of the lattice.
+inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& world) {
+  PointCloud cloud;
+  cloud.block_names = {"block"};
+  if (world.rank() != 0) return cloud;
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> shift(-spec.perturbation, spec.perturbation);
+  for (int k = 0; k < spec.cells[2]; ++k) {
+    for (int j = 0; j < spec.cells[1]; ++j) {
+      for (int i = 0; i < spec.cells[0]; ++i) {
+        const double dx = shift(engine), dy = shift(engine), dz = shift(engine);
+        cloud.ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
+        cloud.element_ids.push_back(cloud.ids.back() + 1);
+        cloud.positions.push_back(spec.spacing * Vector(i + 0.5 + dx, j + 0.5 + dy, k + 0.5 + dz));
+        cloud.volumes.push_back(std::pow(spec.spacing, 3));
+        cloud.blocks.push_back(0);
+        cloud.sets.push_back(0);
+      }
+    }
+  }
+  return cloud;
+}
+
+inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
+  PointCloud cloud = partitioned(lattice_cloud(spec, world), world);
+  Domain domain = make_domain(std::move(cloud), {spec.horizon * spec.spacing}, world);
+  return make_body(std::move(domain), spec.influence, {spec.material});
+}
+
+// Puts every owned point at place(X).
+inline void deform(Body& body, const std::function<Vector(const Vector&)>& place) {
+  for (int i = 0; i < body.owned(); ++i) {
+    body.sites[i].current.head<3>() = place(body.domain.positions[i]).array();
+  }
+}
+
+// Whether the whole family of X, and the families of its neighbours, lie inside the lattice.
+inline bool is_deep(const LatticeSpec& spec, const Vector& X, double margin) {
+  const Vector size = spec.spacing * spec.cells.cast<double>().matrix();
+  const double rim = margin * spec.spacing;
+  return (X.array() > rim).all() && (X.array() < size.array() - rim).all();
+}
+
+// The largest value over the owned points of all ranks.
+template <class Value>
+double largest_over(const Body& body, Value&& value) {
+  double largest = 0;
+  for (int i = 0; i < body.owned(); ++i) largest = std::max(largest, value(i));
+  return body.domain.communicator.max(largest);
+}
+
+}  // namespace strut

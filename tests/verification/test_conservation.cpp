@@ -1,0 +1,109 @@
+// What must not change: momentum to round-off, energy with the order of the scheme; and the limit of the step.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "base/errors.hpp"
+#include "lattice.hpp"
+#include "solvers/central_difference.hpp"
+
+namespace strut {
+namespace {
+
+BlockMaterial copper(bool plastic) {
+  const materials::Elastic e = std::get<materials::Elastic>(elastic(110e9, 0.296));
+  if (!plastic) return {8960, e, 0.02};
+  const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
+  return {8960, materials::J2{e.bulk, e.shear, flow}, 0.02};
+}
+
+// A free block whose ends fly apart and shear, smoothly.
+void throw_apart(Body& body, double speed, double size) {
+  for (int i = 0; i < body.owned(); ++i) {
+    const Vector x = body.domain.positions[i] / size * M_PI;
+    body.velocity[i] = speed * Vector(std::cos(x[0]) + 0.3, 0.5 * std::cos(x[2]), -0.4 * std::cos(x[1]));
+  }
+}
+
+struct Outcome {
+  double momentum_drift, balance_error;
+};
+
+Outcome run_free_block(bool plastic, double speed, double safety, double periods) {
+  const Communicator world;
+  LatticeSpec spec{{9, 9, 9}, 1e-3, 2.515, 0.1, Influence::one, copper(plastic)};
+  Body body = lattice_body(spec, world);
+  throw_apart(body, speed, 9e-3);
+  CentralDifference solver(body, {}, {0, safety}, 0);
+  const double final_time = periods * 9e-3 / std::sqrt(110e9 / 8960);
+  Vector start = Vector::Zero();
+  Outcome outcome{0, 0};
+  for (;;) {
+    solver.kick(final_time);
+    const Ledger now = solver.ledger();
+    if (solver.steps() == 0) start = now.momentum;
+    outcome.momentum_drift = std::max(outcome.momentum_drift, (now.momentum - start).norm() / start.norm());
+    outcome.balance_error = std::max(outcome.balance_error, now.balance_error);
+    if (solver.time() >= final_time) return outcome;
+    solver.move(true);
+  }
+}
+
+TEST(Conservation, ElasticBlock) {
+  const Outcome coarse = run_free_block(false, 1, 0.8, 3), fine = run_free_block(false, 1, 0.4, 3);
+  // Forces are pairs, so only the round-off of some hundred thousand additions is left.
+  EXPECT_LT(coarse.momentum_drift, 1e-12);
+  EXPECT_LT(fine.balance_error, 2e-3);
+  EXPECT_NEAR(std::log2(coarse.balance_error / fine.balance_error), 2, 0.3);  // central differences
+}
+
+TEST(Conservation, PlasticBlock) {
+  const Outcome coarse = run_free_block(true, 50, 0.8, 3), fine = run_free_block(true, 50, 0.4, 3);
+  EXPECT_LT(coarse.momentum_drift, 1e-12);
+  EXPECT_LT(coarse.balance_error, 1e-2);
+  EXPECT_LT(fine.balance_error, 0.7 * coarse.balance_error);  // first order at least, where yielding starts and stops
+}
+
+// At 0.99 of the estimated limit a noisy elastic block stays bounded over a thousand steps; above it, it does not.
+bool stays_bounded(double factor) {
+  const Communicator world;
+  LatticeSpec spec{{7, 7, 7}, 1e-3, 2.015, 0, Influence::one, copper(false)};
+  Body body = lattice_body(spec, world);
+  const double limit = CentralDifference(body, {}, {0, 1}, 0).stable_step();
+  for (int i = 0; i < body.owned(); ++i) {
+    std::mt19937 engine(static_cast<unsigned>(body.domain.cloud.ids[i]));
+    std::uniform_real_distribution<double> uniform(-1e-3, 1e-3);
+    body.velocity[i] = Vector(uniform(engine), uniform(engine), uniform(engine));
+  }
+  CentralDifference solver(body, {}, {factor * limit, 0}, 0);
+  try {
+    for (int n = 0; n < 1000; ++n) {
+      solver.kick(1e9);
+      solver.move(false);
+    }
+  } catch (const Error&) {
+    return false;
+  }
+  return largest_over(body, [&](int i) { return body.velocity[i].norm(); }) < 1;
+}
+
+TEST(StableStep, LimitIsTheLimit) {
+  EXPECT_TRUE(stays_bounded(0.99));
+  EXPECT_FALSE(stays_bounded(1.05));
+}
+
+// A lattice's own formula: for the dispersion of Waves.DispersionOfTheOperator no bulk wave is faster than the limit.
+TEST(StableStep, ScalesWithSpacingAndSpeed) {
+  const Communicator world;
+  const auto limit = [&](double spacing, double young) {
+    LatticeSpec spec{{7, 7, 7}, spacing, 2.015, 0, Influence::one, {1000, elastic(young, 0.3), 0.02}};
+    Body body = lattice_body(spec, world);
+    return CentralDifference(body, {}, {0, 1}, 0).stable_step();
+  };
+  // Rounded down to 10 bits of mantissa: a part in 512 at the most.
+  EXPECT_NEAR(limit(2e-3, 1e9) / limit(1e-3, 1e9), 2, 2.0 / 512);
+  EXPECT_NEAR(limit(1e-3, 1e9) / limit(1e-3, 4e9), 2, 2.0 / 512);
+}
+
+}  // namespace
+}  // namespace strut
