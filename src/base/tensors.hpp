@@ -13,13 +13,22 @@ using Symmetric = Eigen::Matrix<double, 6, 1>;
 
 inline double trace(const Symmetric& s) { return s[0] + s[1] + s[2]; }
 
-inline Symmetric spherical(double value) { return {value, value, value, 0, 0, 0}; }
+inline Symmetric spherical(double value) {
+  Symmetric s = Symmetric::Zero();
+  s[0] = s[1] = s[2] = value;
+  return s;
+}
 
-inline Symmetric deviator(const Symmetric& s) { return s - spherical(trace(s) / 3); }
+inline Symmetric deviator(const Symmetric& s) {
+  Symmetric d = s;
+  const double mean = trace(s) / 3;
+  for (int i = 0; i < 3; ++i) d[i] -= mean;
+  return d;
+}
 
 // a : b
 inline double double_dot(const Symmetric& a, const Symmetric& b) {
-  return a.head<3>().dot(b.head<3>()) + 2 * a.tail<3>().dot(b.tail<3>());
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
 inline Tensor to_tensor(const Symmetric& s) {

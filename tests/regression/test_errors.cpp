@@ -129,7 +129,7 @@ TEST_F(Mistake, UnknownMaterial) {
   const std::string deck = right_parts().text();
   expect_error(
       changed(deck, "\"Material\" type=\"string\" value=\"copper\"", "\"Material\" type=\"string\" value=\"coper\""),
-      {"Blocks > metal > Material: 'coper'", "did you mean 'copper'", "expected one of Materials: copper"});
+      {"Blocks > metal > Material: 'coper'", "did you mean 'copper'", "Materials: copper"});
   expect_error(changed(deck, "Elastic Plastic Corr", "Elastic Plastik Corr"),
                {"Materials > copper > Material Model: 'Elastic Plastik Correspondence'",
                 "did you mean 'Elastic Plastic Correspondence'", "expected one of"});
@@ -187,9 +187,22 @@ TEST_F(Mistake, UnknownVariables) {
                {"Output > Output Variables > Displacment", "did you mean 'Displacement'", "Velocity", "Cauchy_Stress",
                 "Equivalent_Plastic_Strain"});
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Max_Displacment\""),
-               {"History > Variables > Max_Displacment", "did you mean 'Displacement'"});
+               {"History > Variables > Max_Displacment", "did you mean 'Max_Displacement'"});
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
                {"History > Variables > Displacement", "expected Max_ or Min_"});
+}
+
+// What a run has written is lost only to a run that begins.
+TEST_F(Mistake, LeavesEarlierResultsAlone) {
+  const std::string deck = right_parts().text();
+  EXPECT_FALSE(outcome(deck).has_value());
+  for (const auto& [old, replacement] :
+       {std::pair("\"Displacement\"", "\"Displacment\""), {"\"Max_Displacement\"", "\"Max_Displacment\""}}) {
+    EXPECT_TRUE(outcome(changed(deck, old, replacement)).has_value());
+    if (world.rank() != 0) continue;
+    EXPECT_GE(io::read_result(folder / "result.e").times.size(), 3u) << "gone after the mistake " << replacement;
+    EXPECT_GE(read_history(folder / "history.csv").at("Time").size(), 3u) << "gone after the mistake " << replacement;
+  }
 }
 
 // A block and, far away, three points that have only each other.

@@ -29,12 +29,12 @@ struct Outcome {
   double momentum_drift, balance_error;
 };
 
-Outcome run_free_block(bool plastic, double speed, double safety, double periods) {
+Outcome run_free_block(const BlockMaterial& material, double speed, StepControl control, double periods) {
   const Communicator world;
-  LatticeSpec spec{{9, 9, 9}, 1e-3, 2.515, 0.1, Influence::one, copper(plastic)};
+  LatticeSpec spec{{9, 9, 9}, 1e-3, 2.515, 0.1, Influence::one, material};
   Body body = lattice_body(spec, world);
   throw_apart(body, speed, 9e-3);
-  CentralDifference solver(body, {}, {0, safety}, 0);
+  CentralDifference solver(body, {}, control, 0);
   const double final_time = periods * 9e-3 / std::sqrt(110e9 / 8960);
   Vector start = Vector::Zero();
   Outcome outcome{0, 0};
@@ -49,16 +49,23 @@ Outcome run_free_block(bool plastic, double speed, double safety, double periods
   }
 }
 
-TEST(Conservation, ElasticBlock) {
-  const Outcome coarse = run_free_block(false, 1, 0.8, 3), fine = run_free_block(false, 1, 0.4, 3);
-  // Forces are pairs, so only the round-off of some hundred thousand additions is left.
-  EXPECT_LT(coarse.momentum_drift, 1e-12);
-  EXPECT_LT(fine.balance_error, 2e-3);
-  EXPECT_NEAR(std::log2(coarse.balance_error / fine.balance_error), 2, 0.3);  // central differences
+// Central differences at a constant step conserve the energy of a linear body to round-off. What is left: strains of
+// 3e-6 make the body linear to 3e-6; the energy of the stabilisation is a difference of two sums 1e9 times as large.
+TEST(Conservation, ElasticBlockAtConstantStep) {
+  const Outcome outcome = run_free_block(copper(false), 0.01, {4e-8, 0}, 10);
+  EXPECT_LT(outcome.momentum_drift, 1e-12);  // forces are pairs: the round-off of some hundred thousand additions
+  EXPECT_LT(outcome.balance_error, 2e-5);
+}
+
+// With its own step, which follows the deformation, and strains of 3e-4.
+TEST(Conservation, ElasticBlockAtItsOwnStep) {
+  const Outcome outcome = run_free_block(copper(false), 1, {0, 0.8}, 10);
+  EXPECT_LT(outcome.momentum_drift, 1e-12);
+  EXPECT_LT(outcome.balance_error, 1e-3);  // of the order of the strain: a hypoelastic law has no exact energy
 }
 
 TEST(Conservation, PlasticBlock) {
-  const Outcome coarse = run_free_block(true, 50, 0.8, 3), fine = run_free_block(true, 50, 0.4, 3);
+  const Outcome coarse = run_free_block(copper(true), 50, {0, 0.8}, 3), fine = run_free_block(copper(true), 50, {0, 0.4}, 3);
   EXPECT_LT(coarse.momentum_drift, 1e-12);
   EXPECT_LT(coarse.balance_error, 1e-2);
   EXPECT_LT(fine.balance_error, 0.7 * coarse.balance_error);  // first order at least, where yielding starts and stops

@@ -96,7 +96,7 @@ double pulse_error(int cells, const Communicator& world) {
 TEST(Waves, PulseAlongABarConvergesInSecondOrder) {
   const Communicator world;
   const double coarse = pulse_error(50, world), fine = pulse_error(100, world);
-  EXPECT_LT(fine, 0.02);
+  EXPECT_LT(fine, 0.06);  // ten points over the half-width of the pulse, m = 2
   EXPECT_GT(std::log2(coarse / fine), 1.7) << coarse << " " << fine;  // order 2 less what the coarse one still lacks
 }
 
