@@ -9,22 +9,40 @@ namespace {
 // ε_ikj A_jk: twice the axial vector of the skew part of A.
 Vector axial(const Tensor& a) { return {a(2, 1) - a(1, 2), a(0, 2) - a(2, 0), a(1, 0) - a(0, 1)}; }
 
-// The rotation whose axis is h and whose angle is 2 atan |h| (Rodrigues' parameters, the Cayley transform).
+// [(tr S) I − S]⁻¹ v
+Vector solved(const Symmetric& s, const Vector& v) {
+  const Symmetric inverse = inverted({s[1] + s[2], s[0] + s[2], s[0] + s[1], -s[3], -s[4], -s[5]}).inverse;
+  return {inverse[0] * v[0] + inverse[3] * v[1] + inverse[5] * v[2],
+          inverse[3] * v[0] + inverse[1] * v[1] + inverse[4] * v[2],
+          inverse[5] * v[0] + inverse[4] * v[1] + inverse[2] * v[2]};
+}
+
+// tan(angle/2) over tan(angle), from the square of tan(angle).
+double half_angle(double squared) {
+  // A step turns little as a rule; the series is then exact to round-off and saves a root.
+  if (squared < 1e-5) return 0.5 - squared * (0.125 - 0.0625 * squared);
+  return 1 / (1 + std::sqrt(1 + squared));
+}
+
+// The rotation whose axis is h and whose angle is 2 atan |h| (Rodrigues' parameters, the Cayley transform):
+// (1 − |h|²) I + 2 h⊗h + 2 [h×], over 1 + |h|².
 Tensor rotation_of(const Vector& h) {
-  const double squared = h.squaredNorm();
-  Tensor cross;
-  cross << 0, -h[2], h[1], h[2], 0, -h[0], -h[1], h[0], 0;
-  return ((1 - squared) * Tensor::Identity() + 2 * h * h.transpose() + 2 * cross) / (1 + squared);
+  const double scale = 2 / (1 + h.squaredNorm()), diagonal = scale - 1;
+  const Vector g = scale * h;
+  Tensor r;
+  r << diagonal + g[0] * h[0], g[0] * h[1] - g[2], g[0] * h[2] + g[1],  //
+      g[1] * h[0] + g[2], diagonal + g[1] * h[1], g[1] * h[2] - g[0],   //
+      g[2] * h[0] - g[1], g[2] * h[1] + g[0], diagonal + g[2] * h[2];
+  return r;
 }
 
 }  // namespace
 
-Tensor updated_rotation(const Tensor& rotation, const Tensor& deformation_gradient) {
-  const Tensor stretch = deformation_gradient * rotation.transpose();  // V, up to the rotation of this step
-  const Tensor symmetric = 0.5 * (stretch + stretch.transpose());
-  const Tensor defect = symmetric.trace() * Tensor::Identity() - symmetric;
-  const Vector tangent = defect.inverse() * axial(stretch);  // tan of the angle, about its axis
-  return rotation_of(tangent / (1 + std::sqrt(1 + tangent.squaredNorm()))) * rotation;
+Polar polar_update(const Tensor& old_rotation, const Tensor& deformation_gradient) {
+  const Tensor turned = old_rotation.transpose() * deformation_gradient;  // the rotation of this step, times U
+  const Vector tangent = solved(symmetric_part(turned), axial(turned));   // tan of its angle, about its axis
+  const Tensor increment = rotation_of(half_angle(tangent.squaredNorm()) * tangent);
+  return {old_rotation * increment, symmetric_part(increment.transpose() * turned)};
 }
 
 }  // namespace strut

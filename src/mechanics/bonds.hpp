@@ -39,16 +39,23 @@ void with_influence(Influence influence, Work&& work) {
   }
 }
 
-// Calls visit(j, ξ, weight) over the family of point i, weight = ω V_j.
+// Calls visit(lane, j, ξ, weight) over the family of point i, weight = ω V_j. Bonds alternate between two lanes, compile
+// time constants, so that two chains of additions are under way at a time: one alone waits for its own last sum.
 template <class Weight, class Visit>
 inline void over_family(const Families& families, const Site* sites, int i, Weight weight, Visit&& visit) {
   const Site here = sites[i];
-  const std::size_t end = families.start[i + 1];
-  for (std::size_t b = families.start[i]; b < end; ++b) {
+  const auto bond = [&](auto lane, std::size_t b) {
     const int j = families.neighbours[b];
     const Eigen::Array4d xi = sites[j].reference - here.reference;
-    visit(j, xi, sites[j].reference[3] * weight(xi, here.current[3] + sites[j].current[3]));
+    visit(lane, j, xi, sites[j].reference[3] * weight(xi, here.current[3] + sites[j].current[3]));
+  };
+  const std::size_t begin = families.start[i], end = families.start[i + 1];
+  const std::size_t paired = begin + (end - begin) / 2 * 2;
+  for (std::size_t b = begin; b < paired; b += 2) {
+    bond(std::integral_constant<int, 0>{}, b);
+    bond(std::integral_constant<int, 1>{}, b + 1);
   }
+  if (paired < end) bond(std::integral_constant<int, 0>{}, paired);
 }
 
 inline Tensor tensor_of(const Eigen::Array4d& a, const Eigen::Array4d& b, const Eigen::Array4d& c) {
@@ -65,16 +72,19 @@ struct Gathered {
 template <bool with_square, class Weight>
 inline Gathered gather(const Families& families, const Site* sites, int i, Weight weight) {
   const Eigen::Array4d y = sites[i].current;
-  Eigen::Array4d a = Eigen::Array4d::Zero(), b = a, c = a, square = a;
-  over_family(families, sites, i, weight, [&](int j, const Eigen::Array4d& xi, double w) {
+  struct Sums {
+    Eigen::Array4d x = Eigen::Array4d::Zero(), y = x, z = x, square = x;
+  } sums[2];
+  over_family(families, sites, i, weight, [&](auto lane, int j, const Eigen::Array4d& xi, double w) {
     const Eigen::Array4d eta = sites[j].current - y;
     const Eigen::Array4d weighted = w * eta;
-    a += weighted * xi[0];
-    b += weighted * xi[1];
-    c += weighted * xi[2];
-    if constexpr (with_square) square += weighted * eta;
+    sums[lane].x += weighted * xi[0];
+    sums[lane].y += weighted * xi[1];
+    sums[lane].z += weighted * xi[2];
+    if constexpr (with_square) sums[lane].square += weighted * eta;
   });
-  return {tensor_of(a, b, c), square.head<3>().sum()};
+  const Eigen::Array4d square = sums[0].square + sums[1].square;
+  return {tensor_of(sums[0].x + sums[1].x, sums[0].y + sums[1].y, sums[0].z + sums[1].z), square.head<3>().sum()};
 }
 
 template <class Weight>
@@ -82,16 +92,16 @@ inline Vector force(const Families& families, const Site* sites, const ForceStat
   const Eigen::Array4d y = sites[i].current;
   const ForceState here = states[i];
   const double stabilization = here.column[0][3];
-  Eigen::Array4d sum = Eigen::Array4d::Zero();
-  over_family(families, sites, i, weight, [&](int j, const Eigen::Array4d& xi, double w) {
+  Eigen::Array4d sum[2] = {Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
+  over_family(families, sites, i, weight, [&](auto lane, int j, const Eigen::Array4d& xi, double w) {
     const ForceState& there = states[j];
     Eigen::Array4d bond = (here.column[0] + there.column[0]) * xi[0];
     bond += (here.column[1] + there.column[1]) * xi[1];
     bond += (here.column[2] + there.column[2]) * xi[2];
     bond += (stabilization + there.column[0][3]) * (sites[j].current - y);
-    sum += w * bond;
+    sum[lane] += w * bond;
   });
-  return sum.head<3>().matrix();
+  return (sum[0] + sum[1]).head<3>().matrix();
 }
 
 }  // namespace strut::bonds

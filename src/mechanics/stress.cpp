@@ -22,32 +22,24 @@ void store(MaterialBlock& block, std::size_t k, const typename L::State& state) 
   for (std::size_t c = 0; c < columns.size(); ++c) block.state[c * block.points.size() + k] = columns[c];
 }
 
-// d dt = Rᵀ D R dt, the increment of strain in the unrotated frame at mid-step: L dt = ΔF F_mid⁻¹ is exact because F is
-// linear in y and the velocity constant over the step.
-Symmetric unrotated_increment(const Tensor& old_F, const Tensor& new_F, const Tensor& mid_rotation) {
-  const Tensor L = (new_F - old_F) * (0.5 * (old_F + new_F)).inverse();
-  return symmetric_part(mid_rotation.transpose() * L * mid_rotation);
-}
-
-// Advances one point to the deformation gradient F. False: the law found no stress.
+// Advances one point to F = R U. False: the law found no stress.
+// The increment of unrotated strain is d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
+// linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
 template <class L>
-bool advance(const L& law, MaterialPoint& point, typename L::State& state, const Tensor& F, double J, double dt) {
-  const Tensor rotation = updated_rotation(point.rotation, F);
-  const Tensor mid_rotation = 0.5 * (point.rotation + rotation);
-  const Symmetric increment = unrotated_increment(point.deformation_gradient, F, mid_rotation);
-  const auto [stress, converged] = law.step({increment / dt, dt, J}, point.stress, state);
+bool advance(const L& law, MaterialPoint& point, typename L::State& state, const Polar& polar, double J, double dt) {
+  const Symmetric old_stretch = symmetric_part(point.rotation.transpose() * point.deformation_gradient);
+  const Symmetric mid_inverse = inverted(0.5 * (old_stretch + polar.stretch)).inverse;
+  const Symmetric rate = symmetric_product(polar.stretch - old_stretch, mid_inverse) / dt;
+  const auto [stress, converged] = law.step({rate, dt, J}, point.stress, state);
   if (converged) point.stress = stress;
-  point.rotation = rotation;
-  point.deformation_gradient = F;
   return converged;
 }
 
-// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ
-ForceState force_state(const MaterialPoint& point, const Tensor& inverse_F, double J) {
-  const Tensor cauchy = point.rotation * to_tensor(point.stress) * point.rotation.transpose();
-  const Tensor A = J * cauchy * inverse_F.transpose() * to_tensor(point.shape_inverse) -
-                   point.stabilization * point.deformation_gradient;
-  return packed(A, point.stabilization);
+// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹
+ForceState force_state(const MaterialPoint& point, const Symmetric& inverse_stretch, double J) {
+  const Tensor P = point.rotation * (J * to_tensor(point.stress) * to_tensor(inverse_stretch));
+  return packed(P * to_tensor(point.shape_inverse) - point.stabilization * point.deformation_gradient,
+                point.stabilization);
 }
 
 template <bool with_energy, class L, class Weight>
@@ -66,20 +58,21 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
       failed = k, kind = Failure::Kind::inverted;
       return 0.0;
     }
+    const Polar polar = polar_update(point.rotation, F);
     if (dt > 0) {
       typename L::State state = load<L>(block, k);
-      if (!advance(law, point, state, F, J, dt)) failed = k, kind = Failure::Kind::no_stress;
+      if (!advance(law, point, state, polar, J, dt)) failed = k, kind = Failure::Kind::no_stress;
       store<L>(block, k, state);
-    } else {
-      point.deformation_gradient = F;
     }
-    const Tensor inverse_F = F.inverse();
-    body.force_states[i] = force_state(point, inverse_F, J);
+    point.rotation = polar.rotation;
+    point.deformation_gradient = F;
+    const Symmetric inverse_stretch = inverted(polar.stretch).inverse;
+    body.force_states[i] = force_state(point, inverse_stretch, J);
     if constexpr (with_energy) {
       // ½ C Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F
       body.stabilization_work[i] = 0.5 * point.stabilization * (sums.square - sums.moment.cwiseProduct(F).sum());
     }
-    return inverse_F.squaredNorm();
+    return double_dot(inverse_stretch, inverse_stretch);  // ‖F⁻¹‖²
   };
   const double steepest = largest(begin, end, 0, advance_point);
   report.steepest = std::max(report.steepest, std::sqrt(steepest));

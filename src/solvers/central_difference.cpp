@@ -17,6 +17,8 @@ namespace {
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
+constexpr double round_off = 1e-9;  // of a step: times are sums of steps
+
 }  // namespace
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, StepControl control, double initial_time)
@@ -35,13 +37,16 @@ void CentralDifference::choose_step(double final_time) {
   previous_dt_ = dt_;
   const double left = final_time - time_;
   if (control_.fixed_dt > 0) {
-    dt_ = left > 0 ? std::min(control_.fixed_dt, left) : control_.fixed_dt;
+    // What round-off leaves after the last full step is no step of its own.
+    dt_ = left > 0 && left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
+    next_time_ = dt_ == left ? final_time : time_ + dt_;
     return;
   }
   if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
   dt_ = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
   // Equal steps to the end: a jump in dt at the last one would cost energy.
-  if (left > 0) dt_ = left / std::ceil(left / dt_ * (1 - 1e-9));
+  if (left > 0) dt_ = left / std::ceil(left / dt_ * (1 - round_off));
+  next_time_ = dt_ == left ? final_time : time_ + dt_;
 }
 
 void CentralDifference::kick(double final_time) {
@@ -78,7 +83,7 @@ void CentralDifference::move(bool with_energy) {
     for_each_point(0, body_.owned(),
                    [&](int i) { body_.sites[i].current.head<3>() += dt_ * body_.velocity[i].array(); });
   }
-  time_ += dt_;
+  time_ = next_time_;
   ++steps_;
   ++steps_since_estimate_;
   check(advance_stress_and_force(body_, dt_, with_energy));

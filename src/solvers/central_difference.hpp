@@ -57,7 +57,7 @@ class CentralDifference {
   StableStep stable_;
   Work work_;           // up to the mid-step before time()
   KickWork kick_work_;  // of the impulses at time()
-  double time_, dt_ = 0, previous_dt_ = 0;
+  double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double limit_ = 0, steepest_ = 0, steepest_at_estimate_ = 0;
   double put_in_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;

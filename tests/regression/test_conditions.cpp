@@ -106,21 +106,44 @@ TEST(Condition, BodyForceGivesItsImpulseAndItsWork) {
   EXPECT_NEAR(end.kinetic, kinetic, 1.001e-4 * kinetic);
 }
 
-// The last two steps share what is left. The ledger, the end included, is at the time it says, not half a step of the
-// usual length after the last mid-step.
+// A time that is no multiple of the step: the last one is shorter, and yet the ledger of the end is of the end.
 TEST(Condition, ImpulseOfABodyForceDoesNotDependOnTheSteps) {
   const RunFolder folder;
-  Parts parts;
-  parts.conditions = along("pull", "Body Force", "all", "z", "3e10");
-  parts.verlet = key("Fixed dt", "0.96e-7");
-  Simulation run(folder, parts);
-  const double force = 3e10 * run.volume();
-  double largest = 0;
-  const Ledger end =
-      run.go([&](const Ledger& now) { largest = std::max(largest, std::abs(now.momentum[2] - force * now.time)); });
-  EXPECT_LT(largest, 1e-11 * force * 5e-6);  // round-off, as above
-  // Where the step changes, the energy of central differences does, too: by the square of the step over the time.
-  EXPECT_NEAR(end.external, end.kinetic, 4e-4 * end.kinetic);
+  for (const std::string step : {"0.96e-7", "1e-7", "0.99e-7"}) {
+    Parts parts;
+    parts.conditions = along("pull", "Body Force", "all", "z", "3e10");
+    parts.verlet = key("Fixed dt", step);
+    Simulation run(folder, parts);
+    const double force = 3e10 * run.volume();
+    double largest = 0;
+    const Ledger end =
+        run.go([&](const Ledger& now) { largest = std::max(largest, std::abs(now.momentum[2] - force * now.time)); });
+    EXPECT_EQ(end.time, 5e-6);
+    EXPECT_NEAR(end.momentum[2], force * 5e-6, 1e-11 * force * 5e-6) << step;  // round-off, as above
+    // Where the step changes, the mean of the velocities before and after is off by a quarter of the change.
+    EXPECT_LT(largest, 0.25 * 1e-7 * force) << step;
+    // And the energy of central differences changes by the square of the step over the time, 4e-4 of it.
+    EXPECT_NEAR(end.external, end.kinetic, 4e-4 * end.kinetic) << step;
+  }
+}
+
+// Times are sums of steps, with round-off: none of it may be left over for a last step of nearly no length, over which
+// a prescribed motion would have a velocity without meaning.
+TEST(Condition, NoStepIsTiny) {
+  const RunFolder folder;
+  for (const std::string& verlet : {key("Fixed dt", "1e-7"), key("Fixed dt", "0.5e-7"), key("Safety Factor", "0.8")}) {
+    for (const std::string initial_time : {"0", "1e-3", "-2e-6"}) {
+      Parts parts;
+      parts.conditions = along("pull", "Prescribed Displacement", "foot", "z", "0");
+      parts.times = key("Initial Time", initial_time) +
+                    key("Final Time", std::to_string(std::stod(initial_time) * 1e6 + 5) + "e-6");
+      parts.verlet = verlet;
+      Simulation run(folder, parts);
+      double shortest = 1;
+      run.go([&](const Ledger& now) { shortest = std::min(shortest, now.dt); });
+      EXPECT_GT(shortest, 1e-9) << verlet << initial_time;
+    }
+  }
 }
 
 TEST(Condition, SymmetryPlaneKeepsItsPoints) {

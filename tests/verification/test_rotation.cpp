@@ -43,7 +43,9 @@ TEST(Rotation, StressTurnsWithTheBody) {
     deform(body, [&](const Vector& X) -> Vector { return Q * stretch * X; });
     advance_stress_and_force(body, 1e-6, false);
   }
-  EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].stress - before[i].stress).norm(); }), 1e-12 * 1e9);
+  // The Newton step for a turn of 2° at stretches that differ by 1 % leaves about (0.03 × 0.01)² of strain in transit;
+  // it does not add up over the 90 steps.
+  EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].stress - before[i].stress).norm(); }), 1e-7 * 1e9);
 }
 
 // Simple shear F = I + γ e₁⊗e₂: tan θ = −γ/2 about e₃ in closed form.
@@ -55,7 +57,7 @@ TEST(Rotation, LongSimpleShearFollowsThePolarDecomposition) {
     const double gamma = 10.0 * n / steps;
     Tensor F = Tensor::Identity();
     F(0, 1) = gamma;
-    R = updated_rotation(R, F);
+    R = polar_update(R, F).rotation;
     largest = std::max(largest, (R - turned(-std::atan(gamma / 2), {0, 0, 1})).norm());
   }
   // One Newton step from the last rotation: the error is of the order of the square of the turn of a step (5e-3)² and
@@ -71,7 +73,7 @@ TEST(Rotation, RigidTurnBelow90DegreesIsExactInOneStep) {
   for (int trial = 0; trial < 100; ++trial) {
     const Vector axis(uniform(engine), uniform(engine), uniform(engine));
     const Tensor Q = turned(0.49 * M_PI * uniform(engine), axis);
-    EXPECT_LT((updated_rotation(Tensor::Identity(), Q) - Q).norm(), 1e-12);
+    EXPECT_LT((polar_update(Tensor::Identity(), Q).rotation - Q).norm(), 1e-12);
   }
 }
 
