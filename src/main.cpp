@@ -37,8 +37,11 @@ int main(int argc, char** argv) {
   const strut::Communicator world;
   try {
     return act({argv + 1, argv + argc}, world);
-  } catch (const std::exception& error) {  // every Error is raised on all ranks: rank 0 speaks for them
+  } catch (const strut::Error& error) {  // raised on all ranks: rank 0 speaks for them
     if (world.rank() == 0) std::cerr << "strut: " << error.what() << "\n";
     return 1;
+  } catch (const std::exception& error) {  // this rank alone: the others would wait for it
+    std::cerr << "strut: rank " << world.rank() << ": " << error.what() << "\n";
+    world.abort();
   }
 }

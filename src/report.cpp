@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
@@ -18,6 +19,13 @@ std::string formatted(const char* format, Values... values) {
   char line[256];
   std::snprintf(line, sizeof line, format, values...);
   return line;
+}
+
+// Whether a person watches. Open MPI gives every rank a terminal of its own, so under mpirun only tools/run, which
+// sees the real one, can tell (STRUT_TERMINAL).
+bool watched() {
+  if (const char* told = std::getenv("STRUT_TERMINAL")) return std::string(told) == "1";
+  return isatty(STDOUT_FILENO) != 0 && std::getenv("OMPI_COMM_WORLD_RANK") == nullptr;
 }
 
 std::string as_size(double bytes) {
@@ -35,7 +43,7 @@ std::string as_duration(double seconds) {
 }
 
 Progress::Progress(const Communicator& communicator, double initial_time, double final_time)
-    : speaks_(communicator.rank() == 0), terminal_(isatty(STDOUT_FILENO) != 0), initial_(initial_time),
+    : speaks_(communicator.rank() == 0), terminal_(watched()), initial_(initial_time),
       final_(final_time) {}
 
 double Progress::elapsed() const {
@@ -46,9 +54,8 @@ void Progress::show(int step, double time, double dt) {
   if (!speaks_) return;
   const double share = (time - initial_) / (final_ - initial_);
   const int now = static_cast<int>(share * (terminal_ ? 100 : 10) + 1e-9);
-  const bool quiet = terminal_ ? std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(200) : now == shown_;
-  if (quiet && share < 1) return;
-  if (now == shown_ && !terminal_) return;
+  const bool soon = std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(200);
+  if (terminal_ ? soon && share < 1 : now == shown_) return;
   shown_ = now;
   last_ = std::chrono::steady_clock::now();
   const std::string left = share > 0 ? as_duration(elapsed() * (1 - share) / share) : "unknown";

@@ -6,6 +6,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <algorithm>
+#include <cstdlib>
 
 namespace strut {
 
@@ -52,6 +53,11 @@ Communicator& Communicator::operator=(const Communicator&) = default;
 const Teuchos::RCP<const Teuchos::Comm<int>>& Communicator::teuchos() const { return implementation_->teuchos; }
 
 void Communicator::barrier() const { teuchos()->barrier(); }
+
+void Communicator::abort() const {
+  MPI_Abort(implementation_->raw, 1);
+  std::abort();
+}
 
 void Communicator::sum(std::span<double> values) const {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,

@@ -1,5 +1,5 @@
 // The ranks of a run. A thin, copyable handle on a Teuchos communicator that keeps Trilinos' headers out of ours.
-// Every member but rank() and size() is collective.
+// Every member but rank(), size() and abort() is collective.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +37,7 @@ class Communicator {
   int size() const { return size_; }
 
   void barrier() const;
+  [[noreturn]] void abort() const;  // ends all ranks at once; not collective
   void sum(std::span<double> values) const;  // in place, on all ranks
   void max(std::span<double> values) const;
   double sum(double value) const;

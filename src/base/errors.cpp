@@ -45,7 +45,7 @@ void raise_together(const Communicator& communicator, const std::string& problem
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& valid) {
   const std::string* nearest = nullptr;
-  std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;  // farther than this is no likeness
+  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // farther than this is no likeness
   for (const std::string& candidate : valid) {
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best) {

@@ -45,9 +45,13 @@ Function Function::parse(const std::string& text) {
   for (const char* name : {"x", "y", "z", "t", "value"}) program->compiled.addVar("double", name);
   const bool closed = body.find_last_not_of(" \t\n") != std::string::npos &&
                       std::string(";}").find(body[body.find_last_not_of(" \t\n")]) != std::string::npos;
-  if (!program->compiled.addBody(closed ? body : body + ";")) {
-    throw Error("'" + text + "' is not an expression in x, y, z, t: " + program->compiled.getErrors());
+  std::string reason;
+  try {
+    if (!program->compiled.addBody(closed ? body : body + ";")) reason = program->compiled.getErrors();
+  } catch (const std::exception& error) {  // the compiler lets numbers that do not fit a double through as exceptions
+    reason = error.what();
   }
+  if (!reason.empty()) throw Error("'" + text + "' is not an expression in x, y, z, t: " + reason);
   function.program_ = program;
   function.depends_on_time_ = mentions(text, "t");
   return function;

@@ -190,6 +190,9 @@ TEST_F(Mistake, UnknownVariables) {
                {"History > Variables > Max_Displacment", "did you mean 'Max_Displacement'"});
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
                {"History > Variables > Displacement", "expected Max_ or Min_"});
+  const std::string both = changed(deck, "\"Displacement\"", "\"Displacment\"");
+  expect_error(changed(both, "\"Max_Displacement\"", "\"Max_Displacment\""),
+               {"Output > Output Variables > Displacment", "History > Variables > Max_Displacment"});
 }
 
 // What a run has written is lost only to a run that begins.
