@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <ostream>
 #include <random>
 #include <set>
 #include <span>
@@ -18,12 +18,16 @@ namespace {
 using Id = std::int64_t;
 using Pair = std::pair<Id, Id>;
 
-// A cloud as a reader delivers it: the rank's slice of points whose places are random but the same for all.
+// Points whose places are random but the same on all ranks.
 struct Case {
   int count;
   std::vector<double> horizons;  // of the blocks, m
   int seed;
 };
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.count << " points, " << c.horizons.size() << " horizons";
+}
 
 PointCloud whole_cloud(const Case& c) {
   std::mt19937 random(c.seed);
@@ -43,6 +47,7 @@ PointCloud whole_cloud(const Case& c) {
   return cloud;
 }
 
+// What a reader delivers.
 PointCloud slice(const PointCloud& whole, const Communicator& world) {
   std::vector<int> mine;
   const auto n = static_cast<int>(whole.size());

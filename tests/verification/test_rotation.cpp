@@ -1,6 +1,8 @@
 // A rigid rotation must leave no stress and no force, however far it goes.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include <random>
 
 #include "base/rotation.hpp"
@@ -65,6 +67,48 @@ TEST(Rotation, LongSimpleShearFollowsThePolarDecomposition) {
   EXPECT_LT(largest, 2.5e-5);
   EXPECT_LT((R - turned(-std::atan(5.0), {0, 0, 1})).norm(), 1e-9);  // it has caught up where the turning is slow
   EXPECT_LT((R.transpose() * R - Tensor::Identity()).norm(), 1e-12);
+}
+
+// ---- The step form against Flanagan & Taylor's rate form, on F = I + t A from 0 to 1 s ----------------------------
+
+Vector axial(const Tensor& a) { return {a(2, 1) - a(1, 2), a(0, 2) - a(2, 0), a(1, 0) - a(0, 1)}; }
+
+// One step of the rate form: ω = w − [V − (tr V) I]⁻¹ z with V at the start of the step, then the Cayley transform.
+Tensor rate_form(const Tensor& R, const Tensor& F, const Tensor& next_F, double dt) {
+  const Tensor L = (next_F - F) / dt * (0.5 * (F + next_F)).inverse();
+  const Tensor V = F * R.transpose(), D = 0.5 * (L + L.transpose());
+  const Tensor defect = V.trace() * Tensor::Identity() - V;
+  const Vector h = 0.5 * dt * (0.5 * axial(L) + defect.inverse() * axial(D * V));
+  return turned(2 * std::atan(h.norm()), h) * R;
+}
+
+struct Distances {
+  double rate_form, step_form;  // of R from the polar decomposition at the end
+};
+
+Distances distances(int steps) {
+  Tensor A;
+  A << 0.3, 1.2, -0.4, 0.2, -0.5, 0.7, 0.9, -0.3, 0.6;
+  Tensor by_rate = Tensor::Identity(), by_step = by_rate, F = by_rate;
+  for (int n = 1; n <= steps; ++n) {
+    const Tensor next = Tensor::Identity() + A * n / steps;
+    by_rate = rate_form(by_rate, F, next, 1.0 / steps);
+    by_step = polar_update(by_step, next).rotation;
+    F = next;
+  }
+  const Eigen::JacobiSVD<Tensor> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Tensor polar = svd.matrixU() * svd.matrixV().transpose();
+  return {(by_rate - polar).norm(), (by_step - polar).norm()};
+}
+
+TEST(Rotation, StepFormIsCloserThanRateForm) {
+  for (const int steps : {100, 200, 400}) {
+    const Distances d = distances(steps);
+    std::printf("%d steps: rate form %.1e, step form %.1e from the polar rotation\n", steps, d.rate_form, d.step_form);
+    EXPECT_LT(d.step_form, 1e-4 * d.rate_form);
+  }
+  // The rate form is of first order: a check that the rival here is the published one and not a broken copy.
+  EXPECT_NEAR(distances(200).rate_form / distances(400).rate_form, 2, 0.1);
 }
 
 TEST(Rotation, RigidTurnBelow90DegreesIsExactInOneStep) {
