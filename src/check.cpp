@@ -5,20 +5,14 @@
 #include <iostream>
 
 #include "deck/deck.hpp"
-#include "mechanics/observables.hpp"
 #include "report.hpp"
 #include "setup.hpp"
 #include "simulation.hpp"
+#include "views.hpp"
 
 namespace strut {
 
 namespace {
-
-void check_names(const deck::Deck& deck, const Body& body) {
-  const std::vector<Observable> all = observables(body);
-  chosen(all, deck.output.variables, "Output > Output Variables");
-  for (const std::string& name : deck.history.variables) Extreme(all, name, "History > Variables");
-}
 
 // Seconds a step, the mean of a few.
 double measured_step(const deck::Deck& deck, CentralDifference& solver) {
@@ -37,7 +31,7 @@ double measured_step(const deck::Deck& deck, CentralDifference& solver) {
 void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
-  check_names(deck, scene.body);
+  views_of(deck, scene.body);
   CentralDifference solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time);
   const double limit = solver.stable_step();
   const double step_time = measured_step(deck, solver);

@@ -43,8 +43,7 @@ std::string as_duration(double seconds) {
 }
 
 Progress::Progress(const Communicator& communicator, double initial_time, double final_time)
-    : speaks_(communicator.rank() == 0), terminal_(watched()), initial_(initial_time),
-      final_(final_time) {}
+    : speaks_(communicator.rank() == 0), terminal_(watched()), initial_(initial_time), final_(final_time) {}
 
 double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -59,7 +58,8 @@ void Progress::show(int step, double time, double dt) {
   shown_ = now;
   last_ = std::chrono::steady_clock::now();
   const std::string left = share > 0 ? as_duration(elapsed() * (1 - share) / share) : "unknown";
-  const std::string facts = formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
+  const std::string facts =
+      formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
   if (terminal_) {
     const int filled = static_cast<int>(30 * share + 1e-9);
     std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left << "   "
@@ -113,8 +113,8 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
   text << formatted("%-26s %10.3f\n", "whole run", seconds);
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
                     point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
-  text << formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n", ledger.time,
-                    ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization);
+  text << formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n",
+                    ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization);
   text << formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
                     ledger.external, ledger.contact, ledger.balance_error);
   return text.str();

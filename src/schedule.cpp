@@ -9,7 +9,10 @@ constexpr double round_off = 1e-9;  // of the interval: times are sums of steps
 }
 
 Schedule::Schedule(bool enabled, std::optional<int> frequency, std::optional<double> interval, double initial_time)
-    : enabled_(enabled), frequency_(frequency), interval_(interval), initial_time_(initial_time),
+    : enabled_(enabled),
+      frequency_(frequency),
+      interval_(interval),
+      initial_time_(initial_time),
       next_time_(initial_time) {}
 
 bool Schedule::due(int step, double time) const {

@@ -21,7 +21,8 @@ PointCloud read_mesh(const deck::Discretization& discretization, const Communica
 
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud) {
   for (const deck::NodeSet& set : sets) {
-    if (cloud.set_names.size() >= 64) throw Error("Node Sets > " + set.name + ": mesh and deck have more than 64 node sets");
+    if (cloud.set_names.size() >= 64)
+      throw Error("Node Sets > " + set.name + ": mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
     for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "simulation.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <iostream>
 #include <optional>
@@ -8,11 +9,10 @@
 #include "deck/deck.hpp"
 #include "io/exodus.hpp"
 #include "io/history.hpp"
-#include "mechanics/observables.hpp"
 #include "report.hpp"
 #include "schedule.hpp"
 #include "setup.hpp"
-#include "base/errors.hpp"
+#include "views.hpp"
 
 namespace strut {
 
@@ -28,14 +28,13 @@ void catch_signals() {
 // The frames of the result file.
 class Frames {
  public:
-  Frames(const deck::Deck& deck, const Scene& scene)
-      : schedule(deck.output.enabled, deck.output.frequency, deck.output.interval, deck.solver.initial_time) {
+  Frames(const deck::Deck& deck, const Body& body, const Views& views)
+      : schedule(deck.output.enabled, deck.output.frequency, deck.output.interval, deck.solver.initial_time),
+        variables_(views.frame),
+        columns_(views.frame.size()) {
     if (!deck.output.enabled) return;
-    variables_ = chosen(observables(scene.body), deck.output.variables, "Output > Output Variables");
     std::vector<io::OutputField> fields;
     for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
-    columns_.resize(fields.size());
-    const Body& body = scene.body;
     writer_.emplace(deck.output.file, body.domain.communicator, body.domain.cloud, std::move(fields));
   }
 
@@ -58,25 +57,23 @@ class Frames {
 // The table of the ledger and of asked-for extremes over time.
 class History {
  public:
-  History(const deck::Deck& deck, const Scene& scene)
-      : schedule(deck.history.enabled, deck.history.frequency, deck.history.interval, deck.solver.initial_time) {
+  History(const deck::Deck& deck, const Body& body, const Views& views)
+      : schedule(deck.history.enabled, deck.history.frequency, deck.history.interval, deck.solver.initial_time),
+        extremes_(views.extremes) {
     if (!deck.history.enabled) return;
-    std::vector<std::string> names{"Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy",
-                                   "Plastic_Work", "Stabilization_Energy", "Contact_Work", "External_Work",
-                                   "Balance_Error", "Momentum_X",   "Momentum_Y",     "Momentum_Z"};
-    for (const std::string& name : deck.history.variables) {
-      extremes_.emplace_back(observables(scene.body), name, "History > Variables");
-      names.push_back(name);
-    }
-    file_.emplace(deck.history.file, scene.body.domain.communicator, names);
+    std::vector<std::string> names{
+        "Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy",
+        "Contact_Work", "External_Work", "Balance_Error",  "Momentum_X",     "Momentum_Y",   "Momentum_Z"};
+    for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
+    file_.emplace(deck.history.file, body.domain.communicator, names);
   }
 
   void write(const Ledger& now, const Body& body) {
     static Teuchos::Time& timer = phase("History");
     const Timed timed(timer);
-    std::vector<double> row{now.time,       now.dt,         now.kinetic,       now.elastic,
-                            now.dissipated, now.stabilization, now.contact,    now.external,
-                            now.balance_error, now.momentum[0], now.momentum[1], now.momentum[2]};
+    std::vector<double> row{now.time,          now.dt,         now.kinetic,  now.elastic,       now.dissipated,
+                            now.stabilization, now.contact,    now.external, now.balance_error, now.momentum[0],
+                            now.momentum[1],   now.momentum[2]};
     const std::size_t fixed = row.size();
     for (const Extreme& e : extremes_) row.push_back(e.local(body));
     body.domain.communicator.max(std::span(row).subspan(fixed));
@@ -100,9 +97,10 @@ void say(const Communicator& communicator, const std::string& text) {
 Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Frames& frames, History& history) {
   const double final_time = deck.solver.final_time;
   Progress progress(scene.body.domain.communicator, deck.solver.initial_time, final_time);
+  bool ending = false;  // a step after the ranks agreed to stop, so that its energies are known everywhere
   for (;;) {
     const double now = solver.time();
-    const bool last = now >= final_time || solver.stop_agreed();
+    const bool last = now >= final_time || ending;
     solver.kick(final_time);
     if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
     if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
@@ -112,7 +110,8 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
     if (last) break;
     if (signalled) solver.request_stop();
     const double next = now + solver.dt();
-    solver.move(next >= final_time || signalled || history.schedule.due(solver.steps() + 1, next));
+    ending = solver.stop_agreed();
+    solver.move(next >= final_time || ending || history.schedule.due(solver.steps() + 1, next));
   }
   progress.finish();
   return solver.ledger();
@@ -125,8 +124,9 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
   say(communicator, describe_scene(scene));
-  Frames frames(deck, scene);
-  History history(deck, scene);
+  const Views views = views_of(deck, scene.body);  // all names are checked before a file is replaced
+  Frames frames(deck, scene.body, views);
+  History history(deck, scene.body, views);
   catch_signals();
   CentralDifference solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time);
   say(communicator, step_warning(scene.control, solver.stable_step()));

@@ -140,9 +140,8 @@ std::vector<char> Communicator::scatter_bytes(const void* data, const std::vecto
   std::copy_n(all, mine.size(), mine.data());
   std::size_t start = mine.size();
   for (int target = 1; target < size_; ++target) {
-    in_pieces(sizes[target], [&](std::size_t begin, int count) {
-      MPI_Send(all + start + begin, count, MPI_BYTE, target, 0, comm);
-    });
+    in_pieces(sizes[target],
+              [&](std::size_t begin, int count) { MPI_Send(all + start + begin, count, MPI_BYTE, target, 0, comm); });
     start += sizes[target];
   }
   return mine;

@@ -37,7 +37,7 @@ class Communicator {
   int size() const { return size_; }
 
   void barrier() const;
-  [[noreturn]] void abort() const;  // ends all ranks at once; not collective
+  [[noreturn]] void abort() const;           // ends all ranks at once; not collective
   void sum(std::span<double> values) const;  // in place, on all ranks
   void max(std::span<double> values) const;
   double sum(double value) const;

@@ -40,12 +40,7 @@ inline Tensor to_tensor(const Symmetric& s) {
 
 // The symmetric part of t.
 inline Symmetric symmetric_part(const Tensor& t) {
-  return {t(0, 0),
-          t(1, 1),
-          t(2, 2),
-          0.5 * (t(0, 1) + t(1, 0)),
-          0.5 * (t(1, 2) + t(2, 1)),
-          0.5 * (t(2, 0) + t(0, 2))};
+  return {t(0, 0), t(1, 1), t(2, 2), 0.5 * (t(0, 1) + t(1, 0)), 0.5 * (t(1, 2) + t(2, 1)), 0.5 * (t(2, 0) + t(0, 2))};
 }
 
 // The symmetric part of a b.

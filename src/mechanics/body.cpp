@@ -79,8 +79,8 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
 
 Footprint footprint(const BlockMaterial& material) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, material.law);
-  constexpr std::size_t mechanics = sizeof(Site) + sizeof(ForceState) + sizeof(MaterialPoint) + 3 * sizeof(Vector) +
-                                    2 * sizeof(double) + sizeof(int);
+  constexpr std::size_t mechanics =
+      sizeof(Site) + sizeof(ForceState) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + 2 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int) +
                                 sizeof(std::uint64_t) + sizeof(std::size_t);
   return {static_cast<double>(mechanics + cloud + state * sizeof(double)), sizeof(int)};

@@ -39,8 +39,9 @@ void with_influence(Influence influence, Work&& work) {
   }
 }
 
-// Calls visit(lane, j, ξ, weight) over the family of point i, weight = ω V_j. Bonds alternate between two lanes, compile
-// time constants, so that two chains of additions are under way at a time: one alone waits for its own last sum.
+// Calls visit(lane, j, ξ, weight) over the family of point i, weight = ω V_j. Bonds alternate between two lanes,
+// compile time constants, so that two chains of additions are under way at a time: one alone waits for its own last
+// sum.
 template <class Weight, class Visit>
 inline void over_family(const Families& families, const Site* sites, int i, Weight weight, Visit&& visit) {
   const Site here = sites[i];

@@ -12,7 +12,7 @@ namespace strut {
 struct PrescribedMotion {
   std::vector<int> points;
   int component;
-  Function value;     // of the reference position and time: m, or m/s
+  Function value;  // of the reference position and time: m, or m/s
   bool is_velocity;
 };
 

@@ -60,8 +60,8 @@ ForceState tangent_state(const MaterialPoint& point, const materials::Moduli& mo
   const double J = point.deformation_gradient.determinant();
   const Symmetric D = symmetric_part(dF * inverse_F);
   const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
-  const Tensor A = J * to_tensor(stress) * inverse_F.transpose() * to_tensor(point.shape_inverse) -
-                   point.stabilization * dF;
+  const Tensor A =
+      J * to_tensor(stress) * inverse_F.transpose() * to_tensor(point.shape_inverse) - point.stabilization * dF;
   return packed(A, point.stabilization);
 }
 
@@ -100,8 +100,7 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_energy) {
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, std::vector<ForceState>& scratch,
                    std::vector<Vector>& result) {
   behind_exchange(
-      halo, places(directions), site_stride, 3,
-      [&] { set_tangent_states(body, directions, Part::interior, scratch); },
+      halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
       [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
   behind_exchange(
       halo, states(scratch), force_width, force_width,

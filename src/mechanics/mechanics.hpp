@@ -15,7 +15,7 @@ struct Failure {
 };
 
 struct StepReport {
-  double steepest = 0;             // the largest ‖F⁻¹‖ (Frobenius; √3 undeformed): the stable step shrinks with it
+  double steepest = 0;  // the largest ‖F⁻¹‖ (Frobenius; √3 undeformed): the stable step shrinks with it
   std::optional<Failure> failure;  // the first on this rank; its stress is the old one
 };
 

@@ -43,13 +43,17 @@ Symmetric cauchy(const Body& body, int i) {
 
 std::vector<Observable> kinematic() {
   return {
-      observable("Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
-      observable("Velocity", "at the time of the frame, m/s",
-                 [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
-      observable("Force", "internal force and loads, N",
-                 [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volumes[i]; }, true),
-      observable("Force_Density", "the same per reference volume, N/m³",
-                 [](const Body& b, int i) { return b.force_density[i]; }, true),
+      observable(
+          "Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
+      observable(
+          "Velocity", "at the time of the frame, m/s",
+          [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
+      observable(
+          "Force", "internal force and loads, N",
+          [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volumes[i]; }, true),
+      observable(
+          "Force_Density", "the same per reference volume, N/m³",
+          [](const Body& b, int i) { return b.force_density[i]; }, true),
       observable("Deformation_Gradient", "F",
                  [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
       observable("Rotation_Tensor", "R of F = V R", [](const Body& b, int i) { return by_rows(b.points[i].rotation); }),
@@ -58,7 +62,8 @@ std::vector<Observable> kinematic() {
                    const MaterialPoint& p = b.points[i];
                    return symmetric_part(p.deformation_gradient * p.rotation.transpose());
                  }),
-      observable("Jacobian", "det F", [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
+      observable("Jacobian", "det F",
+                 [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
   };
 }
 
@@ -66,7 +71,8 @@ std::vector<Observable> stresses() {
   return {
       observable("Cauchy_Stress", "Pa", cauchy),
       observable("Unrotated_Cauchy_Stress", "Rᵀ σ R, Pa", [](const Body& b, int i) { return b.points[i].stress; }),
-      observable("Von_Mises_Stress", "√(3/2 s:s), Pa", [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
+      observable("Von_Mises_Stress", "√(3/2 s:s), Pa",
+                 [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
       observable("Pressure", "−tr σ/3, Pa", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
   };
 }
@@ -102,18 +108,17 @@ Observable state_variable(const std::string& name) {
   return {name, 1, false, "state of the material law", fill};
 }
 
-std::vector<std::string> names_of(const std::vector<Observable>& all) {
+std::vector<std::string> names_of(const std::vector<Observable>& all, const std::vector<std::string>& prefixes) {
   std::vector<std::string> names;
-  for (const Observable& o : all) names.push_back(o.name);
+  for (const std::string& prefix : prefixes) {
+    for (const Observable& o : all) names.push_back(prefix + o.name);
+  }
   return names;
 }
 
-const Observable& find(const std::vector<Observable>& all, const std::string& name, const std::string& where) {
-  for (const Observable& o : all) {
-    if (o.name == name) return o;
-  }
-  const std::vector<std::string> valid = names_of(all);
-  throw Error(where + " > " + name + ": no such variable" + did_you_mean(name, valid) + "; valid are " + joined(valid));
+const Observable* find(const std::vector<Observable>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -132,19 +137,31 @@ std::vector<Observable> observables(const Body& body) {
 
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where) {
+  const std::vector<std::string> valid = names_of(all, {""});
   std::vector<Observable> result;
-  for (const std::string& name : names) result.push_back(find(all, name, where));
+  std::vector<std::string> problems;
+  for (const std::string& name : names) {
+    if (const Observable* found = find(all, name)) {
+      result.push_back(*found);
+    } else {
+      problems.push_back(where + " > " + name + ": no such variable" + did_you_mean(name, valid) + "; valid are " +
+                         joined(valid));
+    }
+  }
+  if (!problems.empty()) throw Error(joined(problems, "\n"));
   return result;
 }
 
 Extreme::Extreme(const std::vector<Observable>& all, const std::string& name, const std::string& where) : name_(name) {
   const std::string kind = name.substr(0, 4);
-  if (kind != "Max_" && kind != "Min_") {
-    throw Error(where + " > " + name + ": expected Max_ or Min_ and the name of a variable; variables are " +
-                joined(names_of(all)));
+  const bool extreme = kind == "Max_" || kind == "Min_";
+  const Observable* found = extreme ? find(all, name.substr(4)) : nullptr;
+  if (!found) {
+    throw Error(where + " > " + name + ": expected Max_ or Min_ and the name of a variable" +
+                did_you_mean(name, names_of(all, {"Max_", "Min_"})) + "; variables are " + joined(names_of(all, {""})));
   }
   sign_ = kind == "Max_" ? 1 : -1;
-  observable_ = find(all, name.substr(4), where);
+  observable_ = *found;
 }
 
 double Extreme::local(const Body& body) const {

@@ -21,8 +21,8 @@ struct Observable {
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);
 
-// The members of `all` that `names` ask for; throws Error that lists the valid names when one is unknown. `where`: the
-// place in the deck.
+// The members of `all` that `names` ask for. Throws one Error for all names that are not there, with the valid ones.
+// `where`: the place in the deck.
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where);
 

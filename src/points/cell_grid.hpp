@@ -18,9 +18,7 @@ class CellGrid {
 
  private:
   Eigen::Array3i cell_of(const Vector& x) const;
-  std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * shape_[1] + j) * shape_[0] + i;
-  }
+  std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * shape_[1] + j) * shape_[0] + i; }
 
   Vector origin_ = Vector::Zero();
   double width_ = 1;

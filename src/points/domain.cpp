@@ -19,7 +19,6 @@ struct Candidate {
 };
 constexpr int candidate_width = sizeof(Candidate) / sizeof(double);
 
-
 Eigen::AlignedBox3d bounding_box(const PointCloud& cloud) {
   Eigen::AlignedBox3d box;
   for (const Vector& X : cloud.positions) box.extend(X);

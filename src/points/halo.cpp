@@ -18,8 +18,8 @@ using Buffer = Kokkos::View<double*, Kokkos::HostSpace>;
 
 Teuchos::RCP<const Map> map_of(const Communicator& communicator, const std::vector<GlobalId>& ids) {
   const auto unknown = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  return Teuchos::rcp(new Map(unknown, Teuchos::ArrayView<const GlobalId>(ids.data(), ids.size()), 0,
-                              communicator.teuchos()));
+  return Teuchos::rcp(
+      new Map(unknown, Teuchos::ArrayView<const GlobalId>(ids.data(), ids.size()), 0, communicator.teuchos()));
 }
 
 }  // namespace

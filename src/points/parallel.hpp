@@ -29,7 +29,8 @@ double largest(int begin, int end, double floor, const Value& value) {
 template <class Value>
 double total(int begin, int end, const Value& value) {
   double result = 0;
-  Kokkos::parallel_reduce(HostRange(begin, end), [&value](int i, double& sum) { sum += value(i); }, result);
+  Kokkos::parallel_reduce(
+      HostRange(begin, end), [&value](int i, double& sum) { sum += value(i); }, result);
   return result;
 }
 

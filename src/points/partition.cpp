@@ -125,8 +125,8 @@ PointCloud bisected(const PointCloud& cloud, const Communicator& communicator) {
   int changed, gid_size, lid_size, imports, exports;
   ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
   int *import_ranks, *import_parts, *export_ranks, *export_parts;
-  require(zoltan.LB_Partition(changed, gid_size, lid_size, imports, import_gids, import_lids, import_ranks, import_parts,
-                              exports, export_gids, export_lids, export_ranks, export_parts),
+  require(zoltan.LB_Partition(changed, gid_size, lid_size, imports, import_gids, import_lids, import_ranks,
+                              import_parts, exports, export_gids, export_lids, export_ranks, export_parts),
           "partition the points");
   std::vector<char> leaves(cloud.size(), 0);
   for (int k = 0; k < exports; ++k) leaves[export_lids[k]] = 1;

@@ -36,16 +36,16 @@ void CentralDifference::estimate_step() {
 void CentralDifference::choose_step(double final_time) {
   previous_dt_ = dt_;
   const double left = final_time - time_;
+  if (left <= 0 && steps_ > 0) return;  // no step follows: velocities at the end are the mean about equal ones
   if (control_.fixed_dt > 0) {
     // What round-off leaves after the last full step is no step of its own.
-    dt_ = left > 0 && left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
-    next_time_ = dt_ == left ? final_time : time_ + dt_;
-    return;
+    dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
+  } else {
+    if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
+    dt_ = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
+    // Equal steps to the end: a jump in dt at the last one would cost energy.
+    dt_ = left / std::ceil(left / dt_ * (1 - round_off));
   }
-  if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
-  dt_ = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
-  // Equal steps to the end: a jump in dt at the last one would cost energy.
-  if (left > 0) dt_ = left / std::ceil(left / dt_ * (1 - round_off));
   next_time_ = dt_ == left ? final_time : time_ + dt_;
 }
 
@@ -71,9 +71,8 @@ void CentralDifference::kick(double final_time) {
 void CentralDifference::start() {
   previous_dt_ = dt_;
   start_motions(conditions_, time_, dt_, body_);
-  for_each_point(0, body_.owned(), [&](int i) {
-    body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i];
-  });
+  for_each_point(0, body_.owned(),
+                 [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
 void CentralDifference::move(bool with_energy) {

@@ -9,10 +9,10 @@ namespace strut {
 
 // The ledger of a run at one time.
 struct Ledger {
-  double time = 0, dt = 0;                                                     // s
-  double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;          // J
-  double contact = 0, external = 0;                                            // J, work done on the body so far
-  double balance_error = 0;  // |stored + dissipated − put in| over the largest sum of energies so far
+  double time = 0, dt = 0;                                             // s
+  double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
+  double contact = 0, external = 0;                                    // J, work done on the body so far
+  double balance_error = 0;          // |stored + dissipated − put in| over the largest sum of energies so far
   Vector momentum = Vector::Zero();  // kg m/s
 };
 

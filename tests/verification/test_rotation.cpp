@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-
 #include <random>
 
 #include "base/rotation.hpp"
@@ -11,7 +10,9 @@
 namespace strut {
 namespace {
 
-Tensor turned(double angle, const Vector& axis) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
+Tensor turned(double angle, const Vector& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
 
 TEST(Rotation, FullTurnLeavesNoStress) {
   const Communicator world;

@@ -32,8 +32,7 @@ Vector closed_form(const Lattice& l, const Body& body, int i) {
   const auto& law = std::get<materials::Elastic>(l.spec.material.law);
   const Vector q = K.inverse() * g;
   const Tensor strain = 0.5 * (l.direction * q.transpose() + q * l.direction.transpose());
-  const Tensor stress = 2 * law.shear * strain +
-                        (law.bulk - 2 * law.shear / 3) * strain.trace() * Tensor::Identity();
+  const Tensor stress = 2 * law.shear * strain + (law.bulk - 2 * law.shear / 3) * strain.trace() * Tensor::Identity();
   const double c = l.spec.material.stabilization * law.moduli().longitudinal() / (K.trace() / 3);
   return (stress * q + 2 * c * s * l.direction - c * g.dot(q) * l.direction) / l.spec.material.density;
 }
