@@ -48,7 +48,8 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
   const auto [begin, end] = range(block, part);
   int failed = -1;
   Failure::Kind kind{};
-  const auto advance_point = [&](int k) {
+  // flatten: the law and the small tensor functions must be inlined, or their tensors go through memory.
+  const auto advance_point = [&](int k) __attribute__((flatten)) {
     const int i = block.points[k];
     MaterialPoint& point = body.points[i];
     const bonds::Gathered sums = bonds::gather<with_energy>(body.domain.families, body.sites.data(), i, weight);
