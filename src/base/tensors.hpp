@@ -43,29 +43,6 @@ inline Symmetric symmetric_part(const Tensor& t) {
   return {t(0, 0), t(1, 1), t(2, 2), 0.5 * (t(0, 1) + t(1, 0)), 0.5 * (t(1, 2) + t(2, 1)), 0.5 * (t(2, 0) + t(0, 2))};
 }
 
-// The symmetric part of a b.
-inline Symmetric symmetric_product(const Symmetric& a, const Symmetric& b) {
-  return {a[0] * b[0] + a[3] * b[3] + a[5] * b[5],
-          a[3] * b[3] + a[1] * b[1] + a[4] * b[4],
-          a[5] * b[5] + a[4] * b[4] + a[2] * b[2],
-          0.5 * ((a[0] + a[1]) * b[3] + a[3] * (b[0] + b[1]) + a[5] * b[4] + a[4] * b[5]),
-          0.5 * ((a[1] + a[2]) * b[4] + a[4] * (b[1] + b[2]) + a[3] * b[5] + a[5] * b[3]),
-          0.5 * ((a[0] + a[2]) * b[5] + a[5] * (b[0] + b[2]) + a[3] * b[4] + a[4] * b[3])};
-}
-
-struct Inverted {
-  Symmetric inverse;
-  double determinant;
-};
-
-inline Inverted inverted(const Symmetric& s) {
-  const double xx = s[1] * s[2] - s[4] * s[4], xy = s[4] * s[5] - s[3] * s[2], zx = s[3] * s[4] - s[1] * s[5];
-  const double determinant = s[0] * xx + s[3] * xy + s[5] * zx, scale = 1 / determinant;
-  return {{xx * scale, (s[0] * s[2] - s[5] * s[5]) * scale, (s[0] * s[1] - s[3] * s[3]) * scale, xy * scale,
-           (s[3] * s[5] - s[0] * s[4]) * scale, zx * scale},
-          determinant};
-}
-
 // sqrt(3/2 dev(s) : dev(s))
 inline double von_mises(const Symmetric& s) {
   const Symmetric d = deviator(s);

@@ -1,6 +1,8 @@
 // From the places of the points to the force state of each: F, rotation, law, first Piola–Kirchhoff stress.
 #include "mechanics/stress.hpp"
 
+#include <limits>
+
 #include "base/rotation.hpp"
 #include "mechanics/bonds.hpp"
 #include "points/parallel.hpp"
@@ -22,62 +24,190 @@ void store(MaterialBlock& block, std::size_t k, const typename L::State& state) 
   for (std::size_t c = 0; c < columns.size(); ++c) block.state[c * block.points.size() + k] = columns[c];
 }
 
-// Advances one point to F = R U. False: the law found no stress.
-// The increment of unrotated strain is d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
+// ---- Four points side by side
+// ------------------------------------------------------------------------------------------
+
+using small::Lanes;
+using LaneTensor = small::Tensor3<Lanes>;
+using LaneSymmetric = small::Symmetric3<Lanes>;
+
+// Four points of a block; the last stands in for those that the block lacks.
+struct Group {
+  std::array<int, 4> k;  // place in block.points
+  std::array<MaterialPoint*, 4> points;
+  int count;
+};
+
+Group group_of(Body& body, const MaterialBlock& block, int first, int end) {
+  Group group{{}, {}, std::min(4, end - first)};
+  for (int l = 0; l < 4; ++l) {
+    group.k[l] = first + std::min(l, group.count - 1);
+    group.points[l] = &body.points[block.points[group.k[l]]];
+  }
+  return group;
+}
+
+// The number that `of` finds in each point.
+template <class Of>
+Lanes lanes(const Group& g, Of of) {
+  return {of(*g.points[0]), of(*g.points[1]), of(*g.points[2]), of(*g.points[3])};
+}
+
+LaneTensor tensors(const Group& g, Tensor MaterialPoint::*field) {
+  LaneTensor t;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) t.c[i][j] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)(i, j); });
+  }
+  return t;
+}
+
+LaneSymmetric symmetrics(const Group& g, Symmetric MaterialPoint::*field) {
+  LaneSymmetric s;
+  for (int c = 0; c < 6; ++c) s.c[c] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)[c]; });
+  return s;
+}
+
+Tensor lane(const LaneTensor& t, int l) {
+  Tensor result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result(i, j) = t.c[i][j][l];
+  }
+  return result;
+}
+
+// The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
 // linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
-template <class L>
-bool advance(const L& law, MaterialPoint& point, typename L::State& state, const Polar& polar, double J, double dt) {
-  const Symmetric old_stretch = symmetric_part(point.rotation.transpose() * point.deformation_gradient);
-  const Symmetric mid_inverse = inverted(0.5 * (old_stretch + polar.stretch)).inverse;
-  const Symmetric rate = symmetric_product(polar.stretch - old_stretch, mid_inverse) / dt;
-  const auto [stress, converged] = law.step({rate, dt, J}, point.stress, state);
-  if (converged) point.stress = stress;
-  return converged;
+LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, double dt) {
+  const LaneTensor R = tensors(g, &MaterialPoint::rotation), F = tensors(g, &MaterialPoint::deformation_gradient);
+  const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
+  LaneSymmetric difference, middle;
+  for (int c = 0; c < 6; ++c) {
+    difference.c[c] = (stretch[c] - old[c]) / dt;
+    middle.c[c] = 0.5 * (stretch[c] + old[c]);
+  }
+  return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
 }
 
 // A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹
-ForceState force_state(const MaterialPoint& point, const Symmetric& inverse_stretch, double J) {
-  const Tensor P = point.rotation * (J * to_tensor(point.stress) * to_tensor(inverse_stretch));
-  return packed(P * to_tensor(point.shape_inverse) - point.stabilization * point.deformation_gradient,
-                point.stabilization);
+LaneTensor force_states(const Group& g, const Polar<Lanes>& polar, const LaneSymmetric& inverse_stretch,
+                        const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J) {
+  const LaneSymmetric stress = symmetrics(g, &MaterialPoint::stress);
+  LaneTensor A = small::product(small::full(stress), small::full(inverse_stretch));
+  A = small::product(small::product(polar.rotation, A), small::full(shape_inverse));
+  const Lanes C = lanes(g, [](const MaterialPoint& p) { return p.stabilization; });
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) A.c[i][j] = J * A.c[i][j] - C * F.c[i][j];
+  }
+  return A;
 }
+
+// The first failure of a loop, in the order of points, whichever thread finds it.
+class FirstFailure {
+ public:
+  void report(int k, Failure::Kind kind) { Kokkos::atomic_fetch_min(&code_, 2 * k + static_cast<int>(kind)); }
+  std::optional<Failure> found(const MaterialBlock& block) const {
+    if (code_ == none) return std::nullopt;
+    return Failure{block.points[code_ / 2], static_cast<Failure::Kind>(code_ % 2)};
+  }
+
+ private:
+  static constexpr int none = std::numeric_limits<int>::max();
+  int code_ = none;
+};
+
+// All that the update of one block needs.
+template <class L, class Weight>
+struct Update {
+  Body& body;
+  MaterialBlock& block;
+  const L& law;
+  Weight weight;
+  double dt;
+  FirstFailure& failure;
+
+  // Stress and state of one point.
+  void advance(const Group& g, int l, const LaneSymmetric& rates, double J) const {
+    Symmetric rate;
+    for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l];
+    typename L::State state = load<L>(block, g.k[l]);
+    const auto [stress, converged] = law.step({rate, dt, J}, g.points[l]->stress, state);
+    if (!converged) return failure.report(g.k[l], Failure::Kind::no_stress);
+    g.points[l]->stress = stress;
+    store<L>(block, g.k[l], state);
+  }
+
+  void store_point(const Group& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A) const {
+    MaterialPoint& point = *g.points[l];
+    point.rotation = lane(polar.rotation, l);
+    point.deformation_gradient = lane(F, l);
+    body.force_states[block.points[g.k[l]]] = packed(lane(A, l), point.stabilization);
+  }
+
+  // The largest ‖F⁻¹‖² of the points from `first` on, four at the most.
+  template <bool with_energy>
+  double advance_group(int first, int end) const {
+    const Group g = group_of(body, block, first, end);
+    LaneTensor N;
+    Lanes square;
+    for (int l = 0; l < g.count; ++l) {
+      const bonds::Gathered sums =
+          bonds::gather<with_energy>(body.domain.families, body.sites.data(), block.points[g.k[l]], weight);
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) N.c[i][j][l] = sums.moment(i, j);
+      }
+      square[l] = sums.square;
+    }
+    for (int l = g.count; l < 4; ++l) {
+      for (auto& row : N.c) {
+        for (Lanes& entry : row) entry[l] = entry[0];
+      }
+    }
+    const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
+    const LaneTensor F = small::product(N, small::full(shape_inverse));
+    const Lanes J = small::determinant(F);
+    const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
+    const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
+    if (dt > 0) {
+      const LaneSymmetric rates = strain_rate(g, polar.stretch, dt);
+      for (int l = 0; l < g.count; ++l) {
+        if (J[l] > 0) advance(g, l, rates, J[l]);
+      }
+    }
+    const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J);
+    const Lanes steepness = small::square(inverse_stretch);
+    double steepest = 0;
+    for (int l = 0; l < g.count; ++l) {
+      if (!(J[l] > 0)) {  // NaN too
+        failure.report(g.k[l], Failure::Kind::inverted);
+        continue;
+      }
+      store_point(g, l, polar, F, A);
+      steepest = std::max(steepest, steepness[l]);
+      if constexpr (with_energy) store_energy(g, l, N, F, square[l]);
+    }
+    return steepest;
+  }
+
+  // ½ C Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F
+  void store_energy(const Group& g, int l, const LaneTensor& N, const LaneTensor& F, double square) const {
+    const double fitted = lane(N, l).cwiseProduct(lane(F, l)).sum();
+    body.stabilization_work[block.points[g.k[l]]] = 0.5 * g.points[l]->stabilization * (square - fitted);
+  }
+};
 
 template <bool with_energy, class L, class Weight>
 void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, Part part,
                     StepReport& report) {
   const auto [begin, end] = range(block, part);
-  int failed = -1;
-  Failure::Kind kind{};
-  // flatten: the law and the small tensor functions must be inlined, or their tensors go through memory.
-  const auto advance_point = [&](int k) __attribute__((flatten)) {
-    const int i = block.points[k];
-    MaterialPoint& point = body.points[i];
-    const bonds::Gathered sums = bonds::gather<with_energy>(body.domain.families, body.sites.data(), i, weight);
-    const Tensor F = sums.moment * to_tensor(point.shape_inverse);
-    const double J = F.determinant();
-    if (!(J > 0)) {  // NaN too
-      failed = k, kind = Failure::Kind::inverted;
-      return 0.0;
-    }
-    const Polar polar = polar_update(point.rotation, F);
-    if (dt > 0) {
-      typename L::State state = load<L>(block, k);
-      if (!advance(law, point, state, polar, J, dt)) failed = k, kind = Failure::Kind::no_stress;
-      store<L>(block, k, state);
-    }
-    point.rotation = polar.rotation;
-    point.deformation_gradient = F;
-    const Symmetric inverse_stretch = inverted(polar.stretch).inverse;
-    body.force_states[i] = force_state(point, inverse_stretch, J);
-    if constexpr (with_energy) {
-      // ½ C Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F
-      body.stabilization_work[i] = 0.5 * point.stabilization * (sums.square - sums.moment.cwiseProduct(F).sum());
-    }
-    return double_dot(inverse_stretch, inverse_stretch);  // ‖F⁻¹‖²
+  FirstFailure failure;
+  const Update<L, Weight> update{body, block, law, weight, dt, failure};
+  // flatten: what is not inlined passes its lanes through memory.
+  const auto advance_group = [&update, begin = begin, end = end ](int group) __attribute__((flatten)) {
+    return update.template advance_group<with_energy>(begin + 4 * group, end);
   };
-  const double steepest = largest(begin, end, 0, advance_point);
+  const double steepest = largest(0, (end - begin + 3) / 4, 0, advance_group);
   report.steepest = std::max(report.steepest, std::sqrt(steepest));
-  if (failed >= 0 && !report.failure) report.failure = Failure{block.points[failed], kind};
+  if (!report.failure) report.failure = failure.found(block);
 }
 
 }  // namespace
