@@ -1,7 +1,34 @@
 // main() of every GoogleTest program: starts the run time, lets rank 0 speak, and fails on all ranks when one fails.
+// The other ranks say only which of their assertions failed.
 #include <gtest/gtest.h>
 
+#include <iostream>
+#include <sstream>
+
 #include "base/communicator.hpp"
+
+namespace {
+
+class FailuresOnly : public testing::EmptyTestEventListener {
+ public:
+  explicit FailuresOnly(int rank) : rank_(rank) {}
+
+  void OnTestPartResult(const testing::TestPartResult& result) override {
+    if (!result.failed()) return;
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::ostringstream text;  // one write, so that ranks do not mix their lines
+    text << "rank " << rank_ << ": " << (result.file_name() ? result.file_name() : "unknown file") << ":"
+         << result.line_number() << ": Failure in "
+         << (test ? std::string(test->test_suite_name()) + "." + test->name() : std::string("no test")) << "\n"
+         << result.message() << "\n";
+    std::cerr << text.str() << std::flush;
+  }
+
+ private:
+  int rank_;
+};
+
+}  // namespace
 
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
@@ -10,6 +37,7 @@ int main(int argc, char** argv) {
   if (world.rank() != 0) {
     auto& listeners = testing::UnitTest::GetInstance()->listeners();
     delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new FailuresOnly(world.rank()));  // GoogleTest deletes it
   }
   const int failed = RUN_ALL_TESTS();
   return world.max(static_cast<double>(failed)) > 0 ? 1 : 0;

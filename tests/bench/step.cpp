@@ -1,0 +1,51 @@
+// One force evaluation of a lattice block, all passes: bonds, deformation, stress, force. Compare with the peers'
+// figures for the same block (50³ points, horizon 3.015 spacings) in ns per directed bond and step.
+//   build/release/tests/bench/bench_step --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
+#include <benchmark/benchmark.h>
+
+#include "../verification/lattice.hpp"
+
+namespace strut {
+namespace {
+
+BlockMaterial copper(bool plastic) {
+  const auto e = std::get<materials::Elastic>(elastic(110e9, 0.296));
+  if (!plastic) return {8960, e, 0.02};
+  const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
+  return {8960, materials::J2{e.bulk, e.shear, flow}, 0.02};
+}
+
+// Arguments: points along an edge, horizon in thousandths of a spacing, plastic or not.
+void step(benchmark::State& state) {
+  const Communicator world;
+  const int n = static_cast<int>(state.range(0));
+  const LatticeSpec spec{{n, n, n}, 1e-3,           1e-3 * static_cast<double>(state.range(1)),
+                         0,         Influence::one, copper(state.range(2) != 0)};
+  Body body = lattice_body(spec, world);
+  const double dt = 1e-7, rate = 1e4;  // a shear that keeps a plastic block flowing
+  double shear = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    shear += rate * dt;
+    deform(body, [&](const Vector& X) -> Vector { return {X[0] + shear * X[1], X[1], X[2]}; });
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(advance_stress_and_force(body, dt, false).steepest);
+  }
+  const auto steps = static_cast<double>(state.iterations());
+  const auto time_per = [](double count) {
+    return benchmark::Counter(count, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  };
+  state.counters["per_bond"] = time_per(steps * static_cast<double>(body.domain.families.bonds()));
+  state.counters["per_point"] = time_per(steps * body.owned());
+}
+
+BENCHMARK(step)->Args({50, 3015, 0})->Args({50, 3015, 1})->Args({27, 2015, 1})->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace strut
+
+int main(int argc, char** argv) {
+  strut::Runtime runtime(argc, argv);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

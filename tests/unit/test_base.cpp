@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "base/communicator.hpp"
+#include "base/errors.hpp"
+#include "base/function.hpp"
+#include "base/tensors.hpp"
+
+namespace strut {
+namespace {
+
+TEST(Errors, OneRanksProblemIsEveryRanksError) {
+  const Communicator world;
+  const int last = world.size() - 1;
+  std::string text = "nothing thrown";
+  try {
+    raise_together(world, world.rank() == last ? "rank " + std::to_string(last) + " fell over" : "");
+  } catch (const Error& error) {
+    text = error.what();
+  }
+  EXPECT_EQ(text, "rank " + std::to_string(last) + " fell over");
+}
+
+TEST(Errors, SameTextIsSaidOnce) {
+  const Communicator world;
+  try {
+    raise_together(world, "no such file");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "no such file");
+  }
+}
+
+TEST(Errors, NothingWrongIsNothingThrown) {
+  const Communicator world;
+  EXPECT_NO_THROW(raise_together(world, ""));
+  EXPECT_NO_THROW(run_on_root(world, [] {}));
+}
+
+TEST(Errors, RootsExceptionReachesAll) {
+  const Communicator world;
+  EXPECT_THROW(run_on_root(world, [] { throw std::runtime_error("disk full"); }), Error);
+}
+
+TEST(Errors, NearestName) {
+  const std::vector<std::string> valid{"Horizon", "Material", "Block Names"};
+  EXPECT_EQ(did_you_mean("Horzion", valid), " (did you mean 'Horizon'?)");
+  EXPECT_EQ(did_you_mean("material", valid), " (did you mean 'Material'?)");
+  EXPECT_EQ(did_you_mean("Velocity", valid), "");
+}
+
+TEST(Communicator, GatherKeepsTheOrderOfRanks) {
+  const Communicator world;
+  const std::vector<int> mine(world.rank() + 1, world.rank());  // rank r holds r, r + 1 times
+  const std::vector<int> all = world.gather(std::span<const int>(mine));
+  std::vector<int> expected;
+  for (int r = 0; world.rank() == 0 && r < world.size(); ++r) expected.insert(expected.end(), r + 1, r);
+  EXPECT_EQ(all, expected);
+}
+
+TEST(Communicator, ScatterUndoesGather) {
+  const Communicator world;
+  std::vector<std::int64_t> counts(world.size());
+  std::iota(counts.begin(), counts.end(), 0);  // rank 0 receives nothing
+  const std::vector<double> mine(world.rank(), 0.5 * world.rank());
+  const std::vector<double> all = world.gather(std::span<const double>(mine));
+  EXPECT_EQ(world.scatter(std::span<const double>(all), counts), mine);
+}
+
+TEST(Communicator, Reductions) {
+  const Communicator world;
+  const int n = world.size();
+  EXPECT_EQ(world.sum(1.0), n);
+  EXPECT_EQ(world.max(static_cast<double>(world.rank())), n - 1);
+  EXPECT_EQ(world.min(static_cast<double>(world.rank())), 0);
+  EXPECT_EQ(world.offset(2), 2 * world.rank());
+  std::string text = world.rank() == 0 ? "deck" : "";
+  world.broadcast(text);
+  EXPECT_EQ(text, "deck");
+}
+
+TEST(Function, NumberExpressionStatement) {
+  EXPECT_DOUBLE_EQ(Function::parse("-2.5e3")(1, 1, 1, 1), -2500);
+  EXPECT_TRUE(Function::parse(" +4 ").is_constant());
+  EXPECT_DOUBLE_EQ(Function::parse("1.0e-3*t + x*y")(2, 3, 0, 4), 6.004);
+  EXPECT_DOUBLE_EQ(Function::parse("value = z*z")(0, 0, 3, 0), 9);
+  EXPECT_DOUBLE_EQ(Function::parse("z < 1e-3")(0, 0, 0, 0), 1);
+}
+
+TEST(Function, KnowsWhetherItDependsOnTime) {
+  EXPECT_TRUE(Function::parse("x*t").depends_on_time());
+  EXPECT_FALSE(Function::parse("sqrt(x)").depends_on_time());  // the t of sqrt is none
+}
+
+TEST(Function, WhatDoesNotCompileIsAnError) {
+  for (const char* text : {"3*q", "x +", "sin(", "1e999"}) EXPECT_THROW(Function::parse(text), Error) << text;
+}
+
+TEST(Tensors, SymmetricOrderAndProducts) {
+  Tensor t;
+  t << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  const Symmetric s = symmetric_part(t);
+  EXPECT_TRUE(to_tensor(s).isApprox(0.5 * (t + t.transpose())));
+  EXPECT_DOUBLE_EQ(double_dot(s, s), to_tensor(s).squaredNorm());
+  EXPECT_NEAR(trace(deviator(s)), 0, 1e-14);
+  Symmetric uniaxial = Symmetric::Zero();
+  uniaxial[1] = -3;
+  EXPECT_DOUBLE_EQ(von_mises(uniaxial), 3);
+}
+
+}  // namespace
+}  // namespace strut
