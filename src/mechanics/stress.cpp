@@ -143,12 +143,10 @@ struct Update {
     body.force_states[block.points[g.k[l]]] = packed(lane(A, l), point.stabilization);
   }
 
-  // The largest ‖F⁻¹‖² of the points from `first` on, four at the most.
+  // N of the points of a group; a point that stands in for a missing one gets the first one's.
   template <bool with_energy>
-  double advance_group(int first, int end) const {
-    const Group g = group_of(body, block, first, end);
+  LaneTensor gather(const Group& g, Lanes& square) const {
     LaneTensor N;
-    Lanes square;
     for (int l = 0; l < g.count; ++l) {
       const bonds::Gathered sums =
           bonds::gather<with_energy>(body.domain.families, body.sites.data(), block.points[g.k[l]], weight);
@@ -162,17 +160,26 @@ struct Update {
         for (Lanes& entry : row) entry[l] = entry[0];
       }
     }
+    return N;
+  }
+
+  // The largest ‖F⁻¹‖² of the points from `first` on, four at the most.
+  template <bool with_energy>
+  double advance_group(int first, int end) const {
+    const Group g = group_of(body, block, first, end);
+    Lanes square;
+    const LaneTensor N = gather<with_energy>(g, square);
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
     const LaneTensor F = small::product(N, small::full(shape_inverse));
     const Lanes J = small::determinant(F);
     const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
-    const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
     if (dt > 0) {
       const LaneSymmetric rates = strain_rate(g, polar.stretch, dt);
       for (int l = 0; l < g.count; ++l) {
         if (J[l] > 0) advance(g, l, rates, J[l]);
       }
     }
+    const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
     const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J);
     const Lanes steepness = small::square(inverse_stretch);
     double steepest = 0;
