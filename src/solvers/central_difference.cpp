@@ -37,14 +37,15 @@ void CentralDifference::choose_step(double final_time) {
   previous_dt_ = dt_;
   const double left = final_time - time_;
   if (left <= 0 && steps_ > 0) return;  // no step follows: velocities at the end are the mean about equal ones
+  // A fixed step is watched, too: stable_step() tells when it has become too large.
+  if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
   if (control_.fixed_dt > 0) {
     // What round-off leaves after the last full step is no step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
-    if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
-    dt_ = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
     // Equal steps to the end: a jump in dt at the last one would cost energy.
-    dt_ = left / std::ceil(left / dt_ * (1 - round_off));
+    const double allowed = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
+    dt_ = left / std::ceil(left / allowed * (1 - round_off));
   }
   next_time_ = dt_ == left ? final_time : time_ + dt_;
 }
