@@ -32,15 +32,16 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
   views_of(deck, scene.body);
-  CentralDifference solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time);
+  CentralDifference solver(scene.body, std::move(scene.conditions), scene.control, deck.solver.initial_time);
   const double limit = solver.stable_step();
   const double step_time = measured_step(deck, solver);
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;
   const double steps = std::ceil((deck.solver.final_time - deck.solver.initial_time) / dt);
   const std::string scene_text = describe_scene(scene);
   if (communicator.rank() != 0) return;
-  std::cout << scene_text << step_warning(scene.control, limit) << "stable step " << limit << " s at the start; about "
-            << steps << " steps of " << dt << " s (more where the step must shrink with the deformation)\n"
+  std::cout << scene_text << step_warning(scene.control, limit, deck.solver.initial_time) << "stable step " << limit
+            << " s at the start; about " << steps << " steps of " << dt
+            << " s (more where the step must shrink with the deformation)\n"
             << "estimated time " << as_duration(steps * step_time) << " (" << step_time << " s a step, measured)\n"
             << deck_file.string() << ": no errors\n";
 }

@@ -96,10 +96,11 @@ std::string describe_scene(const Scene& scene) {
   return text.str();
 }
 
-std::string step_warning(const StepControl& control, double limit) {
+std::string step_warning(const StepControl& control, double limit, double time) {
   if (!(control.fixed_dt > limit)) return "";
-  return formatted("WARNING: Fixed dt = %.4g s is above the stable step of %.4g s: the run will probably blow up\n",
-                   control.fixed_dt, limit);
+  return formatted(
+      "WARNING: Fixed dt = %.4g s is above the stable step of %.4g s at t = %.4g s: expect it to blow up\n",
+      control.fixed_dt, limit, time);
 }
 
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds) {

@@ -30,8 +30,8 @@ std::string describe_scene(const Scene& scene);
 // Bytes that the points and bonds of all ranks take.
 double predicted_memory(const Scene& scene);
 
-// Warnings that a person should see before a long run: a fixed step above the stable one.
-std::string step_warning(const StepControl& control, double limit);
+// A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
+std::string step_warning(const StepControl& control, double limit, double time);
 
 // Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end.
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds);

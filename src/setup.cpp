@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "deck/problems.hpp"
 #include "io/exodus.hpp"
 #include "points/partition.hpp"
 
@@ -19,15 +20,24 @@ PointCloud read_mesh(const deck::Discretization& discretization, const Communica
                                                        : io::read_text(discretization.mesh, communicator);
 }
 
-void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud) {
+void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vector& X = cloud.positions[i];
+    if (set.where(X[0], X[1], X[2], 0) != 0) cloud.sets[i] |= bit;
+  }
+}
+
+// The node sets that the deck makes, added to those of the mesh.
+void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, deck::Problems& problems) {
   for (const deck::NodeSet& set : sets) {
-    if (cloud.set_names.size() >= 64)
-      throw Error("Node Sets > " + set.name + ": mesh and deck have more than 64 node sets");
+    const std::string path = "Node Sets > " + set.name;
+    if (cloud.set_names.size() >= 64) return problems.add(path, "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const Vector& X = cloud.positions[i];
-      if (set.where(X[0], X[1], X[2], 0) != 0) cloud.sets[i] |= bit;
+    try {
+      mark(set, bit, cloud);
+    } catch (const Error& error) {
+      problems.add(path, error.what());
     }
   }
 }
@@ -44,21 +54,19 @@ const deck::Block* section_of(const deck::Deck& deck, const std::string& block) 
   return general;
 }
 
-std::string wrong_blocks(const deck::Deck& deck, const PointCloud& cloud) {
-  std::vector<std::string> problems;
+void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problems& problems) {
   for (const deck::Block& section : deck.blocks) {
     for (const std::string& name : section.block_names) {
       const auto& valid = cloud.block_names;
       if (name == "all" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
-      problems.push_back("Blocks > " + section.name + " > Block Names: the mesh has no block '" + name + "'" +
-                         did_you_mean(name, valid) + "; it has " + joined(valid));
+      problems.add("Blocks > " + section.name + " > Block Names",
+                   "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
     }
   }
   for (const std::string& name : cloud.block_names) {
     if (section_of(deck, name)) continue;
-    problems.push_back("Blocks: block '" + name + "' of the mesh has no material: name it in a section's Block Names");
+    problems.add("Blocks", "block '" + name + "' of the mesh has no material: name it in a section's Block Names");
   }
-  return joined(problems, "\n");
 }
 
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
@@ -78,25 +86,63 @@ std::vector<double> block_horizons(const deck::Deck& deck, const PointCloud& clo
 }
 
 // A horizon that is smaller than the spacing, or a hundred times as large, is a slip of units.
-std::string wrong_horizons(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator) {
+void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                    deck::Problems& problems) {
   std::vector<double> sums(2 * cloud.block_names.size(), 0);  // volume and number of points of each block
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     sums[2 * cloud.blocks[i]] += cloud.volumes[i];
     sums[2 * cloud.blocks[i] + 1] += 1;
   }
   communicator.sum(sums);
-  std::vector<std::string> problems;
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
-    const deck::Block& section = *section_of(deck, cloud.block_names[b]);
+    const deck::Block* section = section_of(deck, cloud.block_names[b]);
+    if (!section) continue;  // check_blocks has said so
     const double spacing = std::cbrt(sums[2 * b] / std::max(1.0, sums[2 * b + 1]));
-    if (section.horizon > spacing && section.horizon < 20 * spacing) continue;
+    if (section->horizon > spacing && section->horizon < 20 * spacing) continue;
     std::ostringstream text;
-    text << "Blocks > " << section.name << " > Horizon: " << section.horizon << " m does not fit the points of block "
-         << cloud.block_names[b] << ", whose mean spacing is " << spacing
+    text << section->horizon << " m does not fit the points of block " << cloud.block_names[b]
+         << ", whose mean spacing is " << spacing
          << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
-    problems.push_back(text.str());
+    problems.add("Blocks > " + section->name + " > Horizon", text.str());
   }
-  return joined(problems, "\n");
+}
+
+// The points of this rank in a node set, a block, or all; none where there is no such set.
+std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
+  const auto position = [&set](const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), set) - names.begin());
+  };
+  const std::size_t bit = position(cloud.set_names), block = position(cloud.block_names);
+  std::vector<int> points;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+    const bool in = set == "all" || (bit < cloud.set_names.size() ? (cloud.sets[i] >> bit & 1) != 0
+                                                                  : cloud.blocks[i] == static_cast<int>(block));
+    if (in) points.push_back(i);
+  }
+  return points;
+}
+
+// Collective. Every condition names a set that holds a point of some rank.
+void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                      deck::Problems& problems) {
+  std::vector<std::string> valid{"all"};
+  valid.insert(valid.end(), cloud.set_names.begin(), cloud.set_names.end());
+  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
+  std::vector<double> counts;
+  for (const deck::Condition& condition : deck.conditions) {
+    counts.push_back(static_cast<double>(points_of(cloud, condition.node_set).size()));
+  }
+  communicator.sum(counts);
+  for (std::size_t c = 0; c < counts.size(); ++c) {
+    const std::string& set = deck.conditions[c].node_set;
+    const std::string path = "Boundary Conditions > " + deck.conditions[c].name + " > Node Set";
+    if (std::find(valid.begin(), valid.end(), set) == valid.end()) {
+      problems.add(path, "there is no node set or block '" + set + "'" + did_you_mean(set, valid) + "; there are " +
+                             joined(valid));
+    } else if (counts[c] == 0) {
+      problems.add(path, "'" + set + "' holds no point");
+    }
+  }
 }
 
 // Owned points whose family cannot carry a shape tensor; `text` tells of the first.
@@ -152,28 +198,6 @@ Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicat
   }
 }
 
-// The owned points of a node set, a block, or all. Throws where there is no such set.
-std::vector<int> points_of(const PointCloud& cloud, const std::string& set, const std::string& where) {
-  const auto position = [&set](const std::vector<std::string>& names) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), set) - names.begin());
-  };
-  const std::size_t bit = position(cloud.set_names), block = position(cloud.block_names);
-  std::vector<std::string> valid{"all"};
-  valid.insert(valid.end(), cloud.set_names.begin(), cloud.set_names.end());
-  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
-  if (std::find(valid.begin(), valid.end(), set) == valid.end()) {
-    throw Error(where + " > Node Set: there is no node set or block '" + set + "'" + did_you_mean(set, valid) +
-                "; there are " + joined(valid));
-  }
-  std::vector<int> points;
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-    const bool in = set == "all" || (bit < cloud.set_names.size() ? (cloud.sets[i] >> bit & 1) != 0
-                                                                  : cloud.blocks[i] == static_cast<int>(block));
-    if (in) points.push_back(i);
-  }
-  return points;
-}
-
 void set_initial_velocity(const deck::Condition& condition, const std::vector<int>& points, double t, Body& body) {
   for (const int i : points) {
     const Vector& X = body.domain.positions[i];
@@ -182,8 +206,7 @@ void set_initial_velocity(const deck::Condition& condition, const std::vector<in
 }
 
 void add_condition(const deck::Condition& condition, double t, Scene& scene) {
-  std::vector<int> points =
-      points_of(scene.body.domain.cloud, condition.node_set, "Boundary Conditions > " + condition.name);
+  std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
   Conditions& all = scene.conditions;
   const Vector normal = condition.normal.normalized();
   switch (condition.type) {
@@ -207,15 +230,16 @@ void add_condition(const deck::Condition& condition, double t, Scene& scene) {
 }
 
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
-  std::vector<std::string> problems;
+  deck::Problems problems;
+  if (scene.dropped > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
   for (const deck::Condition& condition : deck.conditions) {
     try {
       add_condition(condition, deck.solver.initial_time, scene);
     } catch (const Error& error) {
-      problems.push_back(error.what());
+      problems.add("Boundary Conditions > " + condition.name + " > Value", error.what());
     }
   }
-  raise_together(communicator, joined(problems, "\n"));
+  raise_together(communicator, problems.text(deck.file.string()));
 }
 
 Influence influence_of(deck::Influence influence) {
@@ -233,9 +257,12 @@ Influence influence_of(deck::Influence influence) {
 
 Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   PointCloud cloud = read_mesh(deck.discretization, communicator);
-  raise_together(communicator, wrong_blocks(deck, cloud));
-  raise_together(communicator, wrong_horizons(deck, cloud, communicator));
-  add_node_sets(deck.node_sets, cloud);
+  deck::Problems problems;
+  check_blocks(deck, cloud, problems);
+  check_horizons(deck, cloud, communicator, problems);
+  add_node_sets(deck.node_sets, cloud, problems);
+  check_conditions(deck, cloud, communicator, problems);
+  raise_together(communicator, problems.text(deck.file.string()));
   {
     const Timed timed(phase("Partition"));
     cloud = partitioned(cloud, communicator);

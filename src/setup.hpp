@@ -16,8 +16,8 @@ struct Scene {
 };
 
 // Collective. Reads the mesh, makes node sets, partition, families, body, initial velocities and conditions.
-// Throws one Error on all ranks for what only mesh and deck together show: blocks and node sets that do not exist,
-// horizons below the spacing, points with too few neighbours.
+// Throws one Error on all ranks for what only mesh and deck together show: blocks and node sets that do not exist or
+// hold no point, horizons that do not fit the spacing; then one for points with too few neighbours.
 Scene set_up(const deck::Deck& deck, const Communicator& communicator);
 
 }  // namespace strut

@@ -97,11 +97,16 @@ void say(const Communicator& communicator, const std::string& text) {
 Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Frames& frames, History& history) {
   const double final_time = deck.solver.final_time;
   Progress progress(scene.body.domain.communicator, deck.solver.initial_time, final_time);
+  bool warned = false;
   bool ending = false;  // a step after the ranks agreed to stop, so that its energies are known everywhere
   for (;;) {
     const double now = solver.time();
     const bool last = now >= final_time || ending;
     solver.kick(final_time);
+    if (!warned && scene.control.fixed_dt > solver.stable_step()) {
+      say(scene.body.domain.communicator, step_warning(scene.control, solver.stable_step(), now));
+      warned = true;
+    }
     if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
     if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
       history.write(solver.ledger(), scene.body);
@@ -128,12 +133,11 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   Frames frames(deck, scene.body, views);
   History history(deck, scene.body, views);
   catch_signals();
-  CentralDifference solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time);
-  say(communicator, step_warning(scene.control, solver.stable_step()));
+  CentralDifference solver(scene.body, std::move(scene.conditions), scene.control, deck.solver.initial_time);
   const Ledger ledger = step_through(deck, scene, solver, frames, history);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(communicator, closing_report(scene, solver, ledger, seconds));
-  return !solver.stop_agreed();
+  return solver.time() >= deck.solver.final_time;
 }
 
 }  // namespace strut

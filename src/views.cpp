@@ -1,25 +1,26 @@
 #include "views.hpp"
 
 #include "base/errors.hpp"
+#include "deck/problems.hpp"
 
 namespace strut {
 
 Views views_of(const deck::Deck& deck, const Body& body) {
   const std::vector<Observable> all = observables(body);
   Views views;
-  std::vector<std::string> problems;
+  deck::Problems problems;
   const auto attempt = [&problems](const auto& look_up) {
     try {
       look_up();
     } catch (const Error& error) {
-      problems.push_back(error.what());
+      problems.add(error.what());
     }
   };
   attempt([&] { views.frame = chosen(all, deck.output.variables, "Output > Output Variables"); });
   for (const std::string& name : deck.history.variables) {
     attempt([&] { views.extremes.emplace_back(all, name, "History > Variables"); });
   }
-  if (!problems.empty()) throw Error(joined(problems, "\n"));
+  problems.raise(deck.file.string());
   return views;
 }
 

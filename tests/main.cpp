@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <sstream>
+#include <string>
 
 #include "base/communicator.hpp"
 
@@ -13,19 +14,22 @@ class FailuresOnly : public testing::EmptyTestEventListener {
  public:
   explicit FailuresOnly(int rank) : rank_(rank) {}
 
+  void OnTestStart(const testing::TestInfo& test) override {
+    test_ = std::string(test.test_suite_name()) + "." + test.name();
+  }
+  // UnitTest holds its lock here: asking it for the current test would wait for ever.
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
     std::ostringstream text;  // one write, so that ranks do not mix their lines
     text << "rank " << rank_ << ": " << (result.file_name() ? result.file_name() : "unknown file") << ":"
-         << result.line_number() << ": Failure in "
-         << (test ? std::string(test->test_suite_name()) + "." + test->name() : std::string("no test")) << "\n"
+         << result.line_number() << ": Failure in " << test_ << "\n"
          << result.message() << "\n";
     std::cerr << text.str() << std::flush;
   }
 
  private:
   int rank_;
+  std::string test_ = "no test";
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "base/function.hpp"
 
 #include <RTC_FunctionRTC.hh>
+#include <cctype>
 #include <charconv>
 #include <optional>
 #include <regex>
@@ -51,7 +52,11 @@ Function Function::parse(const std::string& text) {
   } catch (const std::exception& error) {  // the compiler lets numbers that do not fit a double through as exceptions
     reason = error.what();
   }
-  if (!reason.empty()) throw Error("'" + text + "' is not an expression in x, y, z, t: " + reason);
+  if (!reason.empty()) {
+    while (!reason.empty() && std::isspace(static_cast<unsigned char>(reason.back()))) reason.pop_back();
+    if (reason.find("Function:") != std::string::npos) reason += " There are " + joined(functions_in_expressions());
+    throw Error("'" + text + "' is not an expression in x, y, z, t: " + reason);
+  }
   function.program_ = program;
   function.depends_on_time_ = mentions(text, "t");
   return function;
@@ -66,6 +71,13 @@ double Function::operator()(double x, double y, double z, double t) const {
   compiled.varAddrFill(4, &value);
   if (!compiled.execute()) throw Error("'" + text_ + "' cannot be evaluated: " + compiled.getErrors());
   return value;
+}
+
+const std::vector<std::string>& functions_in_expressions() {
+  static const std::vector<std::string> names{"fabs", "sqrt", "pow",   "exp",  "log",   "log10", "sin",  "cos",
+                                              "tan",  "asin", "acos",  "atan", "atan2", "sinh",  "cosh", "tanh",
+                                              "erf",  "erfc", "gamma", "j0",   "j1",    "i0",    "i1"};
+  return names;
 }
 
 }  // namespace strut

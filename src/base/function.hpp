@@ -1,9 +1,11 @@
-// A value of a deck that may depend on place and time: "2.5", "-50", "1.0e-3*t", "value = sin(x) * (t < 1e-3 ? ...)".
-// Text that is more than a number is compiled by the run-time compiler of Trilinos' Pamgen, whose language is C-like.
+// A value of a deck that may depend on place and time: "2.5", "-50", "1.0e-3*t", "value = 0; if (t < 1e-3) { value =
+// sin(x); }". Text that is more than a number is compiled by the run-time compiler of Trilinos' Pamgen, whose language
+// is C-like.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace strut {
 
@@ -29,5 +31,9 @@ class Function {
   bool depends_on_time_ = false;
   std::string text_;
 };
+
+// The functions that expressions know, and no others (not abs, min, max, floor). Not listed: rand() and drand(), which
+// would make a run depend on the number of ranks.
+const std::vector<std::string>& functions_in_expressions();
 
 }  // namespace strut

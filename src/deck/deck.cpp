@@ -40,6 +40,26 @@ void check_mesh(const fs::path& mesh, Problems& problems) {
   problems.add("Discretization > Input Mesh File", what + "; expected a mesh, its path relative to the deck's folder");
 }
 
+// What a run writes may not be what it reads, nor one file be two.
+void check_files(const Deck& deck, Problems& problems) {
+  const auto same = [](const fs::path& one, const fs::path& other) {
+    std::error_code failure;
+    const fs::path a = fs::weakly_canonical(one, failure), b = fs::weakly_canonical(other, failure);
+    return !failure && !a.empty() && a == b;
+  };
+  const auto check = [&](const std::string& path, const fs::path& file) {
+    const char* read = same(file, deck.discretization.mesh) ? "the input mesh"
+                       : same(file, deck.file)              ? "this deck"
+                                                            : "";
+    if (*read) problems.add(path, "'" + file.string() + "' is " + read + "; expected a file that may be replaced");
+  };
+  if (deck.output.enabled) check("Output > Output Filename", deck.output.file);
+  if (deck.history.enabled) check("History > Filename", deck.history.file);
+  if (deck.output.enabled && deck.history.enabled && same(deck.output.file, deck.history.file)) {
+    problems.add("History > Filename", "'" + deck.history.file.string() + "' is Output's file, too; expected another");
+  }
+}
+
 std::vector<NodeSet> node_sets(const Values& values, Problems& problems) {
   std::vector<NodeSet> sets;
   for (const std::string& name : values.keys()) {
@@ -207,16 +227,19 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   return deck;
 }
 
-// The mesh is looked for on one rank only: the others may not see the file, and need not.
-enum class MeshCheck { no, yes };
+// Files are looked at on one rank only: the others may not see them, and need not.
+enum class FileCheck { no, yes };
 
-Deck parse(const std::string& text, const fs::path& file, MeshCheck mesh_check) {
+Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) {
   Problems problems;
   Deck deck;
   if (const auto list = parse_xml(text, problems)) {
     const Values values = check(*list, schema(), "", problems);
     deck = build(values, file, problems);
-    if (mesh_check == MeshCheck::yes) check_mesh(deck.discretization.mesh, problems);
+    if (file_check == FileCheck::yes) {
+      check_mesh(deck.discretization.mesh, problems);
+      check_files(deck, problems);
+    }
   }
   problems.raise(file.string());
   return deck;
@@ -239,10 +262,10 @@ Deck read(const fs::path& file, const Communicator& communicator) {
   Deck deck;
   run_on_root(communicator, [&] {
     text = contents(file);
-    deck = parse(text, file, MeshCheck::yes);
+    deck = parse(text, file, FileCheck::yes);
   });
   communicator.broadcast(text);
-  if (communicator.rank() != 0) deck = parse(text, file, MeshCheck::no);
+  if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no);
   return deck;
 }
 

@@ -1,4 +1,6 @@
 // The reference page of all keys, from the schema.
+#include "base/errors.hpp"
+#include "base/function.hpp"
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"
@@ -96,12 +98,23 @@ their range; all problems of a deck are reported at once.
 | choice | type `string`: one of the choices in the column range, letter by letter |
 | names | type `string`, separated by blanks |
 | expression | a number, or type `string`: C-like, in x, y, z, t, e.g. `-50`, `1e-3*t`, `sin(x)` |
-
-## The whole deck
 )";
+
+std::string expressions() {
+  return "\nAn expression has the operators `+ - * /`, `^` (power), comparisons and `&& || !`, which give 1 or 0, and "
+         "the\n"
+         "functions " +
+         joined(functions_in_expressions()) +
+         ".\n`pow` and `atan2` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. There is no `abs` (it is "
+         "`fabs`),\n"
+         "`min`, `max` or `?:`. Instead of an expression there may be statements that assign to `value`:\n"
+         "`value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
+}
 
 }  // namespace
 
-std::string reference_page() { return introduction + section_text(schema(), ""); }
+std::string reference_page() {
+  return introduction + expressions() + "\n## The whole deck\n" + section_text(schema(), "");
+}
 
 }  // namespace strut::deck

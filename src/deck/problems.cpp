@@ -4,10 +4,14 @@
 
 namespace strut::deck {
 
-void Problems::raise(const std::string& file) const {
-  if (lines_.empty()) return;
+std::string Problems::text(const std::string& file) const {
+  if (lines_.empty()) return "";
   const std::string count = lines_.size() == 1 ? "1 problem" : std::to_string(lines_.size()) + " problems";
-  throw Error(file + ": " + count + "\n  " + joined(lines_, "\n  "));
+  return file + ": " + count + "\n  " + joined(lines_, "\n  ");
+}
+
+void Problems::raise(const std::string& file) const {
+  if (!lines_.empty()) throw Error(text(file));
 }
 
 std::string path_to(const std::string& parent, const std::string& name) {

@@ -1,4 +1,5 @@
-// The problems found in a deck: collected while it is read, so that the user sees all of them at once.
+// The problems found in a deck: collected while it is read, so that the user sees all of them at once. A second door
+// of the room: set-up collects what only deck and mesh together show in the same way.
 #pragma once
 
 #include <string>
@@ -11,7 +12,12 @@ class Problems {
   // `path`: "Blocks > foam > Horizon"; `what`: the value found and what was expected.
   void add(const std::string& path, const std::string& what) { lines_.push_back(path + ": " + what); }
 
-  // Throws one Error that lists every problem, if there are any.
+  void add(const std::string& line) { lines_.push_back(line); }  // path and what in one
+
+  // "taylor.xml: 2 problems", and a line for each; empty if there are none.
+  std::string text(const std::string& file) const;
+
+  // Throws one Error of this text, if there are any.
   void raise(const std::string& file) const;
 
  private:

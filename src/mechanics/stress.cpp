@@ -7,6 +7,14 @@
 #include "mechanics/bonds.hpp"
 #include "points/parallel.hpp"
 
+// What is not inlined into the loop over groups passes its lanes through memory. Checking builds (debug, asan) go
+// without: it would take the compiler many minutes.
+#ifdef NDEBUG
+#define STRUT_INLINE_ALL __attribute__((flatten))
+#else
+#define STRUT_INLINE_ALL
+#endif
+
 namespace strut {
 
 namespace {
@@ -208,8 +216,7 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
   const auto [begin, end] = range(block, part);
   FirstFailure failure;
   const Update<L, Weight> update{body, block, law, weight, dt, failure};
-  // flatten: what is not inlined passes its lanes through memory.
-  const auto advance_group = [&update, begin = begin, end = end ](int group) __attribute__((flatten)) {
+  const auto advance_group = [&update, begin = begin, end = end ](int group) STRUT_INLINE_ALL {
     return update.template advance_group<with_energy>(begin + 4 * group, end);
   };
   const double steepest = largest(0, (end - begin + 3) / 4, 0, advance_group);

@@ -37,15 +37,15 @@ void CentralDifference::choose_step(double final_time) {
   previous_dt_ = dt_;
   const double left = final_time - time_;
   if (left <= 0 && steps_ > 0) return;  // no step follows: velocities at the end are the mean about equal ones
-  // A fixed step is watched, too: stable_step() tells when it has become too large.
-  if (steepest_ > renewal_growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
+  // A fixed step is watched, too, more closely where it may have become too large: a warning should be true.
+  const double growth = control_.fixed_dt > stable_step() ? 1.01 : renewal_growth;
+  if (steepest_ > growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
   if (control_.fixed_dt > 0) {
     // What round-off leaves after the last full step is no step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
     // Equal steps to the end: a jump in dt at the last one would cost energy.
-    const double allowed = control_.safety_factor * limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
-    dt_ = left / std::ceil(left / allowed * (1 - round_off));
+    dt_ = left / std::ceil(left / (control_.safety_factor * stable_step()) * (1 - round_off));
   }
   next_time_ = dt_ == left ? final_time : time_ + dt_;
 }
@@ -67,6 +67,8 @@ void CentralDifference::kick(double final_time) {
   add_work_of_body_forces(conditions_, time_, kick, body_, kick_work_);
   if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
 }
+
+double CentralDifference::stable_step() const { return limit_ * std::min(1.0, steepest_at_estimate_ / steepest_); }
 
 // Initial velocities belong to the initial time: the mid-step before it is half a step back.
 void CentralDifference::start() {

@@ -29,7 +29,7 @@ class CentralDifference {
   double time() const { return time_; }
   int steps() const { return steps_; }
   double dt() const { return dt_; }
-  double stable_step() const { return limit_; }  // 2/ω_max now, s
+  double stable_step() const;  // 2/ω_max now, s: the last estimate, less where the deformation has gone on
 
   // One step is kick(); then, if wanted, a look at the body and its ledger, both at time(); then move().
   // kick: velocities from the mid-step before time() to the one after. The step does not pass `final_time`.
@@ -58,7 +58,7 @@ class CentralDifference {
   Work work_;           // up to the mid-step before time()
   KickWork kick_work_;  // of the impulses at time()
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
-  double limit_ = 0, steepest_ = 0, steepest_at_estimate_ = 0;
+  double limit_ = 0, steepest_ = 1, steepest_at_estimate_ = 0;
   double put_in_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;
   bool stop_requested_ = false, stop_agreed_ = false;

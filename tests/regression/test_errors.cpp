@@ -126,6 +126,32 @@ TEST_F(Mistake, NodeSetThatIsNotThere) {
                 "Boundary Conditions > pull > Node Set", "'tob' (did you mean 'top'?)"});
 }
 
+TEST_F(Mistake, NodeSetWithoutPoints) {
+  Parts parts = right_parts();
+  parts.node_sets = key("below", "z &lt; -1") + key("low", "z &lt; 1e-3");
+  parts.conditions += along("pull", "Body Force", "below", "x", "1") + along("push", "Body Force", "low", "x", "1");
+  const std::string shown = error(parts.text());
+  EXPECT_EQ(shown, "deck.xml: 1 problem\n  Boundary Conditions > pull > Node Set: 'below' holds no point");
+}
+
+TEST_F(Mistake, MeshAndDeckDisagreeInManyWays) {
+  Parts parts = right_parts();
+  parts.blocks = section("metal", key("Block Names", "bar") + key("Material", "copper") + key("Horizon", "2.01"));
+  expect_error(changed(parts.text(), "\"foot\"", "\"fooot\""),
+               {"deck.xml: 3 problems", "Blocks: block 'plate' of the mesh has no material", "Blocks > metal > Horizon",
+                "Boundary Conditions > wall > Node Set", "'fooot'"});
+}
+
+TEST_F(Mistake, ResultThatReplacesAnInput) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "@/result.e", "@/bar.g"), {"Output > Output Filename", "bar.g' is the input mesh"});
+  expect_error(changed(deck, "@/result.e", "@/nowhere/../deck.xml"),
+               {"Output > Output Filename", "deck.xml' is this deck"});
+  expect_error(changed(deck, "@/history.csv", "@/./bar.g"), {"History > Filename", "bar.g' is the input mesh"});
+  expect_error(changed(deck, "@/history.csv", "@/result.e"), {"History > Filename", "result.e' is Output's file, too"});
+  EXPECT_EQ(outcome(deck).value_or("no error"), "no error");  // mesh and deck are as they were
+}
+
 TEST_F(Mistake, UnknownMaterial) {
   const std::string deck = right_parts().text();
   expect_error(

@@ -97,6 +97,21 @@ TEST(Function, WhatDoesNotCompileIsAnError) {
   for (const char* text : {"3*q", "x +", "sin(", "1e999"}) EXPECT_THROW(Function::parse(text), Error) << text;
 }
 
+// The list that the reference page shows.
+TEST(Function, KnowsTheFunctionsOfTheList) {
+  for (const std::string& name : functions_in_expressions()) {
+    const bool two = name == "pow" || name == "atan2";
+    EXPECT_NO_THROW(Function::parse(name + (two ? "(x, y)" : "(x)"))) << name;
+  }
+  EXPECT_DOUBLE_EQ(Function::parse("fabs(x)")(-2, 0, 0, 0), 2);
+  try {
+    Function::parse("abs(x)");
+    FAIL() << "abs is known: add it to the list";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("fabs"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Tensors, SymmetricOrderAndProducts) {
   Tensor t;
   t << 1, 2, 3, 4, 5, 6, 7, 8, 9;
