@@ -7,17 +7,12 @@
 #include "base/tensors.hpp"
 #include "materials/laws.hpp"
 #include "points/domain.hpp"
+#include "points/site.hpp"
 
 namespace strut {
 
 // ω(r), r = |ξ|/δ: 1; 1 − r; 1 − 3r² + 2r³.
 enum class Influence { one, linear_decay, cubic_decay };
-
-// What a bond reads of its far end: one cache line. Four lanes, so that a vector and a scalar travel together.
-struct alignas(64) Site {
-  Eigen::Array4d reference;  // X (m), V (m³)
-  Eigen::Array4d current;    // y (m), δ (m)
-};
 
 // What the force of a bond reads of an end: A = P K⁻¹ − C F (columns), and C in the fourth lane of the first column.
 struct alignas(32) ForceState {
