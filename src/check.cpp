@@ -32,7 +32,8 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
   views_of(deck, scene.body);
-  CentralDifference solver(scene.body, std::move(scene.conditions), scene.control, deck.solver.initial_time);
+  CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
+                           deck.solver.initial_time);
   const double limit = solver.stable_step();
   const double step_time = measured_step(deck, solver);
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;

@@ -93,6 +93,7 @@ std::string describe_scene(const Scene& scene) {
   if (scene.dropped > 0) {
     text << "dropped " << scene.dropped << " points with too few neighbours (Degenerate Points = Drop)\n";
   }
+  text << scene.warnings;
   return text.str();
 }
 

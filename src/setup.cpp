@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "crossings.hpp"
 #include "deck/problems.hpp"
 #include "io/exodus.hpp"
 #include "points/partition.hpp"
@@ -79,10 +81,15 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   return materials;
 }
 
-std::vector<double> block_horizons(const deck::Deck& deck, const PointCloud& cloud) {
-  std::vector<double> horizons;
-  for (const std::string& name : cloud.block_names) horizons.push_back(section_of(deck, name)->horizon);
-  return horizons;
+// Sections that are bodies of their own are numbered by their place, from 1; all others are body 0.
+std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<BlockBonds> bonds;
+  for (const std::string& name : cloud.block_names) {
+    const deck::Block* section = section_of(deck, name);
+    const int place = static_cast<int>(section - deck.blocks.data());
+    bonds.emplace_back(section->horizon, section->separate_body ? place + 1 : 0);
+  }
+  return bonds;
 }
 
 // A horizon that is smaller than the spacing, or a hundred times as large, is a slip of units.
@@ -104,6 +111,18 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const Commu
          << ", whose mean spacing is " << spacing
          << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
     problems.add("Blocks > " + section->name + " > Horizon", text.str());
+  }
+}
+
+// Every interaction names blocks of the mesh.
+void check_interactions(const deck::Deck& deck, const PointCloud& cloud, deck::Problems& problems) {
+  const std::vector<std::string>& valid = cloud.block_names;
+  for (const deck::Interaction& one : deck.interactions) {
+    for (const auto& [key, name] : {std::pair("First Block", one.first_block), {"Second Block", one.second_block}}) {
+      if (name.empty() || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
+      problems.add("Contact > Interactions > " + one.name + " > " + key,
+                   "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
+    }
   }
 }
 
@@ -175,9 +194,9 @@ PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
 Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
                       std::int64_t& dropped) {
   const Timed timed(phase("Families"));
-  const std::vector<double> horizons = block_horizons(deck, cloud);
+  const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   for (;;) {
-    Domain domain = make_domain(std::move(cloud), horizons, communicator);
+    Domain domain = make_domain(std::move(cloud), bonds, communicator);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
@@ -224,7 +243,7 @@ void add_condition(const deck::Condition& condition, double t, Scene& scene) {
     case deck::ConditionType::symmetry_plane:
     case deck::ConditionType::rigid_plane: {
       const bool one_sided = condition.type == deck::ConditionType::rigid_plane;
-      all.planes.push_back({std::move(points), condition.point, normal, one_sided});
+      all.planes.push_back({std::move(points), condition.point, normal, one_sided, condition.friction});
     }
   }
 }
@@ -240,6 +259,32 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
     }
   }
   raise_together(communicator, problems.text(deck.file.string()));
+}
+
+// Interactions of blocks: the named ones, then every other pair where one names none.
+std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const PointCloud& cloud) {
+  const auto model = [&](const deck::Interaction& one) {
+    const deck::ContactModel& model = deck.contact_models[one.model];
+    return contact::Model{model.radius, model.penalty, model.friction};
+  };
+  const auto block = [&](const std::string& name) {
+    return static_cast<int>(std::find(cloud.block_names.begin(), cloud.block_names.end(), name) -
+                            cloud.block_names.begin());
+  };
+  std::map<std::pair<int, int>, contact::Model> models;  // the first entry of a pair holds
+  for (const deck::Interaction& one : deck.interactions) {
+    if (!one.first_block.empty())
+      models.emplace(std::minmax({block(one.first_block), block(one.second_block)}), model(one));
+  }
+  const int blocks = static_cast<int>(cloud.block_names.size());
+  for (const deck::Interaction& one : deck.interactions) {
+    for (int a = 0; one.first_block.empty() && a < blocks; ++a) {
+      for (int b = a; b < blocks; ++b) models.emplace(std::pair(a, b), model(one));
+    }
+  }
+  std::vector<contact::Interaction> interactions;
+  for (const auto& [pair, model] : models) interactions.push_back({pair.first, pair.second, model});
+  return interactions;
 }
 
 Influence influence_of(deck::Influence influence) {
@@ -262,6 +307,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   check_horizons(deck, cloud, communicator, problems);
   add_node_sets(deck.node_sets, cloud, problems);
   check_conditions(deck, cloud, communicator, problems);
+  check_interactions(deck, cloud, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   {
     const Timed timed(phase("Partition"));
@@ -272,6 +318,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   Domain domain = healthy_domain(deck, std::move(cloud), communicator, dropped);
   Scene scene{make_body(std::move(domain), influence_of(deck.discretization.influence), materials),
               {},
+              {},
               {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor},
               0,
               0,
@@ -279,6 +326,10 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
   add_conditions(deck, scene, communicator);
+  const std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
+  scene.contact = contact::Contact(interactions, scene.body.domain);
+  scene.warnings = paths_that_cross(scene, interactions, deck.solver.initial_time,
+                                    deck.solver.final_time - deck.solver.initial_time);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 // From a deck to the objects of a run: the one place that knows both.
 #pragma once
 
+#include "contact/contact.hpp"
 #include "deck/deck.hpp"
 #include "mechanics/conditions.hpp"
 #include "mechanics/mechanics.hpp"
@@ -11,8 +12,10 @@ namespace strut {
 struct Scene {
   Body body;
   Conditions conditions;
+  contact::Contact contact;
   StepControl control;
   std::int64_t points = 0, bonds = 0, dropped = 0;  // over all ranks
+  std::string warnings;                             // what may be meant otherwise, a line each
 };
 
 // Collective. Reads the mesh, makes node sets, partition, families, body, initial velocities and conditions.

@@ -133,7 +133,8 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   Frames frames(deck, scene.body, views);
   History history(deck, scene.body, views);
   catch_signals();
-  CentralDifference solver(scene.body, std::move(scene.conditions), scene.control, deck.solver.initial_time);
+  CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
+                           deck.solver.initial_time);
   const Ledger ledger = step_through(deck, scene, solver, frames, history);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(communicator, closing_report(scene, solver, ledger, seconds));

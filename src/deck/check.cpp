@@ -76,8 +76,9 @@ class Checker {
     if (has_any_section(parent)) return read_any_sections(parent.sections.front());
     for (const Section& section : parent.sections) {
       const List* list = find(list_.lists, section.name);
-      const auto required = [](const Key& key) { return key.required; };
-      const bool as_good_as_empty = std::none_of(section.keys.begin(), section.keys.end(), required);
+      const auto required = [](const auto& one) { return one.required; };
+      const bool as_good_as_empty = std::none_of(section.keys.begin(), section.keys.end(), required) &&
+                                    std::none_of(section.sections.begin(), section.sections.end(), required);
       if (list) {
         values_.add(check(*list, section, path_to(path_, section.name), problems_));
       } else if (section.required) {

@@ -89,15 +89,18 @@ std::vector<Material> materials_of(const Values& values, Problems& problems) {
   return all;
 }
 
-int find_material(const Values& block, const std::vector<Material>& materials, Problems& problems) {
+// The place in `all` of the one whose name `key` of the section gives. `where`: the section that holds all.
+template <class Named>
+int find_named(const Values& section, const std::string& key, const std::vector<Named>& all, const std::string& where,
+               Problems& problems) {
   std::vector<std::string> names;
-  for (const Material& material : materials) names.push_back(material.name);
-  const std::string& wanted = block.text("Material");
+  for (const Named& one : all) names.push_back(one.name);
+  const std::string& wanted = section.text(key);
   const auto found = std::find(names.begin(), names.end(), wanted);
-  if (found != names.end() || !block.has("Material")) return static_cast<int>(found - names.begin());
-  problems.add(path_to(block.path(), "Material"), "'" + wanted + "' is not defined" + did_you_mean(wanted, names) +
-                                                      "; expected the name of a section of Materials" +
-                                                      (names.empty() ? "" : ": " + joined(names)));
+  if (found != names.end() || !section.has(key)) return static_cast<int>(found - names.begin());
+  problems.add(path_to(section.path(), key), "'" + wanted + "' is not defined" + did_you_mean(wanted, names) +
+                                                 "; expected the name of a section of " + where +
+                                                 (names.empty() ? "" : ": " + joined(names)));
   return 0;
 }
 
@@ -121,10 +124,52 @@ std::vector<Block> blocks(const Values& values, const std::vector<Material>& mat
   for (const Values& section : values.sections()) {
     all.push_back({.name = section.name(),
                    .block_names = section.names("Block Names"),
-                   .material = find_material(section, materials, problems),
-                   .horizon = section.real("Horizon")});
+                   .material = find_named(section, "Material", materials, "Materials", problems),
+                   .horizon = section.real("Horizon"),
+                   .separate_body = section.flag("Separate Body")});
   }
   check_overlaps(all, problems);
+  return all;
+}
+
+std::vector<ContactModel> contact_models(const Values& values) {
+  std::vector<ContactModel> all;
+  for (const Values& section : values.sections()) {
+    all.push_back({.name = section.name(),
+                   .radius = section.real("Contact Radius"),
+                   .penalty = section.real("Spring Constant"),
+                   .friction = section.real("Friction Coefficient")});
+  }
+  return all;
+}
+
+// The blocks of the mesh that an interaction joins, in either order.
+std::pair<std::string, std::string> parties(const Interaction& interaction) {
+  return std::minmax(interaction.first_block, interaction.second_block);
+}
+
+void check_interaction(const Interaction& one, const std::vector<Interaction>& earlier, const std::string& path,
+                       Problems& problems) {
+  if (one.first_block.empty() != one.second_block.empty()) {
+    problems.add(path, "one block is named; expected First Block and Second Block, or neither of them for all blocks");
+  }
+  for (const Interaction& other : earlier) {
+    if (parties(one) == parties(other))
+      problems.add(path, "joins the same blocks as " + other.name + "; expected once");
+  }
+}
+
+std::vector<Interaction> interactions(const Values& values, const std::vector<ContactModel>& models,
+                                      Problems& problems) {
+  std::vector<Interaction> all;
+  for (const Values& section : values.sections()) {
+    const Interaction one{.name = section.name(),
+                          .first_block = section.text("First Block"),
+                          .second_block = section.text("Second Block"),
+                          .model = find_named(section, "Contact Model", models, "Contact > Models", problems)};
+    check_interaction(one, all, section.path(), problems);
+    all.push_back(one);
+  }
   return all;
 }
 
@@ -142,6 +187,7 @@ Condition condition(const Values& values, Problems& problems) {
                       .value = values.function("Value")};
   condition.point = to_vector(values.reals("Point"), condition.point);
   condition.normal = to_vector(values.reals("Normal"), condition.normal);
+  condition.friction = values.real("Friction Coefficient");
   if (condition.normal.isZero(0)) {
     problems.add(path_to(values.path(), "Normal"), "is zero; expected a direction");
   }
@@ -220,6 +266,10 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.node_sets = node_sets(values.section("Node Sets"), problems);
   deck.materials = materials_of(values.section("Materials"), problems);
   deck.blocks = blocks(values.section("Blocks"), deck.materials, problems);
+  if (const Values* contact = values.find("Contact")) {
+    deck.contact_models = contact_models(contact->section("Models"));
+    deck.interactions = interactions(contact->section("Interactions"), deck.contact_models, problems);
+  }
   deck.conditions = conditions(values.section("Boundary Conditions"), problems);
   deck.solver = solver(values.section("Solver"), problems);
   deck.output = output(values.find("Output"), deck.solver, problems);

@@ -48,6 +48,21 @@ struct Block {
   std::vector<std::string> block_names;  // of the mesh; "all" stands for every block
   int material = 0;                      // index into Deck::materials
   double horizon = 0;                    // m
+  bool separate_body = false;            // bonded to nothing outside of this section
+};
+
+// Short-range contact between two blocks of the mesh, or within one.
+struct Interaction {
+  std::string name;                       // of the section
+  std::string first_block, second_block;  // both empty: all blocks, with each other and with themselves
+  int model = 0;                          // index into Deck::contact_models
+};
+
+struct ContactModel {
+  std::string name;
+  double radius = 0;    // m
+  double penalty = 0;   // Pa
+  double friction = 0;  // Coulomb's coefficient
 };
 
 enum class ConditionType {
@@ -56,7 +71,7 @@ enum class ConditionType {
   prescribed_velocity,
   body_force,      // N per m³ of reference volume
   symmetry_plane,  // the points of the set keep their distance to the plane through them with this normal
-  rigid_plane      // one-sided, frictionless: points of the set stay on the side the normal points to
+  rigid_plane      // one-sided: points of the set stay on the side the normal points to
 };
 
 struct Condition {
@@ -67,6 +82,7 @@ struct Condition {
   Function value;        // m/s, m, m/s, N/m³; unused for planes
   Vector point = Vector::Zero();
   Vector normal = Vector::UnitX();
+  double friction = 0;  // of a rigid plane
 };
 
 struct Solver {
@@ -97,6 +113,8 @@ struct Deck {
   std::vector<NodeSet> node_sets;
   std::vector<Material> materials;
   std::vector<Block> blocks;
+  std::vector<ContactModel> contact_models;
+  std::vector<Interaction> interactions;
   std::vector<Condition> conditions;
   Solver solver;
   Output output;

@@ -116,8 +116,55 @@ Section blocks() {
                               .unit = "m",
                               .range = positive,
                               .required = true,
-                              .meaning = "δ: points closer than this are neighbours."}},
+                              .meaning = "δ: points closer than this are neighbours."},
+                             {.name = "Separate Body",
+                              .kind = Kind::boolean,
+                              .fallback = "false",
+                              .meaning = "Points of this section are not bonded to those of others, however near: a "
+                                         "body of its own, that others meet in contact."}},
                     .hints = {{"Damage Model", reserved}}}}};
+}
+
+Section contact() {
+  const std::string found = "Accepted for Peridigm's decks; no effect: the program finds out when to search.";
+  Section model = {
+      .name = any_name,
+      .required = true,
+      .meaning = "One model of contact.",
+      .keys = {
+          {.name = "Contact Model",
+           .kind = Kind::choice,
+           .choices = {"Short Range Force"},
+           .required = true,
+           .meaning = "The law: f = K_c (r_c − d) V₁ V₂ with K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon."},
+          {.name = "Contact Radius",
+           .unit = "m",
+           .range = positive,
+           .required = true,
+           .meaning = "r_c: points that are nearer repel each other. For points that start closer than r_c/0.9, 0.9 of "
+                      "their first distance. One spacing is a good choice."},
+          {.name = "Spring Constant", .unit = "Pa", .range = positive, .required = true, .meaning = "K_p."},
+          {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."}}};
+  Section interaction = {
+      .name = any_name,
+      .required = true,
+      .meaning = "Who may touch whom. Bonded points never do.",
+      .keys = {
+          {.name = "First Block",
+           .kind = Kind::text,
+           .meaning = "A block of the mesh. Without both blocks: all blocks, with each other and with themselves, but "
+                      "for those that other interactions name."},
+          {.name = "Second Block", .kind = Kind::text, .meaning = "The other block, or the same: self-contact."},
+          {.name = "Contact Model", .kind = Kind::text, .required = true, .meaning = "A section of Models."}}};
+  return {
+      .name = "Contact",
+      .meaning = "Contact between bodies, and of a body with itself. Without this section there is none.",
+      .keys =
+          {verbose,
+           {.name = "Search Radius", .unit = "m", .range = positive, .meaning = found},
+           {.name = "Search Frequency", .kind = Kind::integer, .unit = "steps", .range = {.low = 1}, .meaning = found}},
+      .sections = {{.name = "Models", .required = true, .meaning = "Models by name.", .sections = {model}},
+                   {.name = "Interactions", .required = true, .meaning = "By any name.", .sections = {interaction}}}};
 }
 
 Section along_axis(const std::string& type, const std::string& unit, const std::string& meaning) {
@@ -142,6 +189,13 @@ Section plane(const std::string& type, const std::string& meaning) {
                    {.name = "Normal", .kind = Kind::vector, .required = true, .meaning = "Of any length but zero."}}};
 }
 
+Section rigid_plane() {
+  Section section = plane("Rigid Plane", "A wall: the points stay on the side the normal points to.");
+  section.keys.push_back(
+      {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."});
+  return section;
+}
+
 Section conditions() {
   Section one = {.name = any_name,
                  .meaning = "One condition.",
@@ -152,14 +206,13 @@ Section conditions() {
   Key type = {.name = "Type", .kind = Kind::choice, .required = true, .meaning = "It decides on further keys."};
   return {.name = "Boundary Conditions",
           .meaning = "What is imposed on points, initial conditions included.",
-          .sections = {with_cases(
-              std::move(one), std::move(type),
-              {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
-               along_axis("Prescribed Displacement", "m", "The displacement at every time."),
-               along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
-               along_axis("Body Force", "N/m³", "A force per reference volume."),
-               plane("Symmetry Plane", "The points keep their distance to the plane."),
-               plane("Rigid Plane", "A wall without friction: the points stay on the side the normal points to.")})}};
+          .sections = {
+              with_cases(std::move(one), std::move(type),
+                         {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
+                          along_axis("Prescribed Displacement", "m", "The displacement at every time."),
+                          along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
+                          along_axis("Body Force", "N/m³", "A force per reference volume."),
+                          plane("Symmetry Plane", "The points keep their distance to the plane."), rigid_plane()})}};
 }
 
 Section solver() {
@@ -266,10 +319,9 @@ const Section& schema() {
   static const Section whole = {
       .meaning = "",
       .keys = {verbose},
-      .sections = {discretization(), node_sets(), materials_section(), blocks(), conditions(), solver(), output(),
-                   history()},
-      .hints = {{"Contact", reserved},
-                {"Damage Models", reserved},
+      .sections = {discretization(), node_sets(), materials_section(), blocks(), contact(), conditions(), solver(),
+                   output(), history()},
+      .hints = {{"Damage Models", reserved},
                 {"Compute Class Parameters", "unknown section; numbers of the whole body are chosen in 'History'"}}};
   return whole;
 }

@@ -1,5 +1,7 @@
 #include "mechanics/conditions.hpp"
 
+#include <cmath>
+
 namespace strut {
 
 namespace {
@@ -28,21 +30,31 @@ void constrain_motion(const PrescribedMotion& motion, double t, double dt, Body&
   }
 }
 
+// The change of velocity by which a plane allows `velocity`, at a gap (m) in front of it.
+Vector correction(const Plane& plane, double gap, const Vector& velocity, double dt) {
+  const double speed = plane.normal.dot(velocity);
+  double allowed = 0;
+  if (plane.one_sided) {
+    if (gap + dt * speed >= 0) return Vector::Zero();
+    allowed = -gap / dt;  // lands on the plane; one found behind it comes back
+  }
+  const Vector push = (allowed - speed) * plane.normal;
+  if (plane.friction == 0) return push;
+  const Vector sliding = velocity - speed * plane.normal;
+  const double length = sliding.norm();
+  const double grip = plane.friction * std::abs(allowed - speed);
+  return grip < length ? push - grip / length * sliding : Vector(push - sliding);
+}
+
 void constrain_plane(const Plane& plane, double dt, Body& body, KickWork& work) {
-  const Vector& n = plane.normal;
   const auto share = plane.one_sided ? &Work::contact : &Work::external;
   for (const int i : plane.points) {
-    const double speed = n.dot(body.velocity[i]);
-    double allowed = 0;
-    if (plane.one_sided) {
-      const double gap = n.dot(body.current(i) - plane.point);
-      if (gap + dt * speed >= 0) continue;
-      allowed = -gap / dt;  // lands on the plane; one found behind it comes back
-    }
-    const double half_impulse = 0.5 * body.mass(i) * (allowed - speed);
-    work.before.*share += half_impulse * n.dot(body.previous_velocity[i]);
-    work.after.*share += half_impulse * allowed;
-    body.velocity[i] += (allowed - speed) * n;
+    const double gap = plane.normal.dot(body.current(i) - plane.point);
+    const Vector change = correction(plane, gap, body.velocity[i], dt);
+    body.velocity[i] += change;
+    const Vector half_impulse = 0.5 * body.mass(i) * change;
+    work.before.*share += half_impulse.dot(body.previous_velocity[i]);
+    work.after.*share += half_impulse.dot(body.velocity[i]);
   }
 }
 

@@ -22,12 +22,14 @@ struct BodyForce {
   Function value;  // N/m³ of reference volume
 };
 
-// A plane without friction. Two-sided (symmetry): points keep their distance to it. One-sided (rigid wall): points stay
-// on the side that the normal points to; one that would pass is stopped on the plane, and is free to leave.
+// Two-sided (symmetry): points keep their distance to the plane. One-sided (rigid wall): points stay on the side that
+// the normal points to; one that would pass is stopped on the plane, and is free to leave. While it is stopped, Coulomb
+// friction takes up to `friction` times the impulse of the wall from its sliding.
 struct Plane {
   std::vector<int> points;
   Vector point, normal;  // the normal of unit length
   bool one_sided;
+  double friction = 0;
 };
 
 struct Conditions {
@@ -39,7 +41,7 @@ struct Conditions {
 // J done on this rank's points.
 struct Work {
   double external = 0;  // by loads and prescribed motion
-  double contact = 0;   // by one-sided planes (negative: what a plastic impact takes)
+  double contact = 0;   // by one-sided planes and friction (negative: what a plastic impact takes)
 
   Work operator+(const Work& other) const { return {external + other.external, contact + other.contact}; }
 };

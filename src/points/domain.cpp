@@ -1,10 +1,10 @@
 #include "points/domain.hpp"
 
-#include <Tpetra_Distributor.hpp>
 #include <algorithm>
 #include <numeric>
 
 #include "points/cell_grid.hpp"
+#include "points/near_ranks.hpp"
 #include "points/partition.hpp"
 
 namespace strut {
@@ -14,77 +14,36 @@ namespace {
 // A point that another rank may need, as it travels.
 struct Candidate {
   double position[3];
-  double volume, horizon;
-  std::int64_t id;
+  double volume;
+  std::int64_t id, block;
 };
-constexpr int candidate_width = sizeof(Candidate) / sizeof(double);
-
-Eigen::AlignedBox3d bounding_box(const PointCloud& cloud) {
-  Eigen::AlignedBox3d box;
-  for (const Vector& X : cloud.positions) box.extend(X);
-  return box;
-}
-
-std::vector<Eigen::AlignedBox3d> boxes_of_all(const PointCloud& cloud, const Communicator& communicator) {
-  const Eigen::AlignedBox3d mine = bounding_box(cloud);
-  std::vector<double> corners(6 * communicator.size(), 0);
-  // An empty box, turned inside out, must stay finite to be added up.
-  const Vector low = mine.isEmpty() ? Vector::Constant(1) : mine.min();
-  const Vector high = mine.isEmpty() ? Vector::Constant(-1) : mine.max();
-  double* own = &corners[6 * communicator.rank()];
-  std::copy_n(low.data(), 3, own);
-  std::copy_n(high.data(), 3, own + 3);
-  communicator.sum(corners);
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (int r = 0; r < communicator.size(); ++r) {
-    const double* c = &corners[6 * r];
-    boxes.emplace_back(Vector(c[0], c[1], c[2]), Vector(c[3], c[4], c[5]));
-  }
-  return boxes;
-}
 
 // Points of other ranks that lie within `reach` of the box of this rank's points.
-std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<double>& horizons, double reach,
-                                  const Communicator& communicator) {
-  if (communicator.size() == 1) return {};
-  const auto boxes = boxes_of_all(cloud, communicator);
-  std::vector<Candidate> outgoing;
-  std::vector<int> targets;
-  for (int r = 0; r < communicator.size(); ++r) {
-    if (r == communicator.rank() || boxes[r].isEmpty()) continue;
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const Vector& X = cloud.positions[i];
-      if (boxes[r].squaredExteriorDistance(X) > reach * reach) continue;
-      outgoing.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i]});
-      targets.push_back(r);
-    }
+std::vector<Candidate> candidates(const PointCloud& cloud, double reach, const Communicator& communicator) {
+  std::vector<Candidate> mine;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vector& X = cloud.positions[i];
+    mine.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], cloud.ids[i], cloud.blocks[i]});
   }
-  Tpetra::Distributor distributor(communicator.teuchos());
-  const std::size_t arriving = distributor.createFromSends(Teuchos::ArrayView<const int>(targets));
-  std::vector<Candidate> incoming(arriving);
-  const auto as_doubles = [](std::vector<Candidate>& list) {
-    return Kokkos::View<double*, Kokkos::HostSpace>(reinterpret_cast<double*>(list.data()),
-                                                    list.size() * candidate_width);
-  };
-  distributor.doPostsAndWaits(Kokkos::View<const double*, Kokkos::HostSpace>(as_doubles(outgoing)), candidate_width,
-                              as_doubles(incoming));
-  return incoming;
+  return from_near_ranks<Candidate>(cloud.positions, mine, reach, communicator);
 }
 
 // Owned points first, then candidates.
 struct Pool {
   std::vector<Vector> positions;
-  std::vector<double> volumes, horizons;
+  std::vector<double> volumes;
   std::vector<std::int64_t> ids;
+  std::vector<BlockBonds> bonds;
 };
 
-Pool pool_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<Candidate>& others) {
-  Pool pool{cloud.positions, cloud.volumes, horizons, cloud.ids};
+Pool pool_of(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<Candidate>& others) {
+  Pool pool{cloud.positions, cloud.volumes, cloud.ids, {}};
+  for (const int block : cloud.blocks) pool.bonds.push_back(bonds[block]);
   for (const Candidate& c : others) {
     pool.positions.emplace_back(c.position[0], c.position[1], c.position[2]);
     pool.volumes.push_back(c.volume);
-    pool.horizons.push_back(c.horizon);
     pool.ids.push_back(c.id);
+    pool.bonds.push_back(bonds[c.block]);
   }
   return pool;
 }
@@ -93,12 +52,10 @@ Families families_of(const Pool& pool, int owned, double reach) {
   const CellGrid grid(pool.positions, reach);
   Families families;
   families.start.reserve(owned + 1);
-  constexpr double tolerance = 1 + 1e-9;  // a neighbour at exactly the horizon stays in despite round-off
   for (int i = 0; i < owned; ++i) {
     const std::size_t begin = families.neighbours.size();
     grid.visit_near(pool.positions[i], [&](int j) {
-      const double horizon = 0.5 * (pool.horizons[i] + pool.horizons[j]) * tolerance;
-      if (j != i && (pool.positions[j] - pool.positions[i]).squaredNorm() <= horizon * horizon) {
+      if (j != i && bonded(pool.bonds[i], pool.bonds[j], pool.positions[j] - pool.positions[i])) {
         families.neighbours.push_back(j);
       }
     });
@@ -149,12 +106,17 @@ Families renumbered(const Families& old, const std::vector<int>& order, const st
 
 }  // namespace
 
-Domain make_domain(PointCloud cloud, const std::vector<double>& horizon, const Communicator& communicator) {
-  std::vector<double> horizons;
-  for (const int block : cloud.blocks) horizons.push_back(horizon[block]);
-  const double reach = *std::max_element(horizon.begin(), horizon.end()) * (1 + 1e-9);
+bool bonded(const BlockBonds& one, const BlockBonds& other, const Vector& xi) {
+  constexpr double tolerance = 1 + 1e-9;  // a neighbour at exactly the horizon stays in despite round-off
+  const double horizon = 0.5 * (one.horizon + other.horizon) * tolerance;
+  return one.body == other.body && xi.squaredNorm() <= horizon * horizon;
+}
+
+Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
+  double reach = 0;
+  for (const BlockBonds& block : bonds) reach = std::max(reach, block.horizon * (1 + 1e-9));
   const int owned = static_cast<int>(cloud.size());
-  const Pool pool = pool_of(cloud, horizons, candidates(cloud, horizons, reach, communicator));
+  const Pool pool = pool_of(cloud, bonds, candidates(cloud, reach, communicator));
   const Families found = families_of(pool, owned, reach);
 
   int interior = 0;
@@ -166,14 +128,14 @@ Domain make_domain(PointCloud cloud, const std::vector<double>& horizon, const C
 
   std::vector<int> local(pool.ids.size(), -1);
   std::vector<Vector> positions;
-  std::vector<double> volumes, all_horizons;
+  std::vector<double> volumes, horizons;
   std::vector<std::int64_t> ghost_ids;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const int p = order[k];
     local[p] = static_cast<int>(k);
     positions.push_back(pool.positions[p]);
     volumes.push_back(pool.volumes[p]);
-    all_horizons.push_back(pool.horizons[p]);
+    horizons.push_back(pool.bonds[p].horizon);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
   }
   Halo halo(communicator, mine.ids, ghost_ids);
@@ -184,7 +146,8 @@ Domain make_domain(PointCloud cloud, const std::vector<double>& horizon, const C
           static_cast<int>(ghosts.size()),
           std::move(positions),
           std::move(volumes),
-          std::move(all_horizons),
+          std::move(horizons),
+          bonds,
           renumbered(found, points, local),
           std::move(halo)};
 }

@@ -20,6 +20,16 @@ struct Families {
   std::size_t bonds() const { return neighbours.size(); }
 };
 
+// How the points of a block are bonded: δ (m), and the body they belong to. Bodies are not bonded to each other.
+struct BlockBonds {
+  BlockBonds(double horizon, int body = 0) : horizon(horizon), body(body) {}
+  double horizon;
+  int body;
+};
+
+// Whether two points with the bond ξ are in each other's families: |ξ| ≤ (δ_i + δ_j)/2, which is symmetric.
+bool bonded(const BlockBonds& one, const BlockBonds& other, const Vector& xi);
+
 // Local indices: [0, interior) owned, all neighbours owned; [interior, owned) owned, with ghosts in the family;
 // [owned, owned + ghosts) owned by other ranks.
 struct Domain {
@@ -32,13 +42,13 @@ struct Domain {
   std::vector<Vector> positions;  // m
   std::vector<double> volumes;    // m³
   std::vector<double> horizons;   // m
+  std::vector<BlockBonds> bonds;  // of each block
   Families families;
   Halo halo;
 };
 
-// Collective. `cloud`: as partitioned. `horizon`: δ of each block (m). Two points are bonded when |ξ| ≤ (δ_i + δ_j)/2,
-// which is symmetric, so that every bond is in both families.
-Domain make_domain(PointCloud cloud, const std::vector<double>& horizon, const Communicator& communicator);
+// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud.
+Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator);
 
 // What is wrong with a family, or nullptr: a shape tensor needs at least four neighbours that span space.
 // `spread`: Σ V ξ⊗ξ of the family.

@@ -21,11 +21,20 @@ constexpr double round_off = 1e-9;  // of a step: times are sums of steps
 
 }  // namespace
 
-CentralDifference::CentralDifference(Body& body, Conditions conditions, StepControl control, double initial_time)
-    : body_(body), conditions_(std::move(conditions)), control_(control), time_(initial_time) {
-  check(advance_stress_and_force(body_, 0, true));
+CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
+                                     double initial_time)
+    : body_(body),
+      conditions_(std::move(conditions)),
+      contact_(std::move(contact)),
+      control_(control),
+      time_(initial_time) {
+  const StepReport report = advance_stress_and_force(body_, 0, true);
+  contact_.add_forces(crowd(), 0, body_.force_density);
+  check(report);
   estimate_step();
 }
+
+contact::Crowd CentralDifference::crowd() const { return {body_.domain, body_.sites, body_.velocity, body_.density}; }
 
 void CentralDifference::estimate_step() {
   limit_ = stable_.estimate(body_);
@@ -65,10 +74,21 @@ void CentralDifference::kick(double final_time) {
   });
   constrain(conditions_, time_, dt_, body_, kick_work_);
   add_work_of_body_forces(conditions_, time_, kick, body_, kick_work_);
+  add_work_of_friction(kick);
   if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
 }
 
-double CentralDifference::stable_step() const { return limit_ * std::min(1.0, steepest_at_estimate_ / steepest_); }
+// ω² of a sum of operators is at most the sum of theirs.
+double CentralDifference::stable_step() const {
+  const double alone = limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
+  return alone / std::sqrt(1 + 0.25 * alone * alone * contact_.stiffness());
+}
+
+void CentralDifference::add_work_of_friction(double kick) {
+  const contact::FrictionWork work = contact_.friction_work(kick, body_.previous_velocity, body_.velocity);
+  kick_work_.before.contact += work.before;
+  kick_work_.after.contact += work.after;
+}
 
 // Initial velocities belong to the initial time: the mid-step before it is half a step back.
 void CentralDifference::start() {
@@ -88,12 +108,17 @@ void CentralDifference::move(bool with_energy) {
   time_ = next_time_;
   ++steps_;
   ++steps_since_estimate_;
-  check(advance_stress_and_force(body_, dt_, with_energy));
+  const StepReport report = advance_stress_and_force(body_, dt_, with_energy);
+  contact_.add_forces(crowd(), dt_, body_.force_density);
+  check(report);
 }
 
-// One reduction a step: whether a point failed anywhere, whether to stop, and how far the deformation has gone.
+// One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
+// contact needs.
 void CentralDifference::check(const StepReport& report) {
-  double agreed[] = {report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.steepest};
+  std::vector<double> agreed{report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.steepest};
+  const std::size_t own = agreed.size();
+  contact_.append_to_agree(crowd(), agreed);
   {
     static Teuchos::Time& timer = phase("Agreement of ranks");
     const Timed timed(timer);
@@ -101,6 +126,7 @@ void CentralDifference::check(const StepReport& report) {
   }
   stop_agreed_ = agreed[1] > 0;
   steepest_ = agreed[2];
+  contact_.take_agreed(std::span(agreed).subspan(own), dt_);
   if (agreed[0] == 0) return;
   std::ostringstream text;
   if (report.failure) {
@@ -119,7 +145,7 @@ Ledger CentralDifference::ledger() {
   now.time = time_;
   now.dt = dt_;
   const Work done = work_ + kick_work_.before;
-  double sums[6] = {0, done.contact, done.external, 0, 0, 0};
+  double sums[6] = {0, done.contact - contact_.energy(), done.external, 0, 0, 0};
   for (int i = 0; i < body_.owned(); ++i) {
     const Vector &before = body_.previous_velocity[i], &after = body_.velocity[i];
     // ½ m v⁻·v⁺: with it central differences conserve the energy of a linear body exactly, at a constant step.

@@ -1,6 +1,7 @@
 // Explicit central differences (leap-frog form): velocities live at mid-steps, places and forces at steps.
 #pragma once
 
+#include "contact/contact.hpp"
 #include "mechanics/conditions.hpp"
 #include "mechanics/mechanics.hpp"
 #include "solvers/stable_step.hpp"
@@ -11,7 +12,9 @@ namespace strut {
 struct Ledger {
   double time = 0, dt = 0;                                             // s
   double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
-  double contact = 0, external = 0;                                    // J, work done on the body so far
+  double external = 0;  // J, work of loads and prescribed motion on the points so far
+  // J, work of walls and contact on the points so far: what penalties store and friction and walls take is negative.
+  double contact = 0;
   double balance_error = 0;          // |stored + dissipated − put in| over the largest sum of energies so far
   Vector momentum = Vector::Zero();  // kg m/s
 };
@@ -24,12 +27,15 @@ struct StepControl {
 class CentralDifference {
  public:
   // Collective. Computes the initial forces and step. Throws Error when the initial state already fails.
-  CentralDifference(Body& body, Conditions conditions, StepControl control, double initial_time);
+  CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
+                    double initial_time);
 
   double time() const { return time_; }
   int steps() const { return steps_; }
   double dt() const { return dt_; }
-  double stable_step() const;  // 2/ω_max now, s: the last estimate, less where the deformation has gone on
+  // 2/ω_max now, s: the last estimate, less where the deformation has gone on and where points touch.
+  double stable_step() const;
+  const contact::Contact& contact() const { return contact_; }
 
   // One step is kick(); then, if wanted, a look at the body and its ledger, both at time(); then move().
   // kick: velocities from the mid-step before time() to the one after. The step does not pass `final_time`.
@@ -45,6 +51,8 @@ class CentralDifference {
   void request_stop() { stop_requested_ = true; }
 
  private:
+  contact::Crowd crowd() const;
+  void add_work_of_friction(double kick);
   void choose_step(double final_time);
   void estimate_step();
   void start();
@@ -53,6 +61,7 @@ class CentralDifference {
 
   Body& body_;
   Conditions conditions_;
+  contact::Contact contact_;
   StepControl control_;
   StableStep stable_;
   Work work_;           // up to the mid-step before time()

@@ -56,7 +56,7 @@ PointCloud slice(const PointCloud& whole, const Communicator& world) {
 }
 
 Domain domain_of(const Case& c, const Communicator& world) {
-  return make_domain(partitioned(slice(whole_cloud(c), world), world), c.horizons, world);
+  return make_domain(partitioned(slice(whole_cloud(c), world), world), {c.horizons.begin(), c.horizons.end()}, world);
 }
 
 // The ids of owned points and ghosts, by local index: what the halo brings says who a ghost is.

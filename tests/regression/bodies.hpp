@@ -169,7 +169,7 @@ class Simulation {
   Simulation(const RunFolder& folder, const Parts& parts)
       : deck(deck::read(folder.write("deck.xml", parts.text()), folder.world)),
         scene(set_up(deck, folder.world)),
-        solver(scene.body, scene.conditions, scene.control, deck.solver.initial_time) {}
+        solver(scene.body, scene.conditions, scene.contact, scene.control, deck.solver.initial_time) {}
 
   // The ledger at the final time.
   Ledger go(const std::function<void(const Ledger&)>& look = [](const Ledger&) {}) {

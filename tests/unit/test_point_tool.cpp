@@ -90,7 +90,7 @@ class PointToolTest : public ToolTest {
 
   // The environment is emptied: the tool shall not take itself for a rank of the mpirun that runs this test.
   Outcome point(const std::string& words) const {
-    return run("env -i PATH=\"$PATH\" HOME=\"$HOME\" TMPDIR=\"${TMPDIR:-/tmp}\" " STRUT_POINT " " + words);
+    return run("env -i ASAN_OPTIONS=\"$ASAN_OPTIONS\" PATH=\"$PATH\" HOME=\"$HOME\" TMPDIR=\"${TMPDIR:-/tmp}\" " STRUT_POINT " " + words);
   }
 
   std::vector<Row> follow(const std::string& words) const {

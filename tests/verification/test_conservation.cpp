@@ -36,7 +36,7 @@ Outcome run_free_block(const BlockMaterial& material, double speed, StepControl 
   LatticeSpec spec{{9, 9, 9}, 1e-3, 2.515, 0.1, Influence::one, material};
   Body body = lattice_body(spec, world);
   throw_apart(body, speed, 9e-3);
-  CentralDifference solver(body, {}, control, 0);
+  CentralDifference solver(body, {}, {}, control, 0);
   const double final_time = crossings * crossing_time;
   Vector start = Vector::Zero();
   Outcome outcome{0, 0};
@@ -79,13 +79,13 @@ bool stays_bounded(double factor) {
   const Communicator world;
   LatticeSpec spec{{7, 7, 7}, 1e-3, 2.015, 0, Influence::one, copper(false)};
   Body body = lattice_body(spec, world);
-  const double limit = CentralDifference(body, {}, {0, 1}, 0).stable_step();
+  const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
   for (int i = 0; i < body.owned(); ++i) {
     std::mt19937 engine(static_cast<unsigned>(body.domain.cloud.ids[i]));
     std::uniform_real_distribution<double> uniform(-1e-3, 1e-3);
     body.velocity[i] = Vector(uniform(engine), uniform(engine), uniform(engine));
   }
-  CentralDifference solver(body, {}, {factor * limit, 0}, 0);
+  CentralDifference solver(body, {}, {}, {factor * limit, 0}, 0);
   try {
     for (int n = 0; n < 1000; ++n) {
       solver.kick(1e9);
@@ -108,7 +108,7 @@ TEST(StableStep, ScalesWithSpacingAndSpeed) {
   const auto limit = [&](double spacing, double young) {
     LatticeSpec spec{{7, 7, 7}, spacing, 2.015, 0, Influence::one, {1000, elastic(young, 0.3), 0.02}};
     Body body = lattice_body(spec, world);
-    return CentralDifference(body, {}, {0, 1}, 0).stable_step();
+    return CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
   };
   // Rounded down to 10 bits of mantissa: a part in 512 at the most.
   EXPECT_NEAR(limit(2e-3, 1e9) / limit(1e-3, 1e9), 2, 2.0 / 512);

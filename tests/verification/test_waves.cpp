@@ -74,7 +74,7 @@ double pulse_error(int cells, const Communicator& world) {
   const auto start = [&](double x) { return amplitude * pulse((x - centre) / width); };
   deform(body, [&](const Vector& X) -> Vector { return X + Vector(start(X[0]), 0, 0); });
   advance_stress_and_force(body, 1e-9, false);  // a hypoelastic law must be told the way to the initial state
-  CentralDifference solver(body, {}, {0, 0.5}, 0);
+  CentralDifference solver(body, {}, {}, {0, 0.5}, 0);
   const double final_time = 0.25 * length / speed;
   for (;;) {
     solver.kick(final_time);

@@ -1,0 +1,152 @@
+#include "contact/contact.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/timing.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+// The skin in units of the smaller horizon. Points that are not bonded start at least a horizon apart, and a pair
+// touches at 0.9 of its distance at the most: with less than a tenth, no pair of undeformed material is in a list.
+constexpr double skin_share = 0.09;
+
+// A search is due this many steps before the skin is used up, since the motion of the next step is a forecast.
+constexpr double forecast = 2;
+
+// The bound of the stiffness falls so slowly after points have parted: a step that jumps with every touch costs energy.
+constexpr double decay = 0.99;
+
+std::vector<int> points_of_block(const Domain& domain, int block) {
+  std::vector<int> points;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (domain.cloud.blocks[i] == block) points.push_back(i);
+  }
+  return points;
+}
+
+// The largest velocity along +x … −z of some points.
+struct Reach {
+  double along[6];
+};
+
+Reach reach_of(std::span<const Vector> velocities, const std::vector<int>& points) {
+  Eigen::Array3d high = Eigen::Array3d::Constant(-std::numeric_limits<double>::infinity()), low = high;
+  for (const int i : points) {
+    high = high.max(velocities[i].array());
+    low = low.max(-velocities[i].array());
+  }
+  Reach reach;
+  for (int c = 0; c < 3; ++c) reach.along[c] = high[c], reach.along[3 + c] = low[c];
+  return reach;
+}
+
+// No two points of two blocks part or meet faster than this: the diagonal of the box of their velocities.
+double relative_speed(const double* one, const double* other) {
+  double square = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double width = std::max(one[c], other[c]) + std::max(one[3 + c], other[3 + c]);
+    if (width > 0) square += width * width;  // a block without points has none
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+Contact::Contact(const std::vector<Interaction>& interactions, const Domain& domain) {
+  for (const Interaction& interaction : interactions) {
+    const auto [first, second, model] = interaction;
+    Parties parties{points_of_block(domain, first), {}, first == second};
+    if (!parties.self) parties.second = points_of_block(domain, second);
+    const double horizon = std::min(domain.bonds[first].horizon, domain.bonds[second].horizon);
+    meetings_.push_back({interaction, std::move(parties), skin_share * horizon});
+    blocks_.insert(blocks_.end(), {first, second});
+  }
+  std::sort(blocks_.begin(), blocks_.end());
+  blocks_.erase(std::unique(blocks_.begin(), blocks_.end()), blocks_.end());
+}
+
+void Contact::search(const Crowd& crowd, Meeting& meeting) {
+  static Teuchos::Time& timer = phase("Contact search");
+  const Timed timed(timer);
+  const Model& model = meeting.interaction.model;
+  const double gap = meeting.parties.self ? 0 : distance_of_boxes(crowd, meeting.parties);
+  const bool far = gap > model.radius + meeting.skin;
+  meeting.pairs = far ? Pairs{} : find_pairs(crowd, meeting.parties, model, meeting.skin);
+  meeting.allowance = far ? gap - model.radius : meeting.skin;
+  meeting.travelled = 0;
+  meeting.due = false;
+  meeting.tally = {};
+  meeting.friction.clear();
+  ++searches_;
+}
+
+void Contact::add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density) {
+  Pairs& pairs = meeting.pairs;
+  if (pairs.empty() && !pairs.halo) return;
+  static Teuchos::Time& timer = phase("Contact forces");
+  const Timed timed(timer);
+  const Model& model = meeting.interaction.model;
+  meeting.tally = add_normal_forces(crowd, model, pairs, force_density);
+  if (model.friction > 0 && dt > 0) add_friction(crowd, model, dt, pairs, force_density, meeting.friction);
+}
+
+void Contact::add_forces(const Crowd& crowd, double dt, std::vector<Vector>& force_density) {
+  for (Meeting& meeting : meetings_) {
+    if (meeting.due) search(crowd, meeting);
+    add_forces(crowd, dt, meeting, force_density);
+  }
+}
+
+void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const {
+  if (!any()) return;
+  double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
+  for (const Meeting& meeting : meetings_) stiffness += meeting.tally.stiffness;
+  numbers.push_back(stiffness);
+  for (const int block : blocks_) {
+    for (const Meeting& meeting : meetings_) {
+      const bool first = meeting.interaction.first == block;
+      if (!first && meeting.interaction.second != block) continue;
+      const Reach reach = reach_of(crowd.velocities, first ? meeting.parties.first : meeting.parties.second);
+      numbers.insert(numbers.end(), std::begin(reach.along), std::end(reach.along));
+      break;
+    }
+  }
+}
+
+void Contact::take_agreed(std::span<const double> numbers, double dt) {
+  if (!any()) return;
+  stiffness_ = std::max(numbers[0], decay * stiffness_);
+  const auto reach = [&](int block) {
+    const auto at = std::find(blocks_.begin(), blocks_.end(), block) - blocks_.begin();
+    return numbers.data() + 1 + 6 * at;
+  };
+  for (Meeting& meeting : meetings_) {
+    const double motion = dt * relative_speed(reach(meeting.interaction.first), reach(meeting.interaction.second));
+    meeting.travelled += motion;
+    // Said so that a speed that is not a number means a search, too.
+    meeting.due = !(meeting.travelled + forecast * motion < meeting.allowance);
+  }
+}
+
+double Contact::energy() const {
+  double sum = 0;
+  for (const Meeting& meeting : meetings_) sum += meeting.tally.energy;
+  return sum;
+}
+
+FrictionWork Contact::friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const {
+  FrictionWork work;
+  for (const Meeting& meeting : meetings_) {
+    for (std::size_t k = 0; k < meeting.friction.size(); ++k) {
+      const int i = meeting.pairs.owned[k];
+      work.before += 0.5 * kick * meeting.friction[k].dot(before[i]);
+      work.after += 0.5 * kick * meeting.friction[k].dot(after[i]);
+    }
+  }
+  return work;
+}
+
+}  // namespace strut::contact

@@ -1,0 +1,71 @@
+// The door of contact: between chosen blocks, and within them. It searches when points may have come near, adds the
+// forces of those that touch, and says what this costs the step and the ledger.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/forces.hpp"
+#include "contact/search.hpp"
+
+namespace strut::contact {
+
+// Between the points of two blocks of the cloud, or within one.
+struct Interaction {
+  int first = 0, second = 0;
+  Model model;
+};
+
+// Work of friction, J: the halves of an impulse's work before and after the step at which it acts.
+struct FrictionWork {
+  double before = 0, after = 0;
+};
+
+class Contact {
+ public:
+  Contact() = default;  // none: every call is free
+  Contact(const std::vector<Interaction>& interactions, const Domain& domain);
+
+  bool any() const { return !meetings_.empty(); }
+
+  // Collective. Adds the forces of contact at the present places to force_density (N/m³). `dt`: of the step that led
+  // here (s), 0 at the start.
+  void add_forces(const Crowd& crowd, double dt, std::vector<Vector>& force_density);
+
+  // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
+  // with its own, and hands it back.
+  void append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const;
+  void take_agreed(std::span<const double> numbers, double dt);
+
+  double stiffness() const { return stiffness_; }  // a bound of ω² of all touching points, 1/s²; as last agreed
+  double energy() const;                           // stored by this rank's points, J
+
+  // Of the last forces of friction on this rank's points, over a kick of length `kick` (s) from the velocities `before`
+  // to those `after`.
+  FrictionWork friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const;
+
+  int searches() const { return searches_; }  // so far, of all interactions
+
+ private:
+  // One interaction as it goes on.
+  struct Meeting {
+    Interaction interaction;
+    Parties parties;
+    double skin = 0;       // m: how much nearer than a search finds its pairs two points may come before the next one
+    double allowance = 0;  // relative motion after which the next search is due, m
+    double travelled = 0;  // a bound of the relative motion since the last search, m
+    bool due = true;
+    Pairs pairs = {};
+    Tally tally = {};
+    std::vector<Vector> friction = {};  // N, on pairs.owned
+  };
+  void search(const Crowd& crowd, Meeting& meeting);
+  void add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density);
+
+  std::vector<Meeting> meetings_;
+  std::vector<int> blocks_;  // that take part
+  double stiffness_ = 0;
+  int searches_ = 0;
+};
+
+}  // namespace strut::contact

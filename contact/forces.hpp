@@ -1,0 +1,24 @@
+// The forces of the pairs that a search has found.
+#pragma once
+
+#include <vector>
+
+#include "contact/search.hpp"
+
+namespace strut::contact {
+
+// Of this rank's points.
+struct Tally {
+  double energy = 0;     // stored by the penalty, J: half of each pair
+  double stiffness = 0;  // a bound of ω² of the touching points: the largest Σ k (1/m_i + 1/√(m_i m_j)), 1/s²
+};
+
+// Collective. Brings the pairs to the present places and adds the penalty to force_density (N/m³).
+Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, std::vector<Vector>& force_density);
+
+// Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
+// pairs.owned[k] (N), so that its work can be counted. dt: the length of the step (s).
+void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
+                  std::vector<Vector>& friction);
+
+}  // namespace strut::contact
