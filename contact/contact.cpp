@@ -58,7 +58,8 @@ double relative_speed(const double* one, const double* other) {
 Contact::Contact(const std::vector<Interaction>& interactions, const Domain& domain) {
   for (const Interaction& interaction : interactions) {
     const auto [first, second, model] = interaction;
-    Parties parties{points_of_block(domain, first), {}, first == second};
+    const bool one_body = domain.bonds[first].body == domain.bonds[second].body;
+    Parties parties{points_of_block(domain, first), {}, first == second, one_body};
     if (!parties.self) parties.second = points_of_block(domain, second);
     const double horizon = std::min(domain.bonds[first].horizon, domain.bonds[second].horizon);
     meetings_.push_back({interaction, std::move(parties), skin_share * horizon});

@@ -26,6 +26,10 @@ struct Touch {
   double force() const { return normal_force(stiffness, touching, distance); }
 };
 
+double reference_distance(const Site& a, const Site& b) {
+  return (b.reference - a.reference).head<3>().matrix().norm();
+}
+
 // Calls visit(Touch) for the partners of owned[k] that touch it.
 template <class Visit>
 void for_each_touch(const Pairs& pairs, const Model& model, std::size_t k, Visit&& visit) {
@@ -36,8 +40,8 @@ void for_each_touch(const Pairs& pairs, const Model& model, std::size_t k, Visit
     const Vector eta = (there.current - here.current).head<3>().matrix();
     const double distance2 = eta.squaredNorm();
     if (!(distance2 < radius2)) continue;
-    const double reference = (there.reference - here.reference).head<3>().matrix().norm();
-    const double touching = touching_distance(model.radius, reference);
+    const double touching =
+        pairs.one_body ? touching_distance(model.radius, reference_distance(here, there)) : model.radius;
     if (!(distance2 < touching * touching)) continue;
     const double distance = std::sqrt(distance2);
     // Two points at the same place have no direction: nothing parts them in this step.

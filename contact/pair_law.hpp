@@ -20,9 +20,10 @@ inline double penalty_stiffness(double penalty, double horizon) {
   return 18 * penalty / (std::numbers::pi * square * square * horizon);
 }
 
-// The distance at which a pair begins to touch: r_c, but never more than 0.9 of its distance in the reference state
-// (Parks et al. 2008, LAMMPS' PERI package): points that start close together do not start under pressure, and the
-// material between two points that it joins is left to its own law until it has been shortened by a tenth.
+// The distance at which two points of one body begin to touch: r_c, but never more than 0.9 of their distance in the
+// reference state (Parks et al. 2008, LAMMPS' PERI package). So a body does not start under pressure from points that
+// are beyond each other's horizon but within r_c, and the material that joins two points is left to its own law until
+// it has been shortened by a tenth. Points of different bodies touch at r_c.
 constexpr double reference_share = 0.9;
 inline double touching_distance(double radius, double reference_distance) {
   return std::min(radius, reference_share * reference_distance);

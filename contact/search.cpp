@@ -96,12 +96,13 @@ Pool pool_of(const Crowd& crowd, const Parties& parties, double reach) {
 struct Criterion {
   const std::vector<BlockBonds>& bonds;
   double radius, skin;
-  bool self;
+  const Parties& parties;
 
   bool operator()(const Candidate& a, const Candidate& b) const {
     const double limit = radius + skin;
     const double distance2 = (place(a) - place(b)).squaredNorm();
-    if (distance2 > limit * limit || (!self && a.block == b.block)) return false;
+    if (distance2 > limit * limit || (!parties.self && a.block == b.block)) return false;
+    if (!parties.one_body) return true;
     const Vector xi = reference(b) - reference(a);
     const double reach = touching_distance(radius, xi.norm()) + skin;
     return distance2 <= reach * reach && !bonded(bonds[a.block], bonds[b.block], xi);
@@ -157,9 +158,10 @@ void make_halo(const Communicator& communicator, const Pool& pool, const std::ve
 Pairs find_pairs(const Crowd& crowd, const Parties& parties, const Model& model, double skin) {
   const double reach = model.radius + skin;
   const Pool pool = pool_of(crowd, parties, reach);
-  const Lists lists = lists_of(pool, {crowd.domain.bonds, model.radius, skin, parties.self}, reach);
+  const Lists lists = lists_of(pool, {crowd.domain.bonds, model.radius, skin, parties}, reach);
   const std::vector<int> members = paired_members(pool, lists);
   Pairs pairs;
+  pairs.one_body = parties.one_body;
   std::vector<int> local(pool.members.size(), -1);
   for (const int m : members) {
     const Candidate& member = pool.members[m];

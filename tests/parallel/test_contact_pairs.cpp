@@ -59,7 +59,9 @@ struct Part {
     }
     return points;
   }
-  Parties parties(int a, int b) const { return {of_block(a), a == b ? std::vector<int>{} : of_block(b), a == b}; }
+  Parties parties(int a, int b) const {
+    return {of_block(a), a == b ? std::vector<int>{} : of_block(b), a == b, bonds[a].body == bonds[b].body};
+  }
 };
 
 Part part_of(const Scatter& all, const Communicator& world) {
@@ -83,6 +85,7 @@ Part part_of(const Scatter& all, const Communicator& world) {
 double distance(const Scatter& all, int i, int j) { return (all.places[i] - all.places[j]).norm(); }
 
 double touching(const Scatter& all, int i, int j) {
+  if (bonds[all.cloud.blocks[i]].body != bonds[all.cloud.blocks[j]].body) return model.radius;
   return touching_distance(model.radius, (all.cloud.positions[i] - all.cloud.positions[j]).norm());
 }
 

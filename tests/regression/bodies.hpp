@@ -98,7 +98,7 @@ struct Parts {
   std::string materials = copper();
   std::string blocks =
       section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3"));
-  std::string conditions;
+  std::string contact, conditions;
   std::string times = key("Final Time", "5e-6");
   std::string verlet = key("Safety Factor", "0.8");
   std::string output, history;
@@ -111,8 +111,9 @@ struct Parts {
     return "<ParameterList>\n" +
            section("Discretization", key("Type", mesh_type) + key("Input Mesh File", mesh_file) + degenerate_points) +
            optional("Node Sets", node_sets) + section("Materials", materials) + section("Blocks", blocks) +
-           optional("Boundary Conditions", conditions) + section("Solver", times + section("Verlet", verlet)) +
-           optional("Output", output) + optional("History", history) + "</ParameterList>\n";
+           optional("Contact", contact) + optional("Boundary Conditions", conditions) +
+           section("Solver", times + section("Verlet", verlet)) + optional("Output", output) +
+           optional("History", history) + "</ParameterList>\n";
   }
 };
 
@@ -143,6 +144,34 @@ class RunFolder {
   TemporaryFolder folder_;
 };
 
+// Points of a text mesh: cubes of edge `spacing` that fill nx × ny × nz cells from `corner` (m), in block `block`.
+inline std::string cubes(int block, const Vector& corner, int nx, int ny, int nz, double spacing) {
+  std::ostringstream text;
+  text.precision(17);
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) {
+        const Vector X = corner + spacing * Vector(i + 0.5, j + 0.5, k + 0.5);
+        text << X[0] << " " << X[1] << " " << X[2] << " " << block << " " << spacing * spacing * spacing << "\n";
+      }
+    }
+  }
+  return text.str();
+}
+
+// One model for the given interactions: pairs of blocks "block_1 block_2".
+inline std::string contact_of(const std::vector<std::pair<std::string, std::string>>& interactions,
+                              const std::string& radius, const std::string& penalty,
+                              const std::string& friction = "0") {
+  std::string all;
+  for (const auto& [first, second] : interactions) {
+    all += section(first + second, key("First Block", first) + key("Second Block", second) + key("Contact Model", "m"));
+  }
+  const std::string model = key("Contact Model", "Short Range Force") + key("Contact Radius", radius) +
+                            key("Spring Constant", penalty) + key("Friction Coefficient", friction);
+  return section("Models", section("m", model)) + section("Interactions", all);
+}
+
 // A history as columns by name; throws where a line has not as many numbers as the header has names.
 using Table = std::map<std::string, std::vector<double>>;
 inline Table read_history(const std::filesystem::path& path) {
@@ -169,7 +198,7 @@ class Simulation {
   Simulation(const RunFolder& folder, const Parts& parts)
       : deck(deck::read(folder.write("deck.xml", parts.text()), folder.world)),
         scene(set_up(deck, folder.world)),
-        solver(scene.body, scene.conditions, scene.contact, scene.control, deck.solver.initial_time) {}
+        solver(scene.body, scene.conditions, std::move(scene.contact), scene.control, deck.solver.initial_time) {}
 
   // The ledger at the final time.
   Ledger go(const std::function<void(const Ledger&)>& look = [](const Ledger&) {}) {
@@ -182,6 +211,7 @@ class Simulation {
     }
   }
 
+  const Communicator& world() const { return scene.body.domain.communicator; }
   Body& body() { return scene.body; }
   const Vector& reference(int i) const { return scene.body.domain.positions[i]; }
   bool in_set(int i, const std::string& name) const {
