@@ -19,7 +19,8 @@ TEST(Skeleton, KelvinFoamHasTheEdgesOfTruncatedOctahedra) {
   // which the box would own halves. It is a little smaller, so that these lie outside.
   const double cell = 0.4e-3;
   const double a = cell * std::cbrt(pi / 3);
-  const Vector size = Vector::Constant(3 * a * (1 - 1e-6));
+  const double gap = 1e-6 * a;
+  const Vector size = Vector::Constant(3 * a - 2 * gap);
   const Skeleton skeleton = foam_skeleton(size, cell, 0, 1);
   double length = 0;
   int edges = 0;
@@ -31,8 +32,9 @@ TEST(Skeleton, KelvinFoamHasTheEdgesOfTruncatedOctahedra) {
   }
   const int expected = 24 * 27 - 6 * 9 * 4 / 2;
   EXPECT_EQ(edges, expected);
-  // The box lacks 0.5e-6 of 3 a on each side, and with it as much of the edges that end there.
-  EXPECT_NEAR(length / (expected * a * std::sqrt(2) / 4), 1, 1e-6);
+  // One edge ends at each corner of a square, at 45° to the wall, and lacks what the box is smaller by.
+  const double missing = 6 * 9 * 4 * gap * std::sqrt(2);
+  EXPECT_NEAR(length + missing, expected * a * std::sqrt(2) / 4, 1e-9 * length);  // voro++: 1e-11 a vertex
   EXPECT_EQ(skeleton.cells, 27u + 8);  // seeds at the corners of cubes lie outside
 }
 
@@ -57,12 +59,14 @@ TEST(Skeleton, FourStrutsMeetAtEveryVertex) {
 }
 
 TEST(Skeleton, TheSizeOfCellsDoesNotDependOnTheIrregularity) {
-  const Vector size = Vector::Constant(3);
   const double cell = 0.3;
+  const Vector size =
+      Vector::Constant(9.5 * cell * std::cbrt(pi / 3));  // lattice constants: 9 or 10 seeds along a side
   const double expected = size.prod() / (pi / 6 * std::pow(cell, 3));
   for (const double irregularity : {0.0, 0.5, 1.0}) {
-    // What is cut by the box: half of the cells in a layer about as thick as a quarter of a cell is uncertain.
-    const double uncertain = 6 * expected * (cell / 4) / size[0] / 2;
+    // On the lattice there are 9³ + 10³ seeds for 2 · 9.5³ cells. Of those within half a lattice constant of the walls
+    // a few leave and others enter: the square root of their number, three times.
+    const double uncertain = 9 * 9 * 9 + 10 * 10 * 10 - expected + 3 * std::sqrt(6 * expected * 0.5 / 9.5);
     EXPECT_NEAR(static_cast<double>(foam_skeleton(size, cell, irregularity, 3).cells), expected, uncertain);
   }
 }
