@@ -50,9 +50,9 @@ Mesh mixed_mesh() {
   mesh.nodes.emplace_back(0, 0, 2);
   mesh.nodes.emplace_back(5, 5, 5);
   mesh.nodes.emplace_back(6, 5, 5);
-  mesh.blocks.push_back({"cubes", "HEX8", {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 8, 9, 2, 5, 10, 11, 6}}, {}});
-  mesh.blocks.push_back({"a_tetrahedron_with_a_name_that_is_longer_than_32_characters", "TET4", {{4, 5, 7, 12}}, {}});
-  mesh.blocks.push_back({"spheres", "SPHERE", {{13}, {14}}, {0.5, 0.25}});
+  mesh.blocks.push_back({"cubes", "HEX8", {0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 9, 2, 5, 10, 11, 6}, {}});
+  mesh.blocks.push_back({"a_tetrahedron_with_a_name_that_is_longer_than_32_characters", "TET4", {4, 5, 7, 12}, {}});
+  mesh.blocks.push_back({"spheres", "SPHERE", {13, 14}, {0.5, 0.25}});
   mesh.node_sets.push_back({"left", {0, 3, 4, 7}});
   mesh.node_sets.push_back({"right", {8, 9, 10, 11, 14}});
   mesh.node_sets.push_back({"none", {}});
@@ -78,6 +78,28 @@ TEST(Mesh, RoundTripKeepsBlocksSetsAndVolumes) {
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(whole.volumes[i], volumes[i], 1e-15);
     EXPECT_LT((whole.positions[i] - centres[i]).norm(), 1e-14);
+  }
+}
+
+TEST(Mesh, ReadMeshIsTheInverseOfWriteMesh) {
+  const Communicator world;
+  const TemporaryFolder folder(world);
+  if (world.rank() != 0) return;
+  const Mesh written = mixed_mesh();
+  write_mesh(folder / "mixed.g", written);
+  const Mesh read = read_mesh(folder / "mixed.g");
+  EXPECT_EQ(read.nodes, written.nodes);
+  ASSERT_EQ(read.blocks.size(), written.blocks.size());
+  for (std::size_t b = 0; b < read.blocks.size(); ++b) {
+    EXPECT_EQ(read.blocks[b].name, written.blocks[b].name);
+    EXPECT_EQ(read.blocks[b].type, written.blocks[b].type);
+    EXPECT_EQ(read.blocks[b].nodes, written.blocks[b].nodes);
+    EXPECT_EQ(read.blocks[b].volumes, written.blocks[b].volumes);
+  }
+  ASSERT_EQ(read.node_sets.size(), written.node_sets.size());
+  for (std::size_t k = 0; k < read.node_sets.size(); ++k) {
+    EXPECT_EQ(read.node_sets[k].name, written.node_sets[k].name);
+    EXPECT_EQ(read.node_sets[k].nodes, written.node_sets[k].nodes);
   }
 }
 
