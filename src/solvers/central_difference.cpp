@@ -78,7 +78,7 @@ void CentralDifference::start() {
                  [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
-void CentralDifference::move(bool with_energy) {
+void CentralDifference::move(bool with_views) {
   static Teuchos::Time& timer = phase("Motion and conditions");
   {
     const Timed timed(timer);
@@ -88,7 +88,7 @@ void CentralDifference::move(bool with_energy) {
   time_ = next_time_;
   ++steps_;
   ++steps_since_estimate_;
-  check(advance_stress_and_force(body_, dt_, with_energy));
+  check(advance_stress_and_force(body_, dt_, with_views));
 }
 
 // One reduction a step: whether a point failed anywhere, whether to stop, and how far the deformation has gone.
