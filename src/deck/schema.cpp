@@ -84,8 +84,7 @@ Section materials_section() {
                .kind = Kind::choice,
                .required = true,
                .meaning = "The law; it decides on further keys.",
-               .hints = {{"Elastic", "did you mean 'Elastic Correspondence'?"},
-                         {"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
+               .hints = {{"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
                          {"Viscoplastic Needleman Correspondence",
                           "did you mean 'Elastic Plastic Correspondence'? " + power_laws}}};
   std::vector<Section> cases;

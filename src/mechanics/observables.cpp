@@ -41,6 +41,21 @@ Symmetric cauchy(const Body& body, int i) {
   return symmetric_part(p.rotation * to_tensor(p.stress) * p.rotation.transpose());
 }
 
+// Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
+Observable dilatation() {
+  const auto fill = [](const Body& body, std::vector<double>& out) {
+    out.assign(body.owned(), 0);
+    for (const MaterialBlock& block : body.blocks) {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        const MaterialPoint& p = body.points[block.points[k]];
+        const double traced = p.rotation.cwiseProduct(p.deformation_gradient).sum() - 3;
+        out[block.points[k]] = block.is_ordinary() ? block.ordinary[k].dilatation : traced;
+      }
+    }
+  };
+  return {"Dilatation", 1, false, "θ of ordinary points, tr U − 3 of others", fill};
+}
+
 std::vector<Observable> kinematic() {
   return {
       observable(
@@ -64,6 +79,7 @@ std::vector<Observable> kinematic() {
                  }),
       observable("Jacobian", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
+      dilatation(),
   };
 }
 
@@ -82,6 +98,8 @@ std::vector<Observable> fixed_properties() {
       observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volumes[i]; }),
       observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
       observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizons[i]; }),
+      observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵",
+                 [](const Body& b, int i) { return to_tensor(b.points[i].shape_inverse).inverse().trace(); }),
       observable("Number_Of_Neighbors", "size of the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
       observable("Element_Id", "the mesh's own number",
