@@ -76,7 +76,7 @@ void Progress::finish() {
 double predicted_memory(const Scene& scene) {
   double bytes = 0;
   for (const MaterialBlock& block : scene.body.blocks) {
-    bytes += footprint(block.material).per_point * static_cast<double>(block.points.size());
+    bytes += footprint(scene.body, block).per_point * static_cast<double>(block.points.size());
   }
   bytes += sizeof(int) * static_cast<double>(scene.body.domain.families.bonds());
   return scene.body.domain.communicator.sum(bytes);

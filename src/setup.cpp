@@ -76,7 +76,9 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   for (const std::string& name : cloud.block_names) {
     const deck::Material& material = deck.materials[section_of(deck, name)->material];
     const bool stabilized = material.stabilization == deck::StabilizationType::silling;
-    materials.push_back({material.density, material.law, stabilized ? material.stabilization_coefficient : 0.0});
+    const bool ordinary = material.formulation == deck::Formulation::ordinary;
+    materials.push_back({material.density, material.law, stabilized ? material.stabilization_coefficient : 0.0,
+                         ordinary ? Formulation::ordinary : Formulation::correspondence});
   }
   return materials;
 }

@@ -116,7 +116,8 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
     if (signalled) solver.request_stop();
     const double next = now + solver.dt();
     ending = solver.stop_agreed();
-    solver.move(next >= final_time || ending || history.schedule.due(solver.steps() + 1, next));
+    const bool look = frames.schedule.due(solver.steps() + 1, next) || history.schedule.due(solver.steps() + 1, next);
+    solver.move(next >= final_time || ending || look);
   }
   progress.finish();
   return solver.ledger();

@@ -18,7 +18,7 @@ Views views_of(const deck::Deck& deck, const Body& body) {
   };
   attempt([&] { views.frame = chosen(all, deck.output.variables, "Output > Output Variables"); });
   for (const std::string& name : deck.history.variables) {
-    attempt([&] { views.extremes.emplace_back(all, name, "History > Variables"); });
+    attempt([&] { views.extremes.emplace_back(all, body.domain.cloud.block_names, name, "History > Variables"); });
   }
   problems.raise(deck.file.string());
   return views;

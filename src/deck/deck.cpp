@@ -78,7 +78,9 @@ Material material(const Values& values, Problems& problems) {
       .stabilization = values.text("Stabilization") == "None" ? StabilizationType::none : StabilizationType::silling,
       .stabilization_coefficient = values.real("Stabilization Coefficient")};
   for (const LawEntry& law : laws()) {
-    if (law.schema.name == values.text("Material Model")) material.law = law.make(values, problems);
+    if (law.schema.name != values.text("Material Model")) continue;
+    material.formulation = law.formulation;
+    material.law = law.make(values, problems);
   }
   return material;
 }

@@ -21,6 +21,7 @@ enum class MeshType { exodus, text };
 enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
 enum class DegeneratePoints { error, drop };
 enum class StabilizationType { none, silling };
+enum class Formulation { correspondence, ordinary };
 
 struct Discretization {
   MeshType type = MeshType::exodus;
@@ -38,7 +39,9 @@ struct NodeSet {
 struct Material {
   std::string name;
   double density = 0;  // kg/m³
-  materials::AnyLaw law;
+  Formulation formulation = Formulation::correspondence;
+  materials::AnyLaw law;  // ordinary: Elastic
+  // By correspondence.
   StabilizationType stabilization = StabilizationType::silling;
   double stabilization_coefficient = 0;  // in units of (λ + 2μ)/(tr K/3), dimensionless
 };

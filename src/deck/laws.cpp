@@ -54,8 +54,35 @@ materials::AnyLaw make_j2(const Values& material, Problems& problems) {
   return materials::J2{.bulk = moduli.bulk, .shear = moduli.shear, .flow = make_flow_stress(material, problems)};
 }
 
+// Of every law by correspondence: the modes that F does not see must be held down.
+Section with_stabilization(Section law) {
+  law.keys.push_back({.name = "Stabilization",
+                      .kind = Kind::choice,
+                      .choices = {"Silling", "None"},
+                      .fallback = "Silling",
+                      .meaning = "What holds zero-energy modes down."});
+  law.keys.push_back({.name = "Stabilization Coefficient",
+                      .range = not_negative,
+                      .fallback = "0.02",
+                      .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for "
+                                 "every influence function and horizon. Not Peridigm's Hourglass Coefficient."});
+  return law;
+}
+
+Section elastic_ordinary() {
+  return {.name = "Elastic",
+          .meaning =
+              "The ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`: "
+              "forces along the bonds, no deformation gradient, no stabilisation. The cheap choice for bodies "
+              "that stay elastic. No further keys."};
+}
+
+Section elastic() {
+  return with_stabilization({.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."});
+}
+
 Section elastic_plastic() {
-  Section section = flow_stress_section();
+  Section section = with_stabilization(flow_stress_section());
   section.name = "Elastic Plastic Correspondence";
   section.meaning = "J2 plasticity: hypoelastic, with the flow stress that Yield Stress, Hardening and Rate define.";
   return section;
@@ -65,9 +92,9 @@ Section elastic_plastic() {
 
 const std::vector<LawEntry>& laws() {
   static const std::vector<LawEntry> entries = {
-      {{.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic), no further keys."},
-       make_elastic},
-      {elastic_plastic(), make_j2},
+      {elastic_ordinary(), Formulation::ordinary, make_elastic},
+      {elastic(), Formulation::correspondence, make_elastic},
+      {elastic_plastic(), Formulation::correspondence, make_j2},
   };
   return entries;
 }
@@ -83,17 +110,7 @@ Section material_section() {
            {.name = "Bulk Modulus", .unit = "Pa", .range = positive, .meaning = "K." + two},
            {.name = "Shear Modulus", .unit = "Pa", .range = positive, .meaning = "G." + two},
            {.name = "Young's Modulus", .unit = "Pa", .range = positive, .meaning = "E." + two},
-           {.name = "Poisson's Ratio", .range = {-1, 0.5, false, false}, .meaning = "ν." + two},
-           {.name = "Stabilization",
-            .kind = Kind::choice,
-            .choices = {"Silling", "None"},
-            .fallback = "Silling",
-            .meaning = "What holds zero-energy modes down."},
-           {.name = "Stabilization Coefficient",
-            .range = not_negative,
-            .fallback = "0.02",
-            .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for every "
-                       "influence function and horizon. Not Peridigm's Hourglass Coefficient."}},
+           {.name = "Poisson's Ratio", .range = {-1, 0.5, false, false}, .meaning = "ν." + two}},
       .hints = {{"Hourglass Coefficient",
                  "unknown key; 'Stabilization Coefficient' is its counterpart, but another quantity: in units of "
                  "(λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"
 #include "deck/values.hpp"
@@ -12,12 +13,13 @@ namespace strut::deck {
 
 struct LawEntry {
   Section schema;  // named as "Material Model" has it
+  Formulation formulation;
   materials::AnyLaw (*make)(const Values& material, Problems& problems);
 };
 
 const std::vector<LawEntry>& laws();
 
-// What all materials share: density, elastic constants, stabilisation.
+// What all materials share: density, elastic constants.
 Section material_section();
 
 // The keys "Yield Stress", Hardening and Rate of a law with a flow stress.

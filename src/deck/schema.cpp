@@ -84,8 +84,7 @@ Section materials_section() {
                .kind = Kind::choice,
                .required = true,
                .meaning = "The law; it decides on further keys.",
-               .hints = {{"Elastic", "did you mean 'Elastic Correspondence'?"},
-                         {"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
+               .hints = {{"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
                          {"Viscoplastic Needleman Correspondence",
                           "did you mean 'Elastic Plastic Correspondence'? " + power_laws}}};
   std::vector<Section> cases;
@@ -281,7 +280,9 @@ Section history() {
                 .meaning = "Every so much time. Where neither is given: 1/1000 of the run."}},
       .sections = {{.name = "Variables",
                     .meaning = "The columns.",
-                    .any_key = Key{.name = any_name, .kind = Kind::boolean, .meaning = "E.g. `Max_Displacement`."}}}};
+                    .any_key = Key{.name = any_name,
+                                   .kind = Kind::boolean,
+                                   .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for one block."}}}};
 }
 
 }  // namespace

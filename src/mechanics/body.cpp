@@ -1,5 +1,7 @@
 #include "mechanics/body.hpp"
 
+#include <algorithm>
+
 #include "mechanics/bonds.hpp"
 #include "points/parallel.hpp"
 
@@ -10,7 +12,7 @@ namespace {
 std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<BlockMaterial>& materials) {
   std::vector<MaterialBlock> blocks;
   for (std::size_t b = 0; b < materials.size(); ++b) {
-    blocks.push_back({domain.cloud.block_names[b], materials[b], {}, 0, {}});
+    blocks.push_back({.name = domain.cloud.block_names[b], .material = materials[b]});
   }
   for (int i = 0; i < domain.owned; ++i) {
     MaterialBlock& block = blocks[domain.cloud.blocks[i]];
@@ -23,6 +25,7 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
       for (const double value : columns) block.state.insert(block.state.end(), block.points.size(), value);
     };
     std::visit(fresh_state, block.material.law);
+    if (block.is_ordinary()) block.ordinary.resize(block.points.size());
   }
   return blocks;
 }
@@ -36,17 +39,52 @@ std::vector<Site> undeformed_sites(const Domain& domain) {
   return sites;
 }
 
+// Room for the states of the formulations that any block of the scene has, on this rank or another.
+ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& materials) {
+  const auto any = [&materials](Formulation formulation) {
+    return std::any_of(materials.begin(), materials.end(),
+                       [formulation](const BlockMaterial& m) { return m.formulation == formulation; });
+  };
+  ForceStates states;
+  if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::packed(Tensor::Zero(), 0));
+  if (any(Formulation::ordinary)) states.scalars.resize(points);
+  return states;
+}
+
 // K = Σ ω V ξ⊗ξ is what gather() finds in the undeformed state.
-void set_shape(Body& body) {
-  bonds::with_influence(body.influence, [&body](auto weight) {
-    for_each_point(0, body.owned(), [&body, weight](int i) {
+void set_shape(Body& body, MaterialBlock& block) {
+  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, static_cast<int>(block.points.size()), [&, weight](int k) {
+      const int i = block.points[k];
       const Tensor K = bonds::gather<false>(body.domain.families, body.sites.data(), i, weight).moment;
-      const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
-      const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
       body.points[i].shape_inverse = symmetric_part(K.inverse());
-      body.points[i].stabilization = material.stabilization * modulus / (K.trace() / 3);
+      if (block.is_ordinary()) {
+        block.ordinary[k].weighted_volume = K.trace();
+      } else {
+        body.points[i].stabilization = block.material.stabilization * modulus / (K.trace() / 3);
+      }
     });
   });
+}
+
+void set_what_blocks_feel(Body& body) {
+  std::vector<double> ordinary(body.sites.size());
+  for (const MaterialBlock& block : body.blocks) {
+    for (const int i : block.points) ordinary[i] = block.is_ordinary() ? 1 : 0;
+  }
+  body.domain.halo.exchange(ordinary.data(), 1, 1);
+  const Families& families = body.domain.families;
+  for (MaterialBlock& block : body.blocks) {
+    const auto feel = [&block](bool is_ordinary) {
+      (is_ordinary ? block.feels_ordinary : block.feels_correspondence) = true;
+    };
+    feel(block.is_ordinary());
+    for (const int i : block.points) {
+      for (std::size_t b = families.start[i]; b < families.start[i + 1]; ++b)
+        feel(ordinary[families.neighbours[b]] > 0);
+    }
+  }
 }
 
 }  // namespace
@@ -66,24 +104,29 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .force_density = {},
             .stabilization_work = {}};
   const std::size_t owned = body.owned();
-  body.force_states.resize(body.sites.size());
+  body.force_states = zero_states(body.sites.size(), materials);
   body.points.resize(owned);
   for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);
   body.velocity.assign(owned, Vector::Zero());
   body.previous_velocity.assign(owned, Vector::Zero());
   body.force_density.assign(owned, Vector::Zero());
   body.stabilization_work.assign(owned, 0);
-  set_shape(body);
+  for (MaterialBlock& block : body.blocks) set_shape(body, block);
+  set_what_blocks_feel(body);
   return body;
 }
 
-Footprint footprint(const BlockMaterial& material) {
-  const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, material.law);
+Footprint footprint(const Body& body, const MaterialBlock& block) {
+  const std::size_t state =
+      std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law) * sizeof(double);
+  const std::size_t forces = (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
+                             (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState));
+  const std::size_t ordinary = block.is_ordinary() ? sizeof(OrdinaryPoint) : 0;
   constexpr std::size_t mechanics =
-      sizeof(Site) + sizeof(ForceState) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
+      sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + 2 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int) +
                                 sizeof(std::uint64_t) + sizeof(std::size_t);
-  return {static_cast<double>(mechanics + cloud + state * sizeof(double)), sizeof(int)};
+  return {static_cast<double>(mechanics + forces + ordinary + cloud + state), sizeof(int)};
 }
 
 }  // namespace strut

@@ -14,9 +14,28 @@ namespace strut {
 // ω(r), r = |ξ|/δ: 1; 1 − r; 1 − 3r² + 2r³.
 enum class Influence { one, linear_decay, cubic_decay };
 
-// What the force of a bond reads of an end: A = P K⁻¹ − C F (columns), and C in the fourth lane of the first column.
+// How the bonds of a block come to their force.
+//   correspondence: the family gives F, the law a stress, and the stress the force of each bond
+//   ordinary: the linear elastic solid of Silling et al. (2007), forces along the bonds; of the law only its moduli
+//   count
+enum class Formulation { correspondence, ordinary };
+
+// What the force of a bond reads of an end by correspondence: A = P K⁻¹ − C F (columns), and C in the fourth lane of
+// the first column.
 struct alignas(32) ForceState {
   Eigen::Array4d column[3];
+};
+
+// The same of an ordinary end, whose force state along the bond is t = ω (a |ξ| + b e).
+struct alignas(16) ScalarState {
+  double a = 0, b = 0;  // (3K − 5μ) θ/m; 15 μ/m; Pa/m⁵
+};
+
+// One entry a point, ghosts too, in every formulation that the scene has: zero where the point is of another, so that a
+// bond between any two is the sum over the formulations.
+struct ForceStates {
+  std::vector<ForceState> tensors;
+  std::vector<ScalarState> scalars;
 };
 
 // What only the point itself reads.
@@ -28,19 +47,32 @@ struct MaterialPoint {
   double stabilization = 0;                          // C, Pa/m⁵
 };
 
+// What an ordinary point has besides.
+struct OrdinaryPoint {
+  double weighted_volume = 0;  // m = Σ ω |ξ|² V = tr K, m⁵
+  double dilatation = 0;       // θ
+  double energy = 0;           // W, J/m³; current after a step with views
+};
+
 struct BlockMaterial {
   double density = 0;  // kg/m³
   materials::AnyLaw law;
-  double stabilization = 0;  // in units of (λ + 2μ)/(tr K/3); 0: none
+  double stabilization = 0;  // in units of (λ + 2μ)/(tr K/3); 0: none. Ordinary bonds need none, and have none
+  Formulation formulation = Formulation::correspondence;
 };
 
 // The points of one block of the mesh on this rank, with their law's state in columns.
 struct MaterialBlock {
   std::string name;
   BlockMaterial material;
-  std::vector<int> points;    // owned points, ascending
-  int interior = 0;           // so many of them need no ghost
-  std::vector<double> state;  // state[column * points.size() + k] of points[k]
+  std::vector<int> points;              // owned points, ascending
+  int interior = 0;                     // so many of them need no ghost
+  std::vector<double> state;            // state[column * points.size() + k] of points[k]
+  std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
+  // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
+  bool feels_correspondence = false, feels_ordinary = false;
+
+  bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
 };
 
 struct Body {
@@ -50,7 +82,7 @@ struct Body {
 
   // Owned points and ghosts.
   std::vector<Site> sites;
-  std::vector<ForceState> force_states;
+  ForceStates force_states;
 
   // Owned points.
   std::vector<MaterialPoint> points;
@@ -58,7 +90,7 @@ struct Body {
   std::vector<Vector> velocity;            // at mid-step, m/s
   std::vector<Vector> previous_velocity;   // at the mid-step before, m/s
   std::vector<Vector> force_density;       // N/m³ of reference volume
-  std::vector<double> stabilization_work;  // energy of the stabilisation, J/m³; current after a step with energies
+  std::vector<double> stabilization_work;  // energy of the stabilisation, J/m³; current after a step with views
 
   int owned() const { return domain.owned; }
   double mass(int i) const { return density[i] * domain.volumes[i]; }
@@ -66,13 +98,13 @@ struct Body {
   Vector displacement(int i) const { return current(i) - domain.positions[i]; }
 };
 
-// Shape tensors, stabilisation and undeformed state. `materials`: one for each block name of the cloud.
+// Collective. Shape tensors, stabilisation and undeformed state. `materials`: one for each block name of the cloud.
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials);
 
-// Bytes that a point and a bond take, for predictions.
+// Bytes that a point of a block and a bond take, for predictions.
 struct Footprint {
   double per_point, per_bond;
 };
-Footprint footprint(const BlockMaterial& material);
+Footprint footprint(const Body& body, const MaterialBlock& block);
 
 }  // namespace strut

@@ -2,26 +2,38 @@
 //   gather:  N = Σ ω V_j (y_j − y_i) ⊗ ξ                                              (F = N K⁻¹)
 //   force:   f_i = Σ ω V_j [ (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i) ],  ξ = X_j − X_i
 // A family is read in the order of global ids, four lanes at a time; what stands in the fourth lane is ignored.
+// The sums of ordinary points: ordinary_bonds.hpp.
 #pragma once
 
 #include "mechanics/body.hpp"
 
 namespace strut::bonds {
 
+// of(r) is ω itself, of one number or of several side by side.
+
 struct One {
   double operator()(const Eigen::Array4d&, double) const { return 1; }
+  template <class T>
+  static double of(const T&) {
+    return 1;
+  }
 };
 
 // |ξ|/δ with δ = (δ_i + δ_j)/2
 inline double ratio(const Eigen::Array4d& xi, double horizons) { return 2 * xi.head<3>().matrix().norm() / horizons; }
 
 struct LinearDecay {
-  double operator()(const Eigen::Array4d& xi, double horizons) const { return 1 - ratio(xi, horizons); }
+  double operator()(const Eigen::Array4d& xi, double horizons) const { return of(ratio(xi, horizons)); }
+  template <class T>
+  static T of(const T& r) {
+    return 1 - r;
+  }
 };
 
 struct CubicDecay {
-  double operator()(const Eigen::Array4d& xi, double horizons) const {
-    const double r = ratio(xi, horizons);
+  double operator()(const Eigen::Array4d& xi, double horizons) const { return of(ratio(xi, horizons)); }
+  template <class T>
+  static T of(const T& r) {
     return 1 - r * r * (3 - 2 * r);
   }
 };
@@ -63,6 +75,13 @@ inline Tensor tensor_of(const Eigen::Array4d& a, const Eigen::Array4d& b, const 
   Tensor t;
   t << a.head<3>().matrix(), b.head<3>().matrix(), c.head<3>().matrix();
   return t;
+}
+
+inline ForceState packed(const Tensor& A, double stabilization) {
+  ForceState state;
+  for (int c = 0; c < 3; ++c) state.column[c] << A.col(c).array(), 0;
+  state.column[0][3] = stabilization;
+  return state;
 }
 
 struct Gathered {

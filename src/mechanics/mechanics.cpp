@@ -3,28 +3,16 @@
 #include <sstream>
 
 #include "base/timing.hpp"
-#include "mechanics/bonds.hpp"
+#include "mechanics/ordinary_bonds.hpp"
 #include "mechanics/stress.hpp"
-#include "points/parallel.hpp"
 
 namespace strut {
 
 namespace {
 
 constexpr int site_stride = sizeof(Site) / sizeof(double);
-constexpr int force_width = sizeof(ForceState) / sizeof(double);
 
 double* places(std::vector<Site>& sites) { return sites.data()->current.data(); }
-double* states(std::vector<ForceState>& forces) { return forces.data()->column[0].data(); }
-
-void add_force(const Body& body, const std::vector<Site>& sites, const std::vector<ForceState>& force_states, int begin,
-               int end, std::vector<Vector>& result) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(begin, end, [&, weight](int i) {
-      result[i] = bonds::force(body.domain.families, sites.data(), force_states.data(), i, weight);
-    });
-  });
-}
 
 // Runs `interior` while the halo of `data` is under way, then `boundary`.
 template <class Interior, class Boundary>
@@ -42,16 +30,59 @@ void behind_exchange(Halo& halo, double* data, int stride, int width, Interior&&
   boundary();
 }
 
-void exchange_forces(const Body& body, Halo& halo, const std::vector<Site>& sites, std::vector<ForceState>& forces,
-                     std::vector<Vector>& result) {
-  static Teuchos::Time& timer = phase("Force");
-  const auto over = [&](int begin, int end) {
-    const Timed timed(timer);
-    add_force(body, sites, forces, begin, end, result);
+// The force on every point, summed over the formulations that its block feels. `places`: y, or the field that stands in
+// its place for a tangent; `extension`: of a bond between ordinary points.
+template <class Extension>
+struct ForceSum {
+  const Body& body;
+  const std::vector<Site>& places;
+  Extension extension;
+  ForceStates& states;
+  std::vector<Vector>& result;
+
+  void correspondence(Part part) const {
+    over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock&, int i, auto weight) {
+      result[i] = bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight);
+    });
+  }
+
+  void ordinary(Part part) const {
+    over_points(part, &MaterialBlock::feels_ordinary, [this](const MaterialBlock& block, int i, auto weight) {
+      const Vector force =
+          bonds::ordinary_force(body.domain.families, body.sites.data(), states.scalars.data(), i, weight, extension);
+      result[i] = block.feels_correspondence ? result[i] + force : force;
+    });
+  }
+
+ private:
+  template <class Work>
+  void over_points(Part part, bool MaterialBlock::*feels, const Work& work) const {
+    for (const MaterialBlock& block : body.blocks) {
+      if (!(block.*feels)) continue;
+      const auto [begin, end] = range(block, part);
+      bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
+        for_each_point(begin, end, [&, weight](int k) { work(block, block.points[k], weight); });
+      });
+    }
+  }
+};
+
+// Each formulation behind the exchange of its states. `timed`: what lives as long as a sum.
+template <class Extension, class Timed>
+void add_up(Halo& halo, const ForceSum<Extension>& sum, const Timed& timed) {
+  const auto behind = [&]<class State>(std::vector<State>& states, void (ForceSum<Extension>::*over)(Part) const) {
+    if (states.empty()) return;
+    const auto run = [&](Part part) {
+      [[maybe_unused]] const auto time = timed();
+      (sum.*over)(part);
+    };
+    constexpr int width = sizeof(State) / sizeof(double);
+    behind_exchange(
+        halo, reinterpret_cast<double*>(states.data()), width, width, [&] { run(Part::interior); },
+        [&] { run(Part::boundary); });
   };
-  behind_exchange(
-      halo, states(forces), force_width, force_width, [&] { over(0, body.domain.interior); },
-      [&] { over(body.domain.interior, body.owned()); });
+  behind(sum.states.tensors, &ForceSum<Extension>::correspondence);
+  behind(sum.states.scalars, &ForceSum<Extension>::ordinary);
 }
 
 // The force state of the tangent at one point, for δF: δP = J C:sym(δF F⁻¹) F⁻ᵀ.
@@ -62,20 +93,34 @@ ForceState tangent_state(const MaterialPoint& point, const materials::Moduli& mo
   const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
   const Tensor A =
       J * to_tensor(stress) * inverse_F.transpose() * to_tensor(point.shape_inverse) - point.stabilization * dF;
-  return packed(A, point.stabilization);
+  return bonds::packed(A, point.stabilization);
 }
 
-void set_tangent_states(const Body& body, const std::vector<Site>& directions, Part part,
-                        std::vector<ForceState>& result) {
+// δt of an ordinary point: t is linear in the extensions, so it is the law itself of their changes.
+template <class Weight>
+ScalarState tangent_state(const Body& body, const std::vector<Site>& directions, const MaterialBlock& block, int k,
+                          const materials::Moduli& moduli, Weight weight) {
+  const double m = block.ordinary[k].weighted_volume;
+  const bonds::OfField change{directions.data()};
+  const double moment =
+      bonds::extensions<false>(body.domain.families, body.sites.data(), block.points[k], weight, change).moment;
+  return scalar_state(moduli, 3 * moment / m, m);
+}
+
+void set_tangent_states(const Body& body, const std::vector<Site>& directions, Part part, ForceStates& result) {
   for (const MaterialBlock& block : body.blocks) {
     const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
     const auto [begin, end] = range(block, part);
     bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
       for_each_point(begin, end, [&, weight](int k) {
         const int i = block.points[k];
+        if (block.is_ordinary()) {
+          result.scalars[i] = tangent_state(body, directions, block, k, moduli, weight);
+          return;
+        }
         const MaterialPoint& point = body.points[i];
         const Tensor N = bonds::gather<false>(body.domain.families, directions.data(), i, weight).moment;
-        result[i] = tangent_state(point, moduli, N * to_tensor(point.shape_inverse));
+        result.tensors[i] = tangent_state(point, moduli, N * to_tensor(point.shape_inverse));
       });
     });
   }
@@ -83,47 +128,69 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
 
 }  // namespace
 
-StepReport advance_stress_and_force(Body& body, double dt, bool with_energy) {
-  static Teuchos::Time& timer = phase("Deformation and stress");
+StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
+  static Teuchos::Time& deforming = phase("Deformation and stress");
+  static Teuchos::Time& summing = phase("Force");
   StepReport report;
   const auto over = [&](Part part) {
-    const Timed timed(timer);
-    advance_stress(body, dt, with_energy, part, report);
+    const Timed timed(deforming);
+    for (MaterialBlock& block : body.blocks) {
+      if (block.is_ordinary()) {
+        advance_ordinary(body, block, with_views, part, report);
+      } else {
+        advance_stress(body, block, dt, with_views, part, report);
+      }
+    }
   };
   behind_exchange(
       body.domain.halo, places(body.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
-  exchange_forces(body, body.domain.halo, body.sites, body.force_states, body.force_density);
+  add_up(body.domain.halo, ForceSum<bonds::OfPlaces>{body, body.sites, {}, body.force_states, body.force_density},
+         [] { return Timed(summing); });
   return report;
 }
 
-void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, std::vector<ForceState>& scratch,
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
                    std::vector<Vector>& result) {
   behind_exchange(
       halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
       [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
-  behind_exchange(
-      halo, states(scratch), force_width, force_width,
-      [&] { add_force(body, directions, scratch, 0, body.domain.interior, result); },
-      [&] { add_force(body, directions, scratch, body.domain.interior, body.owned(), result); });
+  add_up(halo, ForceSum<bonds::OfField>{body, directions, {directions.data()}, scratch, result},
+         [] { return 0; });  // the estimate of the step has a time of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
 }
+
+namespace {
+
+template <class L>
+void add_energies(const Body& body, const MaterialBlock& block, const L& law, Energies& sum) {
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    const int i = block.points[k];
+    const double volume = body.domain.volumes[i];
+    std::array<double, materials::state_size<L>> columns{};
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = block.state[c * block.points.size() + k];
+    const double J = body.points[i].deformation_gradient.determinant();
+    sum.elastic += J * law.elastic_energy(body.points[i].stress) * volume;
+    sum.dissipated += law.dissipation(materials::from_columns<L>(columns)) * volume;
+  }
+}
+
+void add_ordinary_energies(const Body& body, const MaterialBlock& block, Energies& sum) {
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    sum.elastic += block.ordinary[k].energy * body.domain.volumes[block.points[k]];
+  }
+}
+
+}  // namespace
 
 Energies stored_energies(const Body& body) {
   Energies sum;
   for (const MaterialBlock& block : body.blocks) {
-    const auto add = [&]<class L>(const L& law) {
-      for (std::size_t k = 0; k < block.points.size(); ++k) {
-        const int i = block.points[k];
-        const double volume = body.domain.volumes[i];
-        std::array<double, materials::state_size<L>> columns{};
-        for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = block.state[c * block.points.size() + k];
-        const double J = body.points[i].deformation_gradient.determinant();
-        sum.elastic += J * law.elastic_energy(body.points[i].stress) * volume;
-        sum.dissipated += law.dissipation(materials::from_columns<L>(columns)) * volume;
-      }
-    };
-    std::visit(add, block.material.law);
+    if (block.is_ordinary()) {
+      add_ordinary_energies(body, block, sum);
+    } else {
+      std::visit([&](const auto& law) { add_energies(body, block, law, sum); }, block.material.law);
+    }
   }
   sum.stabilization =
       total(0, body.owned(), [&](int i) { return body.stabilization_work[i] * body.domain.volumes[i]; });
@@ -143,12 +210,18 @@ std::string describe(const Failure& failure, const Body& body) {
   std::ostringstream text;
   text << "element " << cloud.element_ids[i] << " of block " << cloud.block_names[cloud.blocks[i]]
        << ", reference position " << place(cloud.positions[i]) << " m, now at " << place(body.current(i)) << " m: ";
-  if (failure.kind == Failure::Kind::inverted) {
-    text << "the deformation gradient has no positive determinant (the point is turned inside out, or its place is not "
-            "a number). Likely causes: a step above the stable one, too little stabilisation, a load too sudden";
-  } else {
-    text << "the material law found no stress. Likely causes: a strain increment that is not finite or far too large "
-            "for one step, material constants of the wrong unit";
+  switch (failure.kind) {
+    case Failure::Kind::inverted:
+      text << "the deformation gradient has no positive determinant (the point is turned inside out, or its place is "
+              "not a number). Likely causes: a step above the stable one, too little stabilisation, a load too sudden";
+      break;
+    case Failure::Kind::no_stress:
+      text << "the material law found no stress. Likely causes: a strain increment that is not finite or far too large "
+              "for one step, material constants of the wrong unit";
+      break;
+    case Failure::Kind::not_finite:
+      text << "its dilatation is not a number (places are not, or two points met). Likely causes: a step above the "
+              "stable one, a load too sudden";
   }
   return text.str();
 }

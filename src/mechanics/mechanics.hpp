@@ -1,4 +1,4 @@
-// The door of mechanics: from the places of the points to the force on each, by state-based correspondence.
+// The door of mechanics: from the places of the points to the force on each, by state-based peridynamics.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,33 @@ namespace strut {
 // A point at which a step went wrong.
 struct Failure {
   int point;  // owned, local index
-  enum class Kind { inverted, no_stress } kind;
+  enum class Kind { inverted, no_stress, not_finite } kind;
 };
 
 struct StepReport {
-  double steepest = 0;  // the largest ‖F⁻¹‖ (Frobenius; √3 undeformed): the stable step shrinks with it
+  double steepest = 0;  // the largest ‖F⁻¹‖ (Frobenius; √3 undeformed, and always of ordinary points): the stable step
+                        // shrinks with it
   std::optional<Failure> failure;  // the first on this rank; its stress is the old one
 };
 
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
 // dt, and computes force_density, f = Σ {T − T'} V (internal force, N/m³). Halo exchanges run behind interior points.
-// dt = 0 leaves stress and state alone. `with_energy`: also stabilization_work.
-StepReport advance_stress_and_force(Body& body, double dt, bool with_energy);
+// dt = 0 leaves stress and state alone. `with_views`: also what forces do not need but a look at the body does, the
+// energy of the stabilisation, and F, R and stress of ordinary points, which are a view of their families only.
+StepReport advance_stress_and_force(Body& body, double dt, bool with_views);
 
 // Collective. The linearised operator with the elastic moduli in the current state, applied to a field:
 // result = −f(v)/ρ (1/s² times v's unit). `directions` holds v in the place of y: a scratch copy of body.sites.
 // The geometric stiffness (of the order stress/modulus) is left out.
-void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, std::vector<ForceState>& scratch,
+// `scratch`: a copy of body.force_states.
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
                    std::vector<Vector>& result);
 
 struct Energies {
   double elastic = 0, dissipated = 0, stabilization = 0;  // J
 };
 
-// Collective: sums over all ranks, after a step with_energy.
+// Collective: sums over all ranks, after a step with_views.
 Energies stored_energies(const Body& body);
 
 // "element 17 of block foam, reference position (…), now at (…): …": what the failure is and its likely cause.

@@ -41,6 +41,21 @@ Symmetric cauchy(const Body& body, int i) {
   return symmetric_part(p.rotation * to_tensor(p.stress) * p.rotation.transpose());
 }
 
+// Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
+Observable dilatation() {
+  const auto fill = [](const Body& body, std::vector<double>& out) {
+    out.assign(body.owned(), 0);
+    for (const MaterialBlock& block : body.blocks) {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        const MaterialPoint& p = body.points[block.points[k]];
+        const double traced = p.rotation.cwiseProduct(p.deformation_gradient).sum() - 3;
+        out[block.points[k]] = block.is_ordinary() ? block.ordinary[k].dilatation : traced;
+      }
+    }
+  };
+  return {"Dilatation", 1, false, "θ of ordinary points, tr U − 3 of others", fill};
+}
+
 std::vector<Observable> kinematic() {
   return {
       observable(
@@ -64,6 +79,7 @@ std::vector<Observable> kinematic() {
                  }),
       observable("Jacobian", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
+      dilatation(),
   };
 }
 
@@ -82,6 +98,8 @@ std::vector<Observable> fixed_properties() {
       observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volumes[i]; }),
       observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
       observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizons[i]; }),
+      observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵",
+                 [](const Body& b, int i) { return to_tensor(b.points[i].shape_inverse).inverse().trace(); }),
       observable("Number_Of_Neighbors", "size of the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
       observable("Element_Id", "the mesh's own number",
@@ -152,13 +170,27 @@ std::vector<Observable> chosen(const std::vector<Observable>& all, const std::ve
   return result;
 }
 
-Extreme::Extreme(const std::vector<Observable>& all, const std::string& name, const std::string& where) : name_(name) {
-  const std::string kind = name.substr(0, 4);
+Extreme::Extreme(const std::vector<Observable>& all, const std::vector<std::string>& blocks, const std::string& name,
+                 const std::string& where)
+    : name_(name) {
+  const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
+  const std::string whole = name.substr(0, bracket);
+  const std::string kind = whole.substr(0, 4);
   const bool extreme = kind == "Max_" || kind == "Min_";
-  const Observable* found = extreme ? find(all, name.substr(4)) : nullptr;
+  const Observable* found = extreme ? find(all, whole.substr(4)) : nullptr;
   if (!found) {
     throw Error(where + " > " + name + ": expected Max_ or Min_ and the name of a variable" +
-                did_you_mean(name, names_of(all, {"Max_", "Min_"})) + "; variables are " + joined(names_of(all, {""})));
+                did_you_mean(whole, names_of(all, {"Max_", "Min_"})) + "; variables are " +
+                joined(names_of(all, {""})));
+  }
+  if (bracket != std::string::npos) {
+    const std::string block = name.substr(bracket + 1, name.size() - bracket - 2);
+    const auto at = std::find(blocks.begin(), blocks.end(), block);
+    if (at == blocks.end()) {
+      throw Error(where + " > " + name + ": the mesh has no block '" + block + "'" + did_you_mean(block, blocks) +
+                  "; it has " + joined(blocks));
+    }
+    block_ = static_cast<int>(at - blocks.begin());
   }
   sign_ = kind == "Max_" ? 1 : -1;
   observable_ = *found;
@@ -168,10 +200,11 @@ double Extreme::local(const Body& body) const {
   std::vector<double> values;
   observable_.fill(body, values);
   double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < values.size(); i += observable_.components) {
-    const double value = observable_.components == 1
-                             ? values[i]
-                             : Eigen::Map<const Eigen::VectorXd>(&values[i], observable_.components).norm();
+  const int width = observable_.components;
+  for (int i = 0; i < body.owned(); ++i) {
+    if (block_ >= 0 && body.domain.cloud.blocks[i] != block_) continue;
+    const double* first = &values[static_cast<std::size_t>(i) * width];
+    const double value = width == 1 ? *first : Eigen::Map<const Eigen::VectorXd>(first, width).norm();
     best = std::max(best, sign_ * value);
   }
   return best;

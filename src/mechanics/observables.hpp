@@ -26,11 +26,13 @@ std::vector<Observable> observables(const Body& body);
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where);
 
-// "Max_X" and "Min_X" of an observable X (the length of a vector): collective, over all points of all ranks.
+// "Max_X" and "Min_X" of an observable X (the length of a vector): collective, over all points of all ranks;
+// "Max_X(foam)": over the points of block foam.
 class Extreme {
  public:
-  // Throws Error like chosen().
-  Extreme(const std::vector<Observable>& all, const std::string& name, const std::string& where);
+  // Throws Error like chosen(). `blocks`: the blocks of the body.
+  Extreme(const std::vector<Observable>& all, const std::vector<std::string>& blocks, const std::string& name,
+          const std::string& where);
   const std::string& name() const { return name_; }
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that all ranks take the maximum
   double value(double largest) const { return sign_ * largest; }
@@ -39,6 +41,7 @@ class Extreme {
   std::string name_;
   Observable observable_;
   double sign_ = 1;
+  int block_ = -1;  // -1: all
 };
 
 }  // namespace strut

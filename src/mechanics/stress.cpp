@@ -1,11 +1,9 @@
-// From the places of the points to the force state of each: F, rotation, law, first Piola–Kirchhoff stress.
+// By correspondence, from the places of the points to the force state of each: F, rotation, law, first Piola–Kirchhoff
+// stress.
 #include "mechanics/stress.hpp"
-
-#include <limits>
 
 #include "base/rotation.hpp"
 #include "mechanics/bonds.hpp"
-#include "points/parallel.hpp"
 
 // What is not inlined into the loop over groups passes its lanes through memory. Checking builds (debug, asan) go
 // without: it would take the compiler many minutes.
@@ -109,20 +107,6 @@ LaneTensor force_states(const Group& g, const Polar<Lanes>& polar, const LaneSym
   return A;
 }
 
-// The first failure of a loop, in the order of points, whichever thread finds it.
-class FirstFailure {
- public:
-  void report(int k, Failure::Kind kind) { Kokkos::atomic_fetch_min(&code_, 2 * k + static_cast<int>(kind)); }
-  std::optional<Failure> found(const MaterialBlock& block) const {
-    if (code_ == none) return std::nullopt;
-    return Failure{block.points[code_ / 2], static_cast<Failure::Kind>(code_ % 2)};
-  }
-
- private:
-  static constexpr int none = std::numeric_limits<int>::max();
-  int code_ = none;
-};
-
 // All that the update of one block needs.
 template <class L, class Weight>
 struct Update {
@@ -148,16 +132,16 @@ struct Update {
     MaterialPoint& point = *g.points[l];
     point.rotation = lane(polar.rotation, l);
     point.deformation_gradient = lane(F, l);
-    body.force_states[block.points[g.k[l]]] = packed(lane(A, l), point.stabilization);
+    body.force_states.tensors[block.points[g.k[l]]] = bonds::packed(lane(A, l), point.stabilization);
   }
 
   // N of the points of a group; a point that stands in for a missing one gets the first one's.
-  template <bool with_energy>
+  template <bool with_views>
   LaneTensor gather(const Group& g, Lanes& square) const {
     LaneTensor N;
     for (int l = 0; l < g.count; ++l) {
       const bonds::Gathered sums =
-          bonds::gather<with_energy>(body.domain.families, body.sites.data(), block.points[g.k[l]], weight);
+          bonds::gather<with_views>(body.domain.families, body.sites.data(), block.points[g.k[l]], weight);
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) N.c[i][j][l] = sums.moment(i, j);
       }
@@ -172,11 +156,11 @@ struct Update {
   }
 
   // The largest ‖F⁻¹‖² of the points from `first` on, four at the most.
-  template <bool with_energy>
+  template <bool with_views>
   double advance_group(int first, int end) const {
     const Group g = group_of(body, block, first, end);
     Lanes square;
-    const LaneTensor N = gather<with_energy>(g, square);
+    const LaneTensor N = gather<with_views>(g, square);
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
     const LaneTensor F = small::product(N, small::full(shape_inverse));
     const Lanes J = small::determinant(F);
@@ -198,7 +182,7 @@ struct Update {
       }
       store_point(g, l, polar, F, A);
       steepest = std::max(steepest, steepness[l]);
-      if constexpr (with_energy) store_energy(g, l, N, F, square[l]);
+      if constexpr (with_views) store_energy(g, l, N, F, square[l]);
     }
     return steepest;
   }
@@ -210,14 +194,14 @@ struct Update {
   }
 };
 
-template <bool with_energy, class L, class Weight>
+template <bool with_views, class L, class Weight>
 void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, Part part,
                     StepReport& report) {
   const auto [begin, end] = range(block, part);
   FirstFailure failure;
   const Update<L, Weight> update{body, block, law, weight, dt, failure};
-  const auto advance_group = [&update, begin = begin, end = end ](int group) STRUT_INLINE_ALL {
-    return update.template advance_group<with_energy>(begin + 4 * group, end);
+  const auto advance_group = [&update, begin = begin, end = end](int group) STRUT_INLINE_ALL {
+    return update.template advance_group<with_views>(begin + 4 * group, end);
   };
   const double steepest = largest(0, (end - begin + 3) / 4, 0, advance_group);
   report.steepest = std::max(report.steepest, std::sqrt(steepest));
@@ -226,19 +210,17 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
 
 }  // namespace
 
-void advance_stress(Body& body, double dt, bool with_energy, Part part, StepReport& report) {
-  for (MaterialBlock& block : body.blocks) {
-    bonds::with_influence(body.influence, [&](auto weight) {
-      const auto with_law = [&](const auto& law) {
-        if (with_energy) {
-          advance_points<true>(body, block, law, weight, dt, part, report);
-        } else {
-          advance_points<false>(body, block, law, weight, dt, part, report);
-        }
-      };
-      std::visit(with_law, block.material.law);
-    });
-  }
+void advance_stress(Body& body, MaterialBlock& block, double dt, bool with_views, Part part, StepReport& report) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    const auto with_law = [&](const auto& law) {
+      if (with_views) {
+        advance_points<true>(body, block, law, weight, dt, part, report);
+      } else {
+        advance_points<false>(body, block, law, weight, dt, part, report);
+      }
+    };
+    std::visit(with_law, block.material.law);
+  });
 }
 
 }  // namespace strut

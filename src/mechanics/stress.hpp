@@ -1,7 +1,10 @@
-// Inside mechanics: the pass over the points that ends in their force states.
+// Inside mechanics: the pass over the points of a block that ends in their force states.
 #pragma once
 
+#include <limits>
+
 #include "mechanics/mechanics.hpp"
+#include "points/parallel.hpp"
 
 namespace strut {
 
@@ -12,13 +15,27 @@ inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
   return {block.interior, static_cast<int>(block.points.size())};
 }
 
-inline ForceState packed(const Tensor& A, double stabilization) {
-  ForceState state;
-  for (int c = 0; c < 3; ++c) state.column[c] << A.col(c).array(), 0;
-  state.column[0][3] = stabilization;
-  return state;
-}
+// The first failure of a loop over the points of a block, in their order, whichever thread finds it.
+class FirstFailure {
+ public:
+  void report(int k, Failure::Kind kind) { Kokkos::atomic_fetch_min(&code_, kinds * k + static_cast<int>(kind)); }
+  std::optional<Failure> found(const MaterialBlock& block) const {
+    if (code_ == none) return std::nullopt;
+    return Failure{block.points[code_ / kinds], static_cast<Failure::Kind>(code_ % kinds)};
+  }
 
-void advance_stress(Body& body, double dt, bool with_energy, Part part, StepReport& report);
+ private:
+  static constexpr int kinds = 3, none = std::numeric_limits<int>::max();
+  int code_ = none;
+};
+
+// Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
+void advance_stress(Body& body, MaterialBlock& block, double dt, bool with_views, Part part, StepReport& report);
+void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report);
+
+// The state of the bonds of an ordinary point of dilatation θ and weighted volume m.
+inline ScalarState scalar_state(const materials::Moduli& moduli, double dilatation, double weighted_volume) {
+  return {(3 * moduli.bulk - 5 * moduli.shear) * dilatation / weighted_volume, 15 * moduli.shear / weighted_volume};
+}
 
 }  // namespace strut

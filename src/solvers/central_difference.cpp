@@ -98,7 +98,7 @@ void CentralDifference::start() {
                  [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
-void CentralDifference::move(bool with_energy) {
+void CentralDifference::move(bool with_views) {
   static Teuchos::Time& timer = phase("Motion and conditions");
   {
     const Timed timed(timer);
@@ -108,7 +108,7 @@ void CentralDifference::move(bool with_energy) {
   time_ = next_time_;
   ++steps_;
   ++steps_since_estimate_;
-  const StepReport report = advance_stress_and_force(body_, dt_, with_energy);
+  const StepReport report = advance_stress_and_force(body_, dt_, with_views);
   contact_.add_forces(crowd(), dt_, body_.force_density);
   check(report);
 }

@@ -41,8 +41,8 @@ class CentralDifference {
   // kick: velocities from the mid-step before time() to the one after. The step does not pass `final_time`.
   void kick(double final_time);
   // move: places to time() + dt, then stresses and forces there. Throws Error on all ranks when a point fails.
-  // `with_energy`: the ledger will be asked for at the new time.
-  void move(bool with_energy);
+  // `with_views`: the ledger, or a look at the body, will be asked for at the new time.
+  void move(bool with_views);
 
   Ledger ledger();  // collective; after kick()
 

@@ -60,7 +60,7 @@ struct Lanczos {
 
 Lanczos iterate(Body& body, const Field& start, int iterations) {
   std::vector<Site> directions = body.sites;
-  std::vector<ForceState> scratch(body.force_states.size());
+  ForceStates scratch = body.force_states;
   Lanczos lanczos;
   Field q = start, image(body.owned());
   scale_by(q, 1 / std::sqrt(inner(body, q, q)));

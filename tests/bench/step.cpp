@@ -8,19 +8,23 @@
 namespace strut {
 namespace {
 
-BlockMaterial copper(bool plastic) {
+// The third argument of a bench.
+enum Model { elastic_correspondence, plastic_correspondence, ordinary };
+
+BlockMaterial copper(std::int64_t model) {
   const auto e = std::get<materials::Elastic>(elastic(110e9, 0.296));
-  if (!plastic) return {8960, e, 0.02};
+  if (model == elastic_correspondence) return {8960, e, 0.02};
+  if (model == ordinary) return {8960, e, 0, Formulation::ordinary};
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
   return {8960, materials::J2{e.bulk, e.shear, flow}, 0.02};
 }
 
-// Arguments: points along an edge, horizon in thousandths of a spacing, plastic or not.
+// Arguments: points along an edge, horizon in thousandths of a spacing, model.
 void step(benchmark::State& state) {
   const Communicator world;
   const int n = static_cast<int>(state.range(0));
   const LatticeSpec spec{{n, n, n}, 1e-3,           1e-3 * static_cast<double>(state.range(1)),
-                         0,         Influence::one, copper(state.range(2) != 0)};
+                         0,         Influence::one, copper(state.range(2))};
   Body body = lattice_body(spec, world);
   const double dt = 1e-7, rate = 1e4;  // a shear that keeps a plastic block flowing
   double shear = 0;
@@ -39,7 +43,12 @@ void step(benchmark::State& state) {
   state.counters["per_point"] = time_per(steps * body.owned());
 }
 
-BENCHMARK(step)->Args({50, 3015, 0})->Args({50, 3015, 1})->Args({27, 2015, 1})->Unit(benchmark::kMillisecond);
+BENCHMARK(step)
+    ->Args({50, 3015, elastic_correspondence})
+    ->Args({50, 3015, plastic_correspondence})
+    ->Args({27, 2015, plastic_correspondence})
+    ->Args({50, 3015, ordinary})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace strut

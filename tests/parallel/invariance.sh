@@ -1,5 +1,6 @@
 #!/bin/sh
-# A Taylor impact on 1, 2, 3 and 4 ranks: results and histories must be the same.
+# A Taylor impact, and a bar whose upper half is ordinary elastic, on 1, 2, 3 and 4 ranks: results and histories must be
+# the same.
 #   invariance.sh strut strut-mesh strut-compare mpirun [its options]
 set -u
 strut=$1 mesh=$2 compare=$3
@@ -18,7 +19,13 @@ spacing = 0.004
 END
 "$mesh" bar.recipe bar.g || exit 1
 
-# deck NAME: a deck that writes NAME.e and NAME.csv. The step follows the deformation, so that its estimate is under
+# A lattice of two blocks, 1 below and 2 above, as text: no two points alike, so that a mistake has nowhere to hide.
+awk 'BEGIN { h = 0.004; srand(1)
+  for (k = 0; k < 20; ++k) for (j = 0; j < 6; ++j) for (i = 0; i < 6; ++i)
+    printf "%.17g %.17g %.17g %d %.17g\n", h*(i - 2.5 + 0.1*rand()), h*(j - 2.5 + 0.1*rand()), h*(k + 0.5 + 0.1*rand()),
+           k < 10 ? 1 : 2, h*h*h }' > mixed.txt
+
+# deck NAME PROBLEM: a deck that writes NAME.e and NAME.csv. The step follows the deformation, so that its estimate is under
 # test, too; the foot is held by a motion that grows in time rather than by zero.
 deck() {
   cat <<END

@@ -47,6 +47,18 @@ TEST(Deck, ReadsMaterials) {
   EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).bulk, 160e9);
   EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).shear, 80e9);
   EXPECT_EQ(deck.materials[1].stabilization, StabilizationType::none);
+  EXPECT_EQ(deck.materials[1].formulation, Formulation::correspondence);
+}
+
+TEST(Deck, ReadsOrdinaryMaterials) {
+  const DeckFolder folder;
+  const std::string stabilization = R"(<Parameter name="Stabilization" type="string" value="None"/>)";
+  const Deck deck = folder.read(
+      changed(changed(full_deck, R"(value="Elastic Correspondence")", R"(value="Elastic")"), stabilization, ""));
+  EXPECT_EQ(deck.materials[0].formulation, Formulation::correspondence);
+  EXPECT_EQ(deck.materials[1].formulation, Formulation::ordinary);
+  EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).bulk, 160e9);
+  EXPECT_EQ(deck.materials[1].stabilization_coefficient, 0);
 }
 
 TEST(Deck, ReadsBlocks) {

@@ -45,7 +45,7 @@ TEST(Waves, DispersionOfTheOperator) {
   const auto phase = [&](int i) { return std::cos(l.wave.dot(body.domain.positions[i])); };
   std::vector<Site> directions = body.sites;
   for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = (l.direction * phase(i)).array();
-  std::vector<ForceState> scratch(body.force_states.size());
+  ForceStates scratch = body.force_states;
   std::vector<Vector> result(body.owned());
   apply_tangent(body, body.domain.halo, directions, scratch, result);
   double scale = 0;
