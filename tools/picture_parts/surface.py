@@ -34,7 +34,11 @@ def joined(surfaces):
 
 def edge_of(places, volumes):
     """The mean edge of a cube: from the volumes where they are known, else from the box around all."""
-    return np.cbrt(volumes.mean() if volumes is not None else np.prod(np.ptp(places, axis=0)) / len(places))
+    if volumes is not None:
+        return np.cbrt(volumes.mean())
+    sides = np.ptp(places, axis=0)
+    sides = sides[sides > 0]  # a single layer has no thickness
+    return (np.prod(sides) / len(places))**(1 / len(sides)) if len(sides) else 1.0
 
 
 def spacing_of(places, edge):
