@@ -1,0 +1,106 @@
+"""A result (Exodus II) of material points: names, frames and columns, read when asked for."""
+import difflib
+import os
+
+import netCDF4
+import numpy as np
+from strut_tools import fail
+
+UNITS = {"Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J"}
+
+
+def unit_of(name):
+    return next((unit for ending, unit in UNITS.items() if name.rstrip("XYZ").endswith(ending)), "")
+
+
+def title(name):
+    """Von_Mises_Stress -> "Von Mises Stress, Pa"."""
+    unit = unit_of(name)
+    return name.replace("_", " ") + (f", {unit}" if unit else "")
+
+
+def stem(path):
+    return os.path.splitext(os.path.basename(path))[0]
+
+
+def without_components(names):
+    """DisplacementX, -Y, -Z -> Displacement."""
+    vectors = {n[:-1] for n in names if n[-1] == "X" and n[:-1] + "Y" in names and n[:-1] + "Z" in names}
+    return list(dict.fromkeys(n[:-1] if n[-1] in "XYZ" and n[:-1] in vectors else n for n in names))
+
+
+class Block:
+    def __init__(self, name, number, nodes, volumes):
+        self.name, self.number, self.nodes, self.volumes = name, number, nodes, volumes
+
+
+class Result:
+    """Values are given for each node, which is a point; columns of a frame are read when they are asked for."""
+
+    def __init__(self, path):
+        self.path, self.file = path, opened(path)
+        self.times = np.array(self.file.variables["time_whole"][:])
+        self.reference = np.stack([self.file.variables["coord" + c][:] for c in "xyz"], axis=1)
+        self.nodal, self.elemental = self._names("name_nod_var"), self._names("name_elem_var")
+        self.names = without_components(self.nodal + self.elemental)
+        self.blocks = [self._block(i + 1, name) for i, name in enumerate(self._block_names())]
+
+    def _names(self, variable):
+        rows = self.file.variables[variable][:] if variable in self.file.variables else []
+        return [row.tobytes().decode(errors="replace").split("\0")[0].strip() for row in rows]
+
+    def _block_names(self):
+        count = len(self.file.dimensions["num_el_blk"])
+        names = self._names("eb_names") or [""] * count
+        return [name or f"block_{i + 1}" for i, name in enumerate(names)]
+
+    def _block(self, number, name):
+        if f"connect{number}" not in self.file.variables:
+            return Block(name, number, np.zeros(0, int), np.zeros(0))
+        nodes = self.file.variables[f"connect{number}"][:]
+        if nodes.shape[1] != 1:
+            fail(f"{self.path} is not a result of points: an element of block '{name}' has {nodes.shape[1]} nodes")
+        attributes = self.file.variables.get(f"attrib{number}")
+        known = attributes is not None and attributes.shape[1] > 1
+        return Block(name, number, nodes[:, 0] - 1, np.array(attributes[:, 1]) if known else None)
+
+    def has(self, name):
+        return name in self.names or name in self.nodal
+
+    def values(self, name, frame):
+        """A variable; of a vector its length. NaN where the variable is not defined."""
+        if name in self.nodal:
+            return self._column(name, frame)
+        if name + "X" in self.nodal and name + "Y" in self.nodal and name + "Z" in self.nodal:
+            return np.sqrt(sum(self._column(name + c, frame)**2 for c in "XYZ"))
+        if name not in self.elemental:
+            near = difflib.get_close_matches(name, self.names + self.nodal, 1, 0.5)
+            hint = f" (did you mean '{near[0]}'?)" if near else ""
+            fail(f"{self.path} has no variable '{name}'{hint}; it has {', '.join(self.names) or 'none'}")
+        value = np.full(len(self.reference), np.nan)
+        for block in self.blocks:
+            column = f"vals_elem_var{self.elemental.index(name) + 1}eb{block.number}"
+            if column in self.file.variables:
+                value[block.nodes] = self.file.variables[column][frame]
+        return value
+
+    def _column(self, name, frame):
+        return np.array(self.file.variables[f"vals_nod_var{self.nodal.index(name) + 1}"][frame])
+
+    def displacement(self, frame):
+        if any("Displacement" + c not in self.nodal for c in "XYZ"):
+            fail(f"{self.path} has no variable Displacement: add it to Output Variables")
+        return np.stack([self._column("Displacement" + c, frame) for c in "XYZ"], axis=1)
+
+
+def opened(path):
+    if not os.path.isfile(path):
+        fail(f"{path} does not exist")
+    try:
+        file = netCDF4.Dataset(path)
+        file.set_auto_mask(False)
+    except OSError as error:
+        fail(f"{path} is not an Exodus file: {error}")
+    if "num_nodes" not in file.dimensions or len(file.variables.get("time_whole", [])) == 0:
+        fail(f"{path} is not a result: it has no nodes or no frames")
+    return file
