@@ -1,12 +1,15 @@
-// strut-mesh RECIPE OUT.g: cylinders and boxes of hexahedra or spheres, from a recipe (tools/README.md).
+// strut-mesh RECIPE OUT.g: bodies of hexahedra or spheres, from a recipe (tools/README.md).
 //   strut-mesh inputs/taylor/bar.recipe bar.g
+// strut-mesh --arrays OUT.g: the mesh that another program hands over on standard input.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include "base/errors.hpp"
 #include "io/exodus.hpp"
+#include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
 #include "mesh/recipe.hpp"
 
@@ -14,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_sets = 64;  // that a run can tell apart
 
-void make(const std::string& recipe, const std::string& output) {
+strut::io::Mesh from_recipe(const std::string& recipe) {
   const std::vector<strut::mesh::Body> bodies = strut::mesh::read_recipe(recipe);
   strut::io::Mesh mesh;
   std::string summary;
@@ -26,22 +29,34 @@ void make(const std::string& recipe, const std::string& output) {
     mesh.node_sets.push_back({"foot", mesh.node_sets[0].nodes});
     mesh.node_sets.push_back({"top", mesh.node_sets[1].nodes});
   }
-  if (mesh.node_sets.size() > most_sets) throw strut::Error(recipe + ": more than 64 node sets; use fewer bodies");
-  strut::io::write_mesh(output, mesh);
+  return mesh;
+}
 
+void write(const strut::io::Mesh& mesh, const std::string& source, const std::string& output) {
+  if (mesh.node_sets.size() > most_sets) {
+    throw strut::Error(source + ": " + std::to_string(mesh.node_sets.size()) + " node sets, at most " +
+                       std::to_string(most_sets) + " are supported");
+  }
+  strut::io::write_mesh(output, mesh);
   std::size_t points = 0;
-  for (const auto& block : mesh.blocks) points += block.elements.size();
+  for (const auto& block : mesh.blocks) points += block.elements();
   std::vector<std::string> sets;
   for (const auto& set : mesh.node_sets) sets.push_back(set.name);
   std::printf("%s: %zu points, %zu nodes; node sets %s\n", output.c_str(), points, mesh.nodes.size(),
               strut::joined(sets).c_str());
 }
 
+void make(const std::string& source, const std::string& output) {
+  if (source != "--arrays") return write(from_recipe(source), source, output);
+  std::ios::sync_with_stdio(false);
+  write(strut::mesh::read_arrays(std::cin, "standard input"), "standard input", output);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::fputs("usage: strut-mesh RECIPE OUT.g\n", stderr);
+    std::fputs("usage: strut-mesh RECIPE OUT.g\n       strut-mesh --arrays OUT.g < STREAM\n", stderr);
     return EXIT_FAILURE;
   }
   try {

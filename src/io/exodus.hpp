@@ -58,14 +58,19 @@ struct ExodusResult {
 };
 ExodusResult read_result(const std::filesystem::path& file);
 
-// A mesh as a tool makes it: hexahedra or spheres, for tools/ and tests.
+// Of HEX8, TET4 and SPHERE; throws Error for other types.
+int nodes_per_element(const std::string& type);
+
+// A mesh as a tool makes it, for tools/ and tests.
 struct Mesh {
   std::vector<Vector> nodes;
   struct Block {
     std::string name;
-    std::string type;                        // "HEX8", "TET4" or "SPHERE"
-    std::vector<std::vector<int>> elements;  // node indices, 0-based
-    std::vector<double> volumes;             // spheres only
+    std::string type;             // "HEX8", "TET4" or "SPHERE"
+    std::vector<int> nodes;       // 0-based, element by element
+    std::vector<double> volumes;  // spheres only
+
+    std::size_t elements() const { return nodes.empty() ? 0 : nodes.size() / nodes_per_element(type); }
   };
   std::vector<Block> blocks;
   struct NodeSet {

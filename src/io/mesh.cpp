@@ -11,13 +11,6 @@ namespace strut::io {
 
 namespace {
 
-std::int64_t nodes_per_element(const std::string& type) {
-  if (type == "HEX8") return 8;
-  if (type == "TET4") return 4;
-  if (type == "SPHERE") return 1;
-  throw Error("elements of type '" + type + "' cannot be written; HEX8, TET4 and SPHERE can");
-}
-
 template <class Item>
 std::vector<std::int64_t> numbers(const std::vector<Item>& items, const std::string& prefix) {
   std::vector<std::string> names;
@@ -30,10 +23,12 @@ std::vector<ExodusFile::Block> blocks_of(const Mesh& mesh) {
   std::vector<ExodusFile::Block> blocks;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Mesh::Block& block = mesh.blocks[b];
-    if (block.type == "SPHERE" && block.volumes.size() != block.elements.size()) {
+    if (block.type == "SPHERE" && block.volumes.size() != block.nodes.size()) {
       throw Error("block '" + block.name + "' needs one volume for each sphere");
     }
-    blocks.push_back({ids[b], block.name, block.type, std::ssize(block.elements), nodes_per_element(block.type), {}});
+    const int size = nodes_per_element(block.type);
+    if (block.nodes.size() % size != 0) throw Error("the last element of block '" + block.name + "' lacks nodes");
+    blocks.push_back({ids[b], block.name, block.type, std::ssize(block.nodes) / size, size, {}});
     if (block.type == "SPHERE") blocks.back().attributes = {"radius", "volume"};
   }
   return blocks;
@@ -48,15 +43,14 @@ std::vector<ExodusFile::NodeSet> node_sets_of(const Mesh& mesh) {
   return sets;
 }
 
+std::vector<std::int64_t> counted_from_one(const std::vector<int>& nodes) {
+  std::vector<std::int64_t> numbers(nodes.begin(), nodes.end());
+  for (std::int64_t& number : numbers) ++number;
+  return numbers;
+}
+
 void put_elements(const ExodusFile& file, const ExodusFile::Block& layout, const Mesh::Block& block) {
-  std::vector<std::int64_t> nodes;
-  for (const std::vector<int>& element : block.elements) {
-    if (std::ssize(element) != layout.nodes_per_element) {
-      throw Error("an element of block '" + block.name + "' has " + std::to_string(element.size()) + " nodes");
-    }
-    for (const int node : element) nodes.push_back(node + 1);
-  }
-  file.put_connectivity(layout, nodes);
+  file.put_connectivity(layout, counted_from_one(block.nodes));
   if (block.type != "SPHERE") return;
   std::vector<double> radii;
   for (const double volume : block.volumes) radii.push_back(sphere_radius(volume));
@@ -65,6 +59,13 @@ void put_elements(const ExodusFile& file, const ExodusFile::Block& layout, const
 }
 
 }  // namespace
+
+int nodes_per_element(const std::string& type) {
+  if (type == "HEX8") return 8;
+  if (type == "TET4") return 4;
+  if (type == "SPHERE") return 1;
+  throw Error("elements of type '" + type + "' are not supported, expected HEX8, TET4 or SPHERE");
+}
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
   const std::vector<ExodusFile::Block> blocks = blocks_of(mesh);
@@ -85,9 +86,7 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
   file.put_coordinates(x);
   for (std::size_t b = 0; b < blocks.size(); ++b) put_elements(file, blocks[b], mesh.blocks[b]);
   for (std::size_t k = 0; k < sets.size(); ++k) {
-    std::vector<std::int64_t> nodes;
-    for (const int node : mesh.node_sets[k].nodes) nodes.push_back(node + 1);
-    file.put_nodes_of(sets[k], nodes);
+    file.put_nodes_of(sets[k], counted_from_one(mesh.node_sets[k].nodes));
   }
   file.flush();
 }

@@ -50,19 +50,23 @@ struct Lattice {
     return nodes;
   }
 
-  std::vector<std::vector<int>> layers(int begin, int end) const {
-    std::vector<std::vector<int>> elements;
+  // The nodes of the elements of these layers.
+  std::vector<int> layers(int begin, int end) const {
+    std::vector<int> nodes;
     for (int k = begin; k < end; ++k) {
       for (int j = 0; j < ny; ++j) {
         for (int i = 0; i < nx; ++i) {
           if (!inside((i + 0.5) * spacing, (j + 0.5) * spacing)) continue;
-          elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
-                              node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
-                              node(i, j + 1, k + 1)});
+          for (const int level : {k, k + 1}) {
+            for (const int corner :
+                 {node(i, j, level), node(i + 1, j, level), node(i + 1, j + 1, level), node(i, j + 1, level)}) {
+              nodes.push_back(corner);
+            }
+          }
         }
       }
     }
-    return elements;
+    return nodes;
   }
 };
 

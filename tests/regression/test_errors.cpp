@@ -190,7 +190,7 @@ TEST_F(Mistake, NoPoints) {
   expect_error(parts.text(), {"points.txt", "no points"});
   run_on_root(world, [&] {
     io::Mesh mesh = Lattice().mesh();
-    mesh.blocks[0].elements.clear();
+    mesh.blocks[0].nodes.clear();
     io::write_mesh(folder / "empty.g", mesh);
   });
   expect_error(changed(right_parts().text(), "bar.g", "empty.g"), {"empty.g", "no elements"});

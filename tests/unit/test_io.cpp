@@ -50,9 +50,9 @@ Mesh mixed_mesh() {
   mesh.nodes.emplace_back(0, 0, 2);
   mesh.nodes.emplace_back(5, 5, 5);
   mesh.nodes.emplace_back(6, 5, 5);
-  mesh.blocks.push_back({"cubes", "HEX8", {{0, 1, 2, 3, 4, 5, 6, 7}, {1, 8, 9, 2, 5, 10, 11, 6}}, {}});
-  mesh.blocks.push_back({"a_tetrahedron_with_a_name_that_is_longer_than_32_characters", "TET4", {{4, 5, 7, 12}}, {}});
-  mesh.blocks.push_back({"spheres", "SPHERE", {{13}, {14}}, {0.5, 0.25}});
+  mesh.blocks.push_back({"cubes", "HEX8", {0, 1, 2, 3, 4, 5, 6, 7, 1, 8, 9, 2, 5, 10, 11, 6}, {}});
+  mesh.blocks.push_back({"a_tetrahedron_with_a_name_that_is_longer_than_32_characters", "TET4", {4, 5, 7, 12}, {}});
+  mesh.blocks.push_back({"spheres", "SPHERE", {13, 14}, {0.5, 0.25}});
   mesh.node_sets.push_back({"left", {0, 3, 4, 7}});
   mesh.node_sets.push_back({"right", {8, 9, 10, 11, 14}});
   mesh.node_sets.push_back({"none", {}});

@@ -51,7 +51,7 @@ Mesh row_of_cubes(int count) {
   mesh.blocks.push_back({"row", "HEX8", {}, {}});
   for (int i = 0; i < count; ++i) {
     const int n = 4 * i;
-    mesh.blocks[0].elements.push_back({n, n + 4, n + 5, n + 1, n + 3, n + 7, n + 6, n + 2});
+    for (const int corner : {0, 4, 5, 1, 3, 7, 6, 2}) mesh.blocks[0].nodes.push_back(n + corner);
   }
   mesh.node_sets.push_back({"start", {0, 1, 2, 3}});
   return mesh;
@@ -119,7 +119,7 @@ TEST_F(BrokenFile, ElementsThatCannotBePoints) {
   mesh.nodes[2][1] = std::nan("");
   expect_error(world, mesh_file(mesh), "node 3");
   mesh = row_of_cubes(1);
-  mesh.blocks[0].elements.clear();
+  mesh.blocks[0].nodes.clear();
   expect_error(world, mesh_file(mesh), "no elements");
   mesh = row_of_cubes(1);
   for (int k = 0; k < 65; ++k) mesh.node_sets.push_back({"set" + std::to_string(k), {0}});

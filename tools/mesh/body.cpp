@@ -77,9 +77,8 @@ io::Mesh Extrusion::hexahedra() const {
   block.type = "HEX8";
   for (int k = 0; k < layers; ++k) {
     for (const auto& cell : section.cells) {
-      std::vector<int>& nodes = block.elements.emplace_back();
       for (const int level : {k, k + 1}) {
-        for (const int node : cell) nodes.push_back(node + level * stride);
+        for (const int node : cell) block.nodes.push_back(node + level * stride);
       }
     }
   }
@@ -97,7 +96,7 @@ io::Mesh Extrusion::spheres() const {
   for (int k = 0; k < layers; ++k) {
     for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
       const Section::Shape shape = section.shape(cell);
-      block.elements.push_back({static_cast<int>(mesh.nodes.size())});
+      block.nodes.push_back(static_cast<int>(mesh.nodes.size()));
       block.volumes.push_back(shape.area * layer);
       mesh.nodes.emplace_back(shape.centroid.x(), shape.centroid.y(), (k + 0.5) * layer);
     }
@@ -171,7 +170,7 @@ void append(io::Mesh& mesh, const io::Mesh& body) {
   };
   mesh.nodes.insert(mesh.nodes.end(), body.nodes.begin(), body.nodes.end());
   for (io::Mesh::Block block : body.blocks) {
-    for (std::vector<int>& element : block.elements) element = shifted(std::move(element));
+    block.nodes = shifted(std::move(block.nodes));
     mesh.blocks.push_back(std::move(block));
   }
   for (const io::Mesh::NodeSet& set : body.node_sets) mesh.node_sets.push_back({set.name, shifted(set.nodes)});
