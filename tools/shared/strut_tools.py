@@ -112,10 +112,12 @@ class Said:
     text = ""
 
     def error(self):
-        """The first thing that sounds like an error, without what VTK prints around it (file, line, address)."""
-        text = re.sub(r"(ERROR|Warning): In \S+, line \d+\n|vtk\w+ \(0x[0-9a-f]+\): ", "", self.text)
+        """The first thing that sounds like an error, without what VTK prints before it (date, file, address)."""
+        text = re.sub(r"^\d{4}-\d\d-\d\d .*?\| |(ERROR|Warning): In \S+, line \d+\n|vtk\w+ \(0x[0-9a-f]+\): ",
+                      "", re.sub(r"\x1b\[[0-9;]*m", "", self.text), flags=re.M)
         lines = [line.strip() for line in text.splitlines() if line.strip()]
-        bad = [line for line in lines if re.search("error|fail|cannot|could not|unable|invalid|not |trunc|corrupt", line, re.I)]
+        sounds = "error|fail|cannot|could not|unable|invalid|not |trunc|corrupt"
+        bad = [line for line in lines if re.search(sounds, line, re.I)]
         return (bad or [""])[0]
 
 

@@ -2,6 +2,7 @@
 import glob
 import os
 import re
+import zlib
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,6 +85,8 @@ def tiff(path):
                 series = len(file.series)
         except Exception as error:  # damaged files raise whatever the parser stumbles over
             wrong = error
+    if said.error():  # what is left of a file that is cut off may still be pages of one size
+        fail(f"{path} is damaged: {said.error()}")
     if wrong is not None and "imagecodecs" in str(wrong):  # packed in a way that needs a library which Debian lacks
         return tiff_by_vtk(path)
     if wrong is not None or (values is None and series == 0):
@@ -92,8 +95,6 @@ def tiff(path):
         fail(f"{path} has several numbers a voxel (colours?), expected one")
     if values is None or (values.ndim not in (2, 3)):
         fail(f"{path} holds images of different sizes or of more than three dimensions, expected pages of one size")
-    if said.error():
-        fail(f"{path} is damaged: {said.error()}")
     return values.reshape((-1, *values.shape[-2:]))
 
 
@@ -135,10 +136,51 @@ def shape_text(values):
 # NRRD, MetaImage and VTK's own
 
 
+def check_whole(path, ending):
+    """What VTK's readers do not see: the XML one takes what is there of an image that is cut off, and the one of NRRD
+    waits for ever for the rest of a gzip stream."""
+    with open(path, "rb") as file:
+        if ending == ".vti":
+            file.seek(max(0, os.path.getsize(path) - 64))
+            if b"</VTKFile>" not in file.read():
+                fail(f"{path} is damaged: it does not end with </VTKFile>")
+        if ending not in (".nrrd", ".nhdr"):
+            return
+        header = []
+        while (line := file.readline(10000)).strip() and len(header) < 1000:
+            header.append(line.decode(errors="replace").strip())
+        if not line and ending == ".nrrd":
+            fail(f"{path} is damaged: its header does not end with an empty line")
+        fields = dict(line.split(": ", 1) for line in header if ": " in line)
+        if fields.get("encoding") not in ("gzip", "gz"):
+            return
+        data = fields.get("data file", fields.get("datafile"))
+        if not data:
+            return check_gzip(path, file)
+    data = os.path.join(os.path.dirname(path), data)
+    if not os.path.isfile(data):
+        fail(f"{path}: its data file {data} does not exist")
+    with open(data, "rb") as file:
+        check_gzip(data, file)
+
+
+def check_gzip(path, file):
+    unpacker = zlib.decompressobj(31)
+    try:
+        while not unpacker.eof:
+            part = file.read(2**20)
+            if not part:
+                fail(f"{path} is damaged: its gzip stream is cut off")
+            unpacker.decompress(part)
+    except zlib.error as error:
+        fail(f"{path} is damaged: {error}")
+
+
 def by_vtk(path, module, name, array):
     """The array and the image it came from."""
     import importlib
 
+    check_whole(path, ending_of(path))
     reader = getattr(importlib.import_module("vtkmodules." + module), name)()
     with captured() as said:
         reader.SetFileName(path)

@@ -187,9 +187,11 @@ def faces_touched(solid):
 
 def thickness(solid, cell):
     """Mean and largest local thickness, m, or None without void: twice the distance to the centre of the nearest void
-    voxel, where no neighbour has a larger one (the ridge). Of drawn cylinders 2 to 12 voxels thick, in any direction,
-    its mean is within 0.35 voxels of the truth; a plate along the axes of an odd number of voxels gets one too many.
-    What lies outside the box is not void: a strut that is cut by it is not thinner there."""
+    voxel, at those voxels where none of the 26 neighbours has a larger one (the ridge). The mean is weighted by the
+    section, thickness squared: else the steps of a surface, which are small ridges too, decide it. So it comes close to
+    the mean over the volume: for the CT foam 192 um where spheres fitted into the solid at every voxel give 180 um, and
+    187 to 202 um for the same foam at half to twice the resolution. A plate along the axes of an odd number of voxels
+    gets one too many. What lies outside the box is not void: a strut that is cut by it is not thinner there."""
     if solid.all():
         return None
     places = np.nonzero(solid)
@@ -201,4 +203,5 @@ def thickness(solid, cell):
     distance[places] = np.sqrt(squared)
     there = distance[places]
     ridge = there >= ndimage.maximum_filter(distance, 3)[places]
-    return 2 * float(there[ridge].mean(dtype=float)), 2 * float(there.max())
+    local = 2 * there[ridge].astype(float)
+    return float((local**3).sum() / (local**2).sum()), float(local.max())
