@@ -66,7 +66,8 @@ class ToolTest(unittest.TestCase):
 
     def voxels(self, image, *words, edge=1e-3):
         """image: (z, y, x), written as a TIFF file."""
-        tifffile.imwrite(self.path("image.tif"), np.asarray(image, image.dtype if image.dtype != bool else "u1"))
+        tifffile.imwrite(self.path("image.tif"), np.asarray(image, image.dtype if image.dtype != bool else "u1"),
+                         photometric="minisblack")
         scale = () if "--size" in words or "--voxel-size" in words else ("--voxel-size", edge)
         return self.works("voxels", self.path("image.tif"), *scale, *words)
 
@@ -174,9 +175,11 @@ class KnownAnswers(ToolTest):
     def test_pieces_that_hung_on_a_spur_are_dropped_with_it(self):
         image = box((9, 9, 30), (2, 7), (2, 7), (2, 7)) | box((9, 9, 30), (4, 5), (4, 5), (7, 20))
         image |= box((9, 9, 30), (3, 6), (3, 6), (20, 23))
-        _, mesh = self.voxels(image, "--spurs", "drop")
-        self.assertEqual(len(mesh.blocks["foam"]), 125 + 13 + 27)  # both its ends are held: no voxel has fewer than 2 ...
-        self.assertEqual(len(self.voxels(image, "--spurs", "drop", "--min-neighbours", 5)[1].blocks["foam"]), 125 + 1)
+        said, mesh = self.voxels(image, "--spurs", "drop")
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)  # the small cube is a piece of its own now
+        self.assertIn("more with what they held", said["spurs"])
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbours", 2)
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 13 + 27)  # both its ends are held: none has fewer than two
 
     def test_otsu_parts_two_gaussians_between_them(self):
         rng = np.random.default_rng(1)
@@ -417,7 +420,6 @@ class Damaged(ToolTest):
         self.refused("voxels", "did you mean '.nrrd'", self.write("a.nrd", "x"))
         self.refused("voxels", "does not exist", self.path("none.tif"))
         self.refused("voxels", "no TIFF images", self.path("none*.tif"))
-        self.refused("voxels", "no TIFF images", self.folder)
         os.mkdir(self.path("folder.pts"))
         self.refused("voxels", "no TIFF images", self.path("folder.pts"))
 
@@ -579,11 +581,18 @@ class Tetrahedra(ToolTest):
         np.testing.assert_allclose(tetrahedra_volumes(mesh.nodes, mesh.blocks["rest"]), 1 / 3)
 
     def test_formats_with_numbers(self):
-        for name, key in {"a.vtu": "CellEntityIds", "a.vtk": "CellEntityIds", "a.mesh": "medit:ref",
-                          "a.med": "cell_tags"}.items():
+        for name, key in {"a.vtu": "CellEntityIds", "a.vtk": "CellEntityIds", "a.mesh": "medit:ref"}.items():
             with self.subTest(name):
                 self.mesh(cell_data=self.groups(key)).write(self.path(name))
                 self.check(self.path(name), ["block_1", "block_2"], "set_7")
+
+    def test_med(self):
+        tags = np.where(self.left, -1, -2)
+        mesh = meshio.Mesh(self.points, [("tetra", self.nodes), ("triangle", self.triangles)],
+                           cell_data={"cell_tags": [tags, np.full(len(self.triangles), -7)]})
+        mesh.cell_tags = {-1: ["left"], -2: ["right"], -7: ["foot"]}
+        mesh.write(self.path("a.med"))
+        self.check(self.path("a.med"), ["left", "right"], "foot")
 
     def test_abaqus(self):
         none = np.array([], int)
