@@ -1,3 +1,10 @@
-add_executable(strut-mesh mesh.cpp mesh/recipe.cpp mesh/section.cpp mesh/body.cpp mesh/arrays.cpp)
-target_include_directories(strut-mesh PRIVATE ${CMAKE_CURRENT_LIST_DIR})
-target_link_libraries(strut-mesh PRIVATE strut_io)
+# The parts that a test of their own can link.
+add_library(strut_foam STATIC mesh/tessellation.cpp mesh/struts.cpp mesh/voxels.cpp)
+target_include_directories(strut_foam PUBLIC ${CMAKE_CURRENT_LIST_DIR})
+target_include_directories(strut_foam SYSTEM PRIVATE ${VORO_INCLUDE_DIR})
+target_link_libraries(strut_foam PUBLIC strut_io PRIVATE ${VORO_LIBRARY})
+# The same seed gives the same foam on any machine, with fused multiply-add or without.
+target_compile_options(strut_foam PRIVATE -ffp-contract=off)
+
+add_executable(strut-mesh mesh.cpp mesh/recipe.cpp mesh/section.cpp mesh/body.cpp mesh/foam.cpp mesh/arrays.cpp)
+target_link_libraries(strut-mesh PRIVATE strut_foam)

@@ -25,7 +25,9 @@ strut::io::Mesh from_recipe(const std::string& recipe) {
     strut::mesh::append(mesh, strut::mesh::mesh_of(body, summary));
     std::fputs(summary.c_str(), stdout);
   }
-  if (bodies.size() == 1) {  // plain names, where they are not ambiguous; sets begin with zmin and zmax
+  if (bodies.size() == 1 &&
+      bodies[0].shape !=
+          strut::mesh::Body::Shape::file) {  // plain names, where they are not ambiguous; sets begin with zmin and zmax
     mesh.node_sets.push_back({"foot", mesh.node_sets[0].nodes});
     mesh.node_sets.push_back({"top", mesh.node_sets[1].nodes});
   }

@@ -81,4 +81,8 @@ struct Mesh {
 };
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 
+// What write_mesh wrote, or another program: types as above however the file spells them, names and volumes as for
+// read_exodus. Serial. Throws Error: as read_exodus, but volumes are not looked at.
+Mesh read_mesh(const std::filesystem::path& file);
+
 }  // namespace strut::io

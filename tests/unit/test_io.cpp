@@ -81,6 +81,28 @@ TEST(Mesh, RoundTripKeepsBlocksSetsAndVolumes) {
   }
 }
 
+TEST(Mesh, ReadMeshIsTheInverseOfWriteMesh) {
+  const Communicator world;
+  const TemporaryFolder folder(world);
+  if (world.rank() != 0) return;
+  const Mesh written = mixed_mesh();
+  write_mesh(folder / "mixed.g", written);
+  const Mesh read = read_mesh(folder / "mixed.g");
+  EXPECT_EQ(read.nodes, written.nodes);
+  ASSERT_EQ(read.blocks.size(), written.blocks.size());
+  for (std::size_t b = 0; b < read.blocks.size(); ++b) {
+    EXPECT_EQ(read.blocks[b].name, written.blocks[b].name);
+    EXPECT_EQ(read.blocks[b].type, written.blocks[b].type);
+    EXPECT_EQ(read.blocks[b].nodes, written.blocks[b].nodes);
+    EXPECT_EQ(read.blocks[b].volumes, written.blocks[b].volumes);
+  }
+  ASSERT_EQ(read.node_sets.size(), written.node_sets.size());
+  for (std::size_t k = 0; k < read.node_sets.size(); ++k) {
+    EXPECT_EQ(read.node_sets[k].name, written.node_sets[k].name);
+    EXPECT_EQ(read.node_sets[k].nodes, written.node_sets[k].nodes);
+  }
+}
+
 TEST(Mesh, SlicesAreContiguousAndEven) {
   const Communicator world;
   const TemporaryFolder folder(world);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "mesh/foam.hpp"
 #include "mesh/section.hpp"
 
 namespace strut::mesh {
@@ -21,12 +22,15 @@ double exact_volume(const Body& body) {
 
 double height(const Body& body) { return body.shape == Body::Shape::box ? body.size.z() : body.length; }
 
-int layers_of(const Body& body) {
-  const double across = 2 * body.radius;
-  const Vector extent = body.shape == Body::Shape::box ? body.size : Vector(across, across, body.length);
+void check_cells(const Body& body, const Vector& extent) {
   if (extent.maxCoeff() / body.spacing > most_cells || (extent / body.spacing).cwiseMax(1).prod() > most_cells) {
     throw Error("body '" + body.name + "' would have more than 10⁸ cells: the spacing is too small");
   }
+}
+
+int layers_of(const Body& body) {
+  const double across = 2 * body.radius;
+  check_cells(body, body.shape == Body::Shape::box ? body.size : Vector(across, across, body.length));
   // A lattice's cubes take the thickness of a layer, which must not be far from what was asked for.
   if (body.shape == Body::Shape::cylinder && body.length < body.spacing / 2) {
     throw Error("body '" + body.name + "' is shorter than half a cell: the spacing is too large");
@@ -147,22 +151,64 @@ std::string summary_of(const Body& body, const Section& section, int layers) {
   return text;
 }
 
-}  // namespace
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
 
-io::Mesh mesh_of(const Body& body, std::string& summary) {
+// Bodies have names of their own, but blocks and sets from a file may be called like another's.
+void check_new(const std::vector<std::string>& names, const std::vector<std::string>& more, const std::string& what) {
+  for (const std::string& name : more) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+    throw Error("two " + what + " are called '" + name + "': give a body from a file a 'name' of its own");
+  }
+}
+
+io::Mesh extruded(const Body& body, std::string& summary) {
   const int layers = layers_of(body);
   const double layer = height(body) / layers;
   const Section section = section_of(body, layer);
   const Extrusion extrusion{section, layers, layer};
-  io::Mesh mesh = body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
+  summary = summary_of(body, section, layers);
+  return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
+}
+
+io::Mesh read_body(const Body& body, std::string& summary) {
+  io::Mesh mesh = io::read_mesh(body.file);
+  if (body.named && mesh.blocks.size() != 1) {
+    throw Error("body '" + body.name + "': " + body.file.string() + " has " + std::to_string(mesh.blocks.size()) +
+                " blocks, which keep their names: leave out the key 'name'");
+  }
+  summary = body.name + ": the mesh " + body.file.string() + "\n";
+  for (const io::Mesh::Block& block : mesh.blocks) {
+    summary += "  block " + block.name + ": " + std::to_string(block.elements()) + " points\n";
+  }
+  return mesh;
+}
+
+io::Mesh shaped(const Body& body, std::string& summary) {
+  if (body.shape == Body::Shape::file) return read_body(body, summary);
+  if (body.shape != Body::Shape::foam) return extruded(body, summary);
+  check_cells(body, body.size);
+  return foam_mesh(body, summary);
+}
+
+}  // namespace
+
+io::Mesh mesh_of(const Body& body, std::string& summary) {
+  io::Mesh mesh = shaped(body, summary);
   for (Vector& node : mesh.nodes) node += body.origin;
+  if (body.shape == Body::Shape::file && !body.named) return mesh;
   mesh.blocks[0].name = body.name;
   for (auto& set : mesh.node_sets) set.name = body.name + "_" + set.name;
-  summary = summary_of(body, section, layers);
   return mesh;
 }
 
 void append(io::Mesh& mesh, const io::Mesh& body) {
+  check_new(names_of(mesh.blocks), names_of(body.blocks), "blocks");
+  check_new(names_of(mesh.node_sets), names_of(body.node_sets), "node sets");
   const int shift = static_cast<int>(mesh.nodes.size());
   const auto shifted = [&](std::vector<int> nodes) {
     for (int& node : nodes) node += shift;

@@ -15,8 +15,11 @@ namespace strut::mesh {
 
 namespace {
 
-const std::vector<std::string> keys = {"name",   "shape",  "method", "centred", "elements",
-                                       "length", "radius", "size",   "spacing", "origin"};
+const std::vector<std::string> keys = {"name",         "shape", "method",  "centred", "elements", "length",
+                                       "radius",       "size",  "spacing", "origin",  "cell",     "relative_density",
+                                       "irregularity", "seed",  "file"};
+
+const std::vector<std::string> foam_keys = {"cell", "relative_density", "irregularity", "seed"};
 
 struct Entry {
   std::string value;
@@ -97,44 +100,99 @@ class Lines {
 // Entries to a Body.
 class Converter {
  public:
-  Converter(const Entries& entries, std::vector<std::string>& problems) : entries_(entries), problems_(problems) {}
+  // `folder`: of the recipe.
+  Converter(const Entries& entries, const std::filesystem::path& folder, std::vector<std::string>& problems)
+      : entries_(entries), folder_(folder), problems_(problems) {}
 
   Body convert() {
     Body body;
-    if (const Entry* entry = entries_.find("name")) body.name = entry->value;
-    body.shape = choice<Body::Shape>("shape", {"cylinder", "box"}, std::nullopt);
-    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, "lattice");
-    body.elements = choice<Body::Elements>("elements", {"hex", "sphere"}, "hex");
-    body.spacing = length("spacing");
+    body.shape = choice<Body::Shape>("shape", {"cylinder", "box", "foam", "file"}, std::nullopt);
     if (const Entry* entry = entries_.find("origin")) body.origin = vector(*entry);
-    body.shape == Body::Shape::cylinder ? convert_cylinder(body) : convert_box(body);
+    if (body.shape == Body::Shape::file) {
+      convert_file(body);
+    } else {
+      convert_made(body);
+    }
+    if (const Entry* entry = entries_.find("name")) {
+      body.name = entry->value;
+      body.named = true;
+    }
     return body;
   }
 
  private:
+  void convert_file(Body& body) {
+    refuse({"method", "elements", "spacing", "length", "radius", "centred", "size"}, "file");
+    refuse(foam_keys, "file");
+    const Entry* entry = required("file");
+    if (entry == nullptr) return;
+    body.file = folder_ / entry->value;
+    body.name = entry->value;
+  }
+
+  void convert_made(Body& body) {
+    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, "lattice");
+    body.elements = choice<Body::Elements>("elements", {"hex", "sphere"}, "hex");
+    body.spacing = length("spacing");
+    if (body.shape == Body::Shape::cylinder) return convert_cylinder(body);
+    convert_box(body, body.shape == Body::Shape::foam ? "foam" : "box");
+    if (body.shape == Body::Shape::foam) convert_foam(body);
+  }
+
   void convert_cylinder(Body& body) {
     body.length = length("length");
     body.radius = length("radius");
     body.centred = choice<Body::Centred>("centred", {"point", "corner"}, "corner");
-    refuse("size", "cylinder");
-    if (body.method == Body::Method::fitted) refuse("centred", "fitted cylinder");
+    refuse({"size", "file"}, "cylinder");
+    refuse(foam_keys, "cylinder");
+    if (body.method == Body::Method::fitted) refuse({"centred"}, "fitted cylinder");
   }
 
-  void convert_box(Body& body) {
-    for (const char* key : {"length", "radius", "centred"}) refuse(key, "box");
-    if (body.method == Body::Method::fitted) fail(*entries_.find("method"), "a box has only the method lattice");
+  void convert_box(Body& body, const std::string& shape) {
+    refuse({"length", "radius", "centred", "file"}, shape);
+    if (shape == "box") refuse(foam_keys, shape);
+    if (body.method == Body::Method::fitted)
+      fail(*entries_.find("method"), "a " + shape + " has only the method lattice");
     const Entry* entry = required("size");
     if (entry == nullptr) return;
     body.size = vector(*entry);
     if (!(body.size.minCoeff() > 0)) fail(*entry, "size is '" + entry->value + "', expected three lengths > 0");
   }
 
+  void convert_foam(Body& body) {
+    body.cell = length("cell");
+    if (const Entry* entry = required("relative_density")) {
+      body.relative_density = number(entry->value).value_or(NAN);
+      if (!(body.relative_density > 0 && body.relative_density < 1)) {
+        fail(*entry, "relative_density is '" + entry->value + "', expected a number between 0 and 1");
+      }
+    }
+    if (const Entry* entry = entries_.find("irregularity")) {
+      body.irregularity = number(entry->value).value_or(NAN);
+      if (!(body.irregularity >= 0 && body.irregularity <= 1)) {
+        fail(*entry, "irregularity is '" + entry->value + "', expected a number from 0 to 1");
+      }
+    }
+    if (const Entry* entry = entries_.find("seed")) body.seed = whole(*entry);
+  }
+
+  std::uint64_t whole(const Entry& entry) {
+    std::uint64_t value = 0;
+    const char* last = entry.value.data() + entry.value.size();
+    const auto [end, error] = std::from_chars(entry.value.data(), last, value);
+    if (error != std::errc() || end != last)
+      fail(entry, "'" + entry.value + "' is not a whole number from 0 to 2⁶⁴ - 1");
+    return value;
+  }
+
   void fail(const Entry& entry, const std::string& problem) {
     problems_.push_back("line " + std::to_string(entry.line) + ": " + problem);
   }
 
-  void refuse(const std::string& key, const std::string& shape) {
-    if (const Entry* entry = entries_.find(key)) fail(*entry, "a " + shape + " has no key '" + key + "'");
+  void refuse(const std::vector<std::string>& keys, const std::string& shape) {
+    for (const std::string& key : keys) {
+      if (const Entry* entry = entries_.find(key)) fail(*entry, "a " + shape + " has no key '" + key + "'");
+    }
   }
 
   const Entry* required(const std::string& key) {
@@ -184,6 +242,7 @@ class Converter {
   }
 
   const Entries& entries_;
+  const std::filesystem::path& folder_;
   std::vector<std::string>& problems_;
 };
 
@@ -197,7 +256,7 @@ std::vector<Body> read_recipe(const std::filesystem::path& path) {
   std::vector<Body> bodies;
   std::set<std::string> names;
   for (const Entries& entries : Lines(problems).read(file)) {
-    bodies.push_back(Converter(entries, problems).convert());
+    bodies.push_back(Converter(entries, path.parent_path(), problems).convert());
     if (!names.insert(bodies.back().name).second)
       problems.push_back("two bodies are called '" + bodies.back().name + "'");
   }

@@ -1,6 +1,7 @@
 // What a mesh shall be: "key = value" lines, sections "[body]". tools/README.md has the table of keys.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -10,12 +11,13 @@
 namespace strut::mesh {
 
 struct Body {
-  enum class Shape { cylinder, box };
+  enum class Shape { cylinder, box, foam, file };
   enum class Method { lattice, fitted };
   enum class Centred { point, corner };  // what of the lattice lies on a cylinder's axis
   enum class Elements { hexahedra, spheres };
 
   std::string name = "body";
+  bool named = false;  // by the recipe
   Shape shape = Shape::cylinder;
   Method method = Method::lattice;
   Centred centred = Centred::corner;
@@ -24,7 +26,12 @@ struct Body {
   double length = 0;               // m, of a cylinder, along z
   double radius = 0;               // m
   Vector size = Vector::Zero();    // m, of a box
-  Vector origin = Vector::Zero();  // m, centre of a cylinder's lower face, lower corner of a box
+  Vector origin = Vector::Zero();  // m, centre of a cylinder's lower face, lower corner of a box, shift of a file
+  double cell = 0;                 // m, mean diameter of a foam's cells
+  double relative_density = 0;     // volume of a foam's struts in that of its box
+  double irregularity = 0.5;       // 0: all cells alike, 1: as random as they get
+  std::uint64_t seed = 1;          // of the random numbers
+  std::filesystem::path file;      // of a mesh, relative to the working folder
 };
 
 // Keys before the first "[body]" hold for all bodies; without such a line there is one body.

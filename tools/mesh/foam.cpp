@@ -1,0 +1,87 @@
+#include "mesh/foam.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "base/errors.hpp"
+#include "mesh/voxels.hpp"
+
+namespace strut::mesh {
+
+namespace {
+
+constexpr double fewest_voxels_in_a_cell = 4;  // across it: fewer cannot show struts and pores
+constexpr double thin = 3;                     // spacings: thinner struts are worth a warning
+constexpr double too_much = 1.05;              // times the wanted density: the pieces met too late
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+void check(const Body& body) {
+  if (body.cell < fewest_voxels_in_a_cell * body.spacing) {
+    throw Error("body '" + body.name + "': a cell of " + number(body.cell) + " m has fewer than 4 spacings of " +
+                number(body.spacing) + " m across");
+  }
+  if (body.size.minCoeff() < body.cell) {
+    throw Error("body '" + body.name + "': the box is smaller than a cell of " + number(body.cell) + " m");
+  }
+}
+
+VoxelGrid grid_of(const Body& body) {
+  VoxelGrid grid{body.size, Eigen::Array3i::Ones()};
+  for (int k = 0; k < 3; ++k) grid.cells[k] = std::max(1, static_cast<int>(std::lround(body.size[k] / body.spacing)));
+  return grid;
+}
+
+// Struts thinner than a voxel are dust, until their radius lets it join, and then they are too many.
+void check(const Body& body, const Struts& struts, std::size_t wanted) {
+  if (static_cast<double>(struts.voxels.size()) <= too_much * static_cast<double>(wanted)) return;
+  throw Error("body '" + body.name +
+              "': struts of this relative density would be thinner than the voxels; in one piece they are " +
+              number(2 * struts.radius / body.spacing) + " spacings thick and have " +
+              number(static_cast<double>(struts.voxels.size()) / static_cast<double>(wanted)) +
+              " times the density: take a smaller spacing or larger cells");
+}
+
+std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& skeleton, const Struts& struts) {
+  double length = 0;
+  std::size_t edges = 0;
+  for (const Edge& edge : skeleton.edges) {
+    const double part = length_within(edge, grid.size);
+    length += part;
+    edges += part > 0 ? 1 : 0;
+  }
+  const double points = static_cast<double>(struts.voxels.size());
+  const double thickness = 2 * struts.radius;
+  const Vector h = grid.spacing();
+  char text[1000];
+  std::snprintf(text, sizeof text,
+                "%s: open-cell foam, irregularity %g, seed %llu: %.0f points of %d x %d x %d voxels\n"
+                "  relative density %.6g (asked for %g) in one piece; %zu other pieces of %zu points in all dropped\n"
+                "  %zu cells (seeds in the box), %zu edges in the box, their length %.6g m in all\n"
+                "  struts %.4g spacings = %.4g m thick; spacing %.6g %.6g %.6g m (asked for %g)\n",
+                body.name.c_str(), body.irregularity, static_cast<unsigned long long>(body.seed), points, grid.cells[0],
+                grid.cells[1], grid.cells[2], points / static_cast<double>(grid.count()), body.relative_density,
+                struts.dropped_pieces, struts.dropped_voxels, skeleton.cells, edges, length,
+                thickness / std::cbrt(h.prod()), thickness, h[0], h[1], h[2], body.spacing);
+  if (thickness >= thin * body.spacing) return text;
+  return std::string(text) + "  note: struts are thinner than 3 spacings; a smaller spacing would show their shape\n";
+}
+
+}  // namespace
+
+io::Mesh foam_mesh(const Body& body, std::string& summary) {
+  check(body);
+  const VoxelGrid grid = grid_of(body);
+  const Skeleton skeleton = foam_skeleton(body.size, body.cell, body.irregularity, body.seed);
+  const auto wanted = static_cast<std::size_t>(std::llround(body.relative_density * static_cast<double>(grid.count())));
+  const Struts struts = struts_around(skeleton.edges, grid, wanted);
+  check(body, struts, wanted);
+  summary = summary_of(body, grid, skeleton, struts);
+  return voxel_mesh(struts.voxels, grid, body.elements);
+}
+
+}  // namespace strut::mesh

@@ -1,0 +1,101 @@
+#include "mesh/voxels.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace strut::mesh {
+
+namespace {
+
+using Triple = Eigen::Array3i;
+
+// In the order that other bodies have: zmin and zmax first.
+struct Face {
+  const char* name;
+  int axis;
+  bool upper;
+};
+constexpr std::array<Face, 6> faces = {{{"zmin", 2, false},
+                                        {"zmax", 2, true},
+                                        {"xmin", 0, false},
+                                        {"xmax", 0, true},
+                                        {"ymin", 1, false},
+                                        {"ymax", 1, true}}};
+
+// Puts node `number` at the place `at` (0 to `last` along each axis) into the sets of the faces that it lies on.
+void add_to_sets(io::Mesh& mesh, int number, const Triple& at, const Triple& last) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const int axis = faces[f].axis;
+    if (at[axis] == (faces[f].upper ? last[axis] : 0)) mesh.node_sets[f].nodes.push_back(number);
+  }
+}
+
+// Numbers the corners of voxels as they are met. Voxels come layer by layer, so that the numbers of the corners below
+// and above a layer are all that is kept.
+class Corners {
+ public:
+  Corners(io::Mesh& mesh, const VoxelGrid& grid) : mesh_(mesh), grid_(grid) {
+    for (std::vector<int>& plane : planes_) plane.assign(static_cast<std::size_t>(width()) * (grid.cells[1] + 1), -1);
+  }
+
+  int number(const Triple& at) {
+    int& number = planes_[at[2] - layer_][static_cast<std::size_t>(at[1]) * width() + at[0]];
+    if (number < 0) {
+      number = static_cast<int>(mesh_.nodes.size());
+      mesh_.nodes.emplace_back(grid_.size.array() * at.cast<double>() / grid_.cells.cast<double>());
+      add_to_sets(mesh_, number, at, grid_.cells);
+    }
+    return number;
+  }
+
+  void go_to(int layer) {
+    for (; layer_ < layer; ++layer_) {
+      planes_[0].swap(planes_[1]);
+      std::fill(planes_[1].begin(), planes_[1].end(), -1);
+    }
+  }
+
+ private:
+  int width() const { return grid_.cells[0] + 1; }
+
+  io::Mesh& mesh_;
+  const VoxelGrid& grid_;
+  int layer_ = 0;
+  std::array<std::vector<int>, 2> planes_;
+};
+
+void add_hexahedra(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid& grid) {
+  static const Triple corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  Corners numbers(mesh, grid);
+  for (const int voxel : voxels) {
+    const Triple cell = grid.cell(voxel);
+    numbers.go_to(cell[2]);
+    for (const Triple& corner : corners) mesh.blocks[0].nodes.push_back(numbers.number(cell + corner));
+  }
+}
+
+// The same points as from hexahedra: a sphere is in the sets that its voxel's corners would be in.
+void add_spheres(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid& grid) {
+  for (const int voxel : voxels) {
+    const int number = static_cast<int>(mesh.nodes.size());
+    const Triple cell = grid.cell(voxel);
+    mesh.nodes.emplace_back((cell.cast<double>() + 0.5) * grid.spacing().array());
+    mesh.blocks[0].nodes.push_back(number);
+    mesh.blocks[0].volumes.push_back(grid.spacing().prod());
+    add_to_sets(mesh, number, cell, grid.cells - 1);
+  }
+}
+
+}  // namespace
+
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements) {
+  io::Mesh mesh;
+  for (const Face& face : faces) mesh.node_sets.push_back({face.name, {}});
+  const bool spheres = elements == Body::Elements::spheres;
+  mesh.blocks.push_back({"", spheres ? "SPHERE" : "HEX8", {}, {}});
+  spheres ? add_spheres(mesh, voxels, grid) : add_hexahedra(mesh, voxels, grid);
+  return mesh;
+}
+
+}  // namespace strut::mesh
