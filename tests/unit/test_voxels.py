@@ -85,7 +85,8 @@ def mesh_of(path):
     with netCDF4.Dataset(path) as file:
         file.set_auto_mask(False)
         mesh.nodes = np.stack([file.variables["coord" + c][:] for c in "xyz"], axis=1)
-        mesh.blocks = {name: file.variables[f"connect{i + 1}"][:] - 1 for i, name in enumerate(names_of(file, "eb_names"))}
+        mesh.blocks = {name: file.variables[f"connect{i + 1}"][:] - 1
+                       for i, name in enumerate(names_of(file, "eb_names"))}
         mesh.attributes = {name: file.variables[f"attrib{i + 1}"][:] for i, name in enumerate(mesh.blocks)
                            if f"attrib{i + 1}" in file.variables}
         sets = names_of(file, "ns_names") if "ns_names" in file.variables else []
@@ -184,7 +185,8 @@ class KnownAnswers(ToolTest):
     def test_otsu_parts_two_gaussians_between_them(self):
         rng = np.random.default_rng(1)
         solid = ball(40, 12)
-        for kind, (low, high, width) in {"u1": (60, 180, 12), "u2": (9000, 30000, 2000), "f4": (-0.2, 1.0, 0.1)}.items():
+        levels = {"u1": (60, 180, 12), "u2": (9000, 30000, 2000), "f4": (-0.2, 1.0, 0.1)}
+        for kind, (low, high, width) in levels.items():
             image = (rng.normal(0, width, solid.shape) + np.where(solid, high, low)).astype(kind)
             said, mesh = self.voxels(image)
             threshold = first_number(said["threshold"])
@@ -348,6 +350,18 @@ class Formats(ToolTest):
         for kind, words in itertools.product(("u1", "u2", "f4"), ({}, {"compression": "zlib"}, {"imagej": True})):
             tifffile.imwrite(self.path("a.tif"), self.image.astype(kind), **words)
             self.check(self.path("a.tif"), "--voxel-size", *self.spacing)
+
+    @unittest.skipUnless(importlib.util.find_spec("PIL"), "python3-pil is not there, which writes LZW")
+    def test_tiff_with_lzw(self):
+        from PIL import Image
+
+        pages = [Image.fromarray(page) for page in self.image]
+        pages[0].save(self.path("a.tif"), save_all=True, append_images=pages[1:], compression="tiff_lzw")
+        self.check(self.path("a.tif"), "--voxel-size", *self.spacing)
+        os.mkdir(self.path("slices"))
+        for z, page in enumerate(pages):
+            page.save(self.path(f"slices/{z}.tif"), compression="tiff_lzw")
+        self.check(self.path("slices"), "--voxel-size", *self.spacing)
 
     def test_tiff_slices_in_a_folder_and_by_pattern(self):
         os.mkdir(self.path("slices"))

@@ -106,7 +106,7 @@ def tiff_by_vtk(path):
     values, _ = by_vtk(path, "vtkIOImage", "vtkTIFFReader", None)
     if values.ndim != 3:
         fail(f"{path} has several numbers a voxel (colours?), expected one")
-    return values[:, ::-1]  # VTK counts rows from below
+    return values  # rows in the order of tifffile's
 
 
 def slices(names, where):

@@ -156,9 +156,11 @@ def kept_of(solid, pieces, spurs, least):
     solid, sizes = largest_pieces(solid, pieces)
     kept = np.count_nonzero(solid)
     others = ", ".join(f"{s:,}" for s in sizes[pieces:pieces + 5]) + (", ..." if len(sizes) > pieces + 5 else "")
-    about = f"{len(sizes):,}, " + (f"all kept: {kept:,} voxels" if kept == voxels else
-                                   f"the {f'{pieces} ' if pieces > 1 else ''}largest kept: {kept:,} of {voxels:,} voxels "
-                                   f"({100 * kept / voxels:.2f} %); the others have {others}")
+    if kept == voxels:
+        about = f"{len(sizes):,}, all kept: {kept:,} voxels"
+    else:
+        about = (f"{len(sizes):,}, the {f'{pieces} ' if pieces > 1 else ''}largest kept: {kept:,} of {voxels:,} voxels "
+                 f"({100 * kept / voxels:.2f} %); the others have {others}")
     stripped, few = without_spurs(solid, least)
     gone = kept - np.count_nonzero(stripped)
     text = f"{few:,} voxels have fewer than {least} of 26 neighbours"
