@@ -63,6 +63,28 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
       <Parameter name="Horizon" type="double" value="0.01"/>
     </ParameterList>
   </ParameterList>
+  <ParameterList name="Contact">
+    <Parameter name="Search Radius" type="double" value="0.01"/>
+    <Parameter name="Search Frequency" type="int" value="100"/>
+    <ParameterList name="Models">
+      <ParameterList name="touch">
+        <Parameter name="Contact Model" type="string" value="Short Range Force"/>
+        <Parameter name="Contact Radius" type="double" value="2e-3"/>
+        <Parameter name="Spring Constant" type="double" value="1.0e12"/>
+        <Parameter name="Friction Coefficient" type="double" value="0.3"/>
+      </ParameterList>
+    </ParameterList>
+    <ParameterList name="Interactions">
+      <ParameterList name="pair">
+        <Parameter name="First Block" type="string" value="block_2"/>
+        <Parameter name="Second Block" type="string" value="block_1"/>
+        <Parameter name="Contact Model" type="string" value="touch"/>
+      </ParameterList>
+      <ParameterList name="General Contact">
+        <Parameter name="Contact Model" type="string" value="touch"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>
   <ParameterList name="Boundary Conditions">
     <ParameterList name="flight">
       <Parameter name="Type" type="string" value="Initial Velocity"/>

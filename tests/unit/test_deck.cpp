@@ -50,6 +50,19 @@ TEST(Deck, ReadsMaterials) {
   EXPECT_EQ(deck.materials[1].formulation, Formulation::correspondence);
 }
 
+TEST(Deck, ReadsContact) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  ASSERT_EQ(deck.contact_models.size(), 1u);
+  EXPECT_EQ(deck.contact_models[0].radius, 2e-3);
+  EXPECT_EQ(deck.contact_models[0].penalty, 1e12);
+  EXPECT_EQ(deck.contact_models[0].friction, 0.3);
+  ASSERT_EQ(deck.interactions.size(), 2u);
+  EXPECT_EQ(deck.interactions[0].first_block, "block_2");
+  EXPECT_EQ(deck.interactions[0].second_block, "block_1");
+  EXPECT_EQ(deck.interactions[1].first_block, "");
+}
+
 TEST(Deck, ReadsOrdinaryMaterials) {
   const DeckFolder folder;
   const std::string stabilization = R"(<Parameter name="Stabilization" type="string" value="None"/>)";

@@ -99,7 +99,7 @@ const std::vector<Case> names = {
      "Blocks > plate > Horizn: unknown key (did you mean 'Horizon'?)"},
     {"UnknownKeyWithoutLikeness", R"("Block Names" type="string" value="block_2"/>)",
      R"("Block Names" type="string" value="block_2"/> <Parameter name="Colour" type="string" value="red"/>)",
-     "Blocks > plate > Colour: unknown key; expected one of Block Names, Material, Horizon"},
+     "Blocks > plate > Colour: unknown key; expected one of Block Names, Material, Horizon, Separate Body"},
     {"UnknownSection", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Node Sts"/><ParameterList name="Solver">)",
      "Node Sts: unknown section (did you mean 'Node Sets'?)"},
@@ -128,10 +128,22 @@ const std::vector<Case> names = {
      "Discretization > Type: given 2 times; expected once"},
     {"SectionTwice", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Node Sets"/><ParameterList name="Solver">)", "Node Sets: given 2 times; expected once"},
-    {"ReservedContact", R"(<ParameterList name="Solver">)",
-     R"(<ParameterList name="Contact"><Parameter name="x" type="int" value="1"/></ParameterList>
-        <ParameterList name="Solver">)",
-     "Contact: reserved: not in this version"},
+    {"ContactModelNotDefined", R"(<Parameter name="Contact Model" type="string" value="touch"/>)",
+     R"(<Parameter name="Contact Model" type="string" value="tuch"/>)",
+     "Contact > Interactions > pair > Contact Model: 'tuch' is not defined (did you mean 'touch'?); expected the name "
+     "of "
+     "a section of Contact > Models: touch"},
+    {"InteractionOfOneBlock", R"(<Parameter name="Second Block" type="string" value="block_1"/>)", "",
+     "Contact > Interactions > pair: one block is named; expected First Block and Second Block, or neither of them for "
+     "all "
+     "blocks"},
+    {"InteractionTwice", R"(<ParameterList name="General Contact">)",
+     R"(<ParameterList name="again"><Parameter name="First Block" type="string" value="block_1"/>
+        <Parameter name="Second Block" type="string" value="block_2"/>)",
+     "Contact > Interactions > again: joins the same blocks as pair; expected once"},
+    {"NoContactRadius", R"(<Parameter name="Contact Radius" type="double" value="2e-3"/>)",
+     R"(<Parameter name="Contact Radius" type="double" value="0"/>)",
+     "Contact > Models > touch > Contact Radius: '0'; expected a real number > 0, in m"},
     {"ReservedDamage", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Damage Models"/><ParameterList name="Solver">)",
      "Damage Models: reserved: not in this version"},

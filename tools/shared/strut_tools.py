@@ -1,17 +1,23 @@
-"""What the Python tools share: how they end with an error, and how they get the packages that they need."""
+"""What the Python tools share: installing what is missing, ending with one line, handing a mesh to strut-mesh."""
+import argparse
+import contextlib
+import difflib
 import os
+import re
 import subprocess
 import sys
+import tempfile
 
-PROGRAM = "tools/" + os.path.basename(sys.argv[0])
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
 def fail(text):
-    sys.exit(f"{PROGRAM}: {text}")
+    """Ends the tool: one line that says which tool, and status 1."""
+    sys.exit(f"tools/{os.path.basename(sys.argv[0])}: {text}")
 
 
 def install_missing(packages):
-    """Debian's packages (by module name), and then this script once more, by Debian's Python, which sees them."""
+    """{module: Debian's package}: installs them, and runs the script once more by Debian's Python, which sees them."""
     import importlib.util
 
     missing = [package for module, package in packages.items() if importlib.util.find_spec(module) is None]
@@ -27,3 +33,165 @@ def install_missing(packages):
         fail(f"these packages could not be installed: {' '.join(missing)}")
     os.environ["STRUT_TOOLS_INSTALLED"] = "1"
     os.execv(sys.executable, [sys.executable, *sys.argv])
+
+
+# The command line
+
+
+def nearest(word, words):
+    """" (did you mean 'x'?)", or nothing."""
+    close = difflib.get_close_matches(word, words, 1)
+    return f" (did you mean '{close[0]}'?)" if close else ""
+
+
+def number(word):
+    try:
+        return float(word)
+    except ValueError:
+        return None
+
+
+class Parser(argparse.ArgumentParser):
+    """argparse that says one line, knows the nearest option, and takes as many numbers after an option as there are:
+    a file's name may follow them, and they may be negative."""
+
+    def __init__(self, **words):
+        super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **words)
+        self.counts = {}
+
+    def add_numbers(self, option, *counts, kind=float, **words):
+        self.counts[option] = counts
+
+        def numbers(text):
+            found = [number(word) for word in text.split(",")]
+            if len(found) not in counts or any(x is None or x != x or x != kind(x) for x in found):
+                wanted = f"{' or '.join(map(str, counts))} {'whole ' if kind is int else ''}number"
+                raise argparse.ArgumentTypeError(f"expected {wanted}{'s' if counts != (1,) else ''}, found '{text}'")
+            return [kind(x) for x in found] if counts != (1,) else kind(found[0])
+
+        self.add_argument(option, type=numbers, **words)
+
+    def parse_args(self):
+        found, unknown = self.parse_known_args(self.joined(sys.argv[1:]))
+        if unknown:
+            self.error(f"unknown option '{unknown[0]}'{nearest(unknown[0], self._option_string_actions)}")
+        return found
+
+    def joined(self, words):
+        """--size 1 2 3 -> --size=1,2,3"""
+        out = []
+        while words:
+            word, *words = words
+            if word in self.counts:
+                most = max(self.counts[word])
+                taken = 0
+                while taken < min(most, len(words)) and number(words[taken]) is not None:
+                    taken += 1
+                if taken:
+                    word, words = f"{word}={','.join(words[:taken])}", words[taken:]
+            out.append(word)
+        return out
+
+    def error(self, message):
+        fail(f"{message}; --help has all options")
+
+
+def check_output(path):
+    """Before the work is done rather than after it."""
+    folder = os.path.dirname(path) or "."
+    if os.path.isdir(path):
+        fail(f"{path} is a folder, expected the name of the mesh to write")
+    if not os.path.isdir(folder):
+        fail(f"{path} cannot be written: there is no folder {folder}")
+
+
+# Libraries that print
+
+
+class Said:
+    text = ""
+
+    def error(self):
+        """The first thing that sounds like an error, without what VTK prints before it (date, file, address)."""
+        text = re.sub(r"^\d{4}-\d\d-\d\d .*?\| |(ERROR|Warning): In \S+, line \d+\n|vtk\w+ \(0x[0-9a-f]+\): ",
+                      "", re.sub(r"\x1b\[[0-9;]*m", "", self.text), flags=re.M)
+        lines = [line.strip() for line in text.splitlines() if line.strip()]
+        sounds = "error|fail|cannot|could not|unable|invalid|not |trunc|corrupt"
+        bad = [line for line in lines if re.search(sounds, line, re.I)]
+        return (bad or [""])[0]
+
+
+@contextlib.contextmanager
+def captured():
+    """What libraries print, also those in C, is kept: .text holds it afterwards."""
+    said = Said()
+    sys.stdout.flush()
+    sys.stderr.flush()
+    kept = [os.dup(1), os.dup(2)]
+    with tempfile.TemporaryFile() as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+        try:
+            yield said
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            for old, stream in zip(kept, (1, 2)):
+                os.dup2(old, stream)
+                os.close(old)
+            file.seek(0)
+            said.text = file.read().decode(errors="replace")
+
+
+# A mesh, to the program that writes Exodus
+
+
+def mesh_program():
+    """STRUT_MESH, or the one of this source tree, built where it is stale."""
+    program = os.environ.get("STRUT_MESH")
+    if program:
+        return program
+    if subprocess.run([os.path.join(ROOT, "tools", "prepare"), "release", "--target", "strut-mesh"]).returncode != 0:
+        fail("strut-mesh could not be built")
+    return os.path.join(ROOT, "build", "release", "tools", "strut-mesh")
+
+
+def parts_of(nodes, blocks, sets):
+    """The stream that strut-mesh --arrays reads (tools/README.md), piece by piece."""
+    yield f"strut-mesh arrays 1\nnodes {len(nodes)}\n".encode()
+    yield nodes, "<f8"
+    for name, kind, elements, volumes in blocks:
+        yield f"block {name} {kind} {len(elements)} {elements.shape[1]}\n".encode()
+        yield elements, "<i4"
+        if volumes is not None:
+            yield volumes, "<f8"
+    for name, members in sets.items():
+        yield f"set {name} {len(members)}\n".encode()
+        yield members, "<i4"
+    yield b"end\n"
+
+
+def write_mesh(path, nodes, blocks, sets):
+    """nodes: N x 3, in m; blocks: (name, HEX8|TET4|SPHERE, elements x nodes, volumes or None); sets: {name: nodes}."""
+    import numpy as np
+
+    program = mesh_program()
+    try:
+        run = subprocess.Popen([program, "--arrays", path], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+    except OSError as error:
+        fail(f"{program} cannot be started: {error.strerror}")
+    try:
+        for part in parts_of(nodes, blocks, sets):
+            if isinstance(part, tuple):
+                part = np.ascontiguousarray(part[0], part[1]).reshape(-1).view(np.uint8)
+            run.stdin.write(part)
+    except BrokenPipeError:
+        pass  # it says why, below
+    out, errors = run.communicate()
+    if run.returncode < 0:
+        fail(f"strut-mesh was ended by signal {-run.returncode}")
+    if run.returncode != 0:
+        said = errors.decode(errors="replace").strip().splitlines() or [f"exit status {run.returncode}"]
+        fail(said[0] if said[0].startswith("strut-mesh") else f"strut-mesh: {said[0]}")
+    print(out.decode(), end="")

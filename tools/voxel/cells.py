@@ -1,0 +1,50 @@
+"""Solid voxels -> nodes, elements and the node sets of the box's faces."""
+import numpy as np
+
+from strut_tools import fail
+
+# Corners of a voxel in the order of Exodus' HEX8, as steps (z, y, x).
+CORNERS = [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 0)]
+MOST_NODES = 2**31 - 1  # the numbers of strut-mesh's arrays
+
+
+def mesh_of(solid, cell, origin, elements, block):
+    """Nodes (m), one block, and sets, as strut_tools.write_mesh takes them."""
+    nodes, block_of, places, last = (hexahedra if elements == "hex" else spheres)(solid, cell, origin, block)
+    sets = {}
+    for axis, letter in ((2, "x"), (1, "y"), (0, "z")):
+        for end, name in ((0, "min"), (last[axis], "max")):
+            members = np.flatnonzero(places[axis] == end)
+            if len(members):
+                sets[f"{block}_{letter}{name}"] = members
+    return nodes, [block_of], sets
+
+
+def coordinates(places, cell, origin, offset):
+    return np.stack([origin[a] + (places[2 - a] + offset) * cell[a] for a in range(3)], axis=1)
+
+
+def spheres(solid, cell, origin, block):
+    places = np.nonzero(solid)
+    count = len(places[0])
+    one = np.arange(count, dtype=np.int32).reshape(-1, 1)
+    volumes = np.full(count, cell[0] * cell[1] * cell[2])
+    last = [n - 1 for n in solid.shape]
+    return coordinates(places, cell, origin, 0.5), (block, "SPHERE", one, volumes), places, last
+
+
+def hexahedra(solid, cell, origin, block):
+    shape = tuple(n + 1 for n in solid.shape)
+    taken = np.zeros(shape, bool)
+    for corner in CORNERS:
+        taken[tuple(slice(c, c + n) for c, n in zip(corner, solid.shape))] |= solid
+    count = np.count_nonzero(taken)
+    if count > MOST_NODES:
+        fail(f"{count:,} nodes are more than a mesh can have ({MOST_NODES:,}): --crop, --coarsen or --elements sphere")
+    number = np.cumsum(taken, dtype=np.int32)  # the n-th node that is taken, from 1
+    first = np.ravel_multi_index(np.nonzero(solid), shape)
+    elements = np.empty((len(first), 8), np.int32)
+    for i, corner in enumerate(CORNERS):
+        elements[:, i] = number[first + np.ravel_multi_index(corner, shape)] - 1
+    places = np.nonzero(taken)
+    return coordinates(places, cell, origin, 0), (block, "HEX8", elements, None), places, solid.shape

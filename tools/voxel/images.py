@@ -1,0 +1,226 @@
+"""Files of voxels -> an array (z, y, x) and the spacing (x, y, z). Formats are left to libraries: tifffile and VTK."""
+import glob
+import os
+import re
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+
+import points
+from strut_tools import captured, fail, nearest
+
+VTK_READERS = {".nrrd": ("vtkIOImage", "vtkNrrdReader"), ".nhdr": ("vtkIOImage", "vtkNrrdReader"),
+               ".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImage", "vtkMetaImageReader"),
+               ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
+TIFF = (".tif", ".tiff")
+TEXT = (".pts", ".txt", ".xyz", ".dat")
+RAW_TYPES = {"uint8": "<u1", "uint16": "<u2", "float32": "<f4"}
+
+
+@dataclass
+class Image:
+    values: np.ndarray      # (z, y, x); bool where the file says what is solid
+    spacing: tuple | None   # (x, y, z), as the file has it
+    kind: str
+
+
+def read(path, raw_shape=None, raw_type=None, array=None):
+    """raw_shape and raw_type: of a file of bare numbers, x runs fastest."""
+    if re.search(r"[*?\[]", path) and not os.path.exists(path):
+        return slices(sorted_naturally(glob.glob(path)), path)
+    if not os.path.exists(path):
+        fail(f"{path} does not exist")
+    ending = ending_of(path)
+    if os.path.isdir(path):
+        names = [os.path.join(path, name) for name in os.listdir(path) if ending_of(name) in TIFF]
+        return slices(sorted_naturally(names), path)
+    if os.path.getsize(path) == 0:
+        fail(f"{path} is empty")
+    if raw_shape:
+        return raw(path, raw_shape, raw_type)
+    if ending in TIFF:
+        return Image(tiff(path), None, "TIFF")
+    if ending in VTK_READERS:
+        return checked(path, *by_vtk(path, *VTK_READERS[ending], array), ending)
+    if ending in TEXT:
+        solid, spacing = points.lattice(path)
+        return Image(solid, spacing, "list of points")
+    known = [*VTK_READERS, *TIFF, *TEXT]
+    fail(f"{path}: '{ending}' is not a format that is known{nearest(ending, known)}; there are {' '.join(known)} "
+         "(lists of points also .gz), and any file with --shape and --type")
+
+
+def ending_of(path):
+    """.pts of a.pts.gz"""
+    stem, ending = os.path.splitext(path.lower())
+    return os.path.splitext(stem)[1] if ending == ".gz" else ending
+
+
+def sorted_naturally(names):
+    """slice2 before slice10"""
+    return sorted(names, key=lambda name: [int(p) if p.isdigit() else p for p in re.split(r"(\d+)", name)])
+
+
+def raw(path, shape, kind):
+    size = int(np.prod(shape)) * np.dtype(RAW_TYPES[kind]).itemsize
+    found = os.path.getsize(path)
+    if found != size:
+        fail(f"{path} has {found} bytes, expected {size}: {' x '.join(map(str, shape))} numbers of type {kind}")
+    return Image(np.fromfile(path, RAW_TYPES[kind]).reshape(shape[::-1]), None, f"raw {kind}")
+
+
+# TIFF: a page is a layer in z, a row of it runs along x, rows follow each other in y
+
+
+def tiff(path):
+    import tifffile
+
+    wrong = None
+    with captured() as said:
+        try:
+            with tifffile.TiffFile(path) as file:
+                colour = any(page.samplesperpixel > 1 for page in file.pages)
+                values = None if colour or len(file.series) != 1 else file.asarray()
+                series = len(file.series)
+        except Exception as error:  # damaged files raise whatever the parser stumbles over
+            wrong = error
+    if said.error():  # what is left of a file that is cut off may still be pages of one size
+        fail(f"{path} is damaged: {said.error()}")
+    if wrong is not None and "imagecodecs" in str(wrong):  # packed in a way that needs a library which Debian lacks
+        return tiff_by_vtk(path)
+    if wrong is not None or (values is None and series == 0):
+        fail(f"{path} is not a TIFF image, or is damaged: {one_line(wrong or said.text) or 'it has no pages'}")
+    if colour:
+        fail(f"{path} has several numbers a voxel (colours?), expected one")
+    if values is None or (values.ndim not in (2, 3)):
+        fail(f"{path} holds images of different sizes or of more than three dimensions, expected pages of one size")
+    return values.reshape((-1, *values.shape[-2:]))
+
+
+def one_line(what):
+    return (str(what).strip().splitlines() or [type(what).__name__])[0]
+
+
+def tiff_by_vtk(path):
+    values, _ = by_vtk(path, "vtkIOImage", "vtkTIFFReader", None)
+    if values.ndim != 3:
+        fail(f"{path} has several numbers a voxel (colours?), expected one")
+    return values  # rows in the order of tifffile's
+
+
+def slices(names, where):
+    if not names:
+        fail(f"{where}: no TIFF images there (.tif, .tiff)")
+    if any(os.path.isdir(name) or os.path.getsize(name) == 0 for name in names):
+        fail(f"{next(n for n in names if os.path.isdir(n) or os.path.getsize(n) == 0)} is empty or a folder")
+    if len(names) == 1:
+        return Image(tiff(names[0]), None, "TIFF")
+    values = None
+    for z, name in enumerate(names):
+        if ending_of(name) not in TIFF:
+            fail(f"{name}: a list of slices holds TIFF images only (.tif, .tiff)")
+        page = tiff(name)
+        values = np.empty((len(names), *page.shape[1:]), page.dtype) if values is None else values
+        if page.shape != (1, *values.shape[1:]) or page.dtype != values.dtype:
+            fail(f"{name} has {shape_text(page)} voxels of {page.dtype}, expected {values.shape[2]} x "
+                 f"{values.shape[1]} x 1 of {values.dtype} as in {names[0]}")
+        values[z] = page[0]
+    return Image(values, None, f"{len(names)} TIFF slices")
+
+
+def shape_text(values):
+    return " x ".join(map(str, values.shape[::-1]))
+
+
+# NRRD, MetaImage and VTK's own
+
+
+def check_whole(path, ending):
+    """What VTK's readers do not see: the XML one takes what is there of an image that is cut off, and the one of NRRD
+    waits for ever for the rest of a gzip stream."""
+    with open(path, "rb") as file:
+        if ending == ".vti":
+            file.seek(max(0, os.path.getsize(path) - 64))
+            if b"</VTKFile>" not in file.read():
+                fail(f"{path} is damaged: it does not end with </VTKFile>")
+        if ending not in (".nrrd", ".nhdr"):
+            return
+        header = []
+        while (line := file.readline(10000)).strip() and len(header) < 1000:
+            header.append(line.decode(errors="replace").strip())
+        if not line and ending == ".nrrd":
+            fail(f"{path} is damaged: its header does not end with an empty line")
+        fields = dict(line.split(": ", 1) for line in header if ": " in line)
+        if fields.get("encoding") not in ("gzip", "gz"):
+            return
+        data = fields.get("data file", fields.get("datafile"))
+        if not data:
+            return check_gzip(path, file)
+    data = os.path.join(os.path.dirname(path), data)
+    if not os.path.isfile(data):
+        fail(f"{path}: its data file {data} does not exist")
+    with open(data, "rb") as file:
+        check_gzip(data, file)
+
+
+def check_gzip(path, file):
+    unpacker = zlib.decompressobj(31)
+    try:
+        while not unpacker.eof:
+            part = file.read(2**20)
+            if not part:
+                fail(f"{path} is damaged: its gzip stream is cut off")
+            unpacker.decompress(part)
+    except zlib.error as error:
+        fail(f"{path} is damaged: {error}")
+
+
+def by_vtk(path, module, name, array):
+    """The array and the image it came from."""
+    import importlib
+
+    check_whole(path, ending_of(path))
+    reader = getattr(importlib.import_module("vtkmodules." + module), name)()
+    with captured() as said:
+        reader.SetFileName(path)
+        readable = not hasattr(reader, "CanReadFile") or reader.CanReadFile(path)
+        if readable:
+            reader.Update()
+        image = reader.GetOutput()
+    if not readable or said.error() or image is None or 0 in image.GetDimensions():
+        fail(f"{path} cannot be read as {os.path.splitext(path)[1]} image, or is damaged"
+             f"{': ' + said.error() if said.error() else ''}")
+    return array_of(path, image, array), image
+
+
+def array_of(path, image, name):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    in_points, in_cells = image.GetPointData(), image.GetCellData()
+    data = in_points if in_points.GetNumberOfArrays() else in_cells
+    names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+    if not names:
+        fail(f"{path} has no numbers")
+    if name is not None and name not in names:
+        fail(f"{path} has no array '{name}'{nearest(name, names)}; it has {', '.join(map(str, names))}")
+    if name is None and len(names) > 1 and data.GetScalars() is None:
+        fail(f"{path} has several arrays: name one with --array; there are {', '.join(map(str, names))}")
+    found = data.GetArray(name) if name else data.GetScalars() or data.GetArray(0)
+    if found is None:
+        fail(f"{path}: the array is not one of numbers")
+    if found.GetNumberOfComponents() != 1:
+        fail(f"{path} has {found.GetNumberOfComponents()} numbers a voxel (colours?), expected one")
+    # Voxels are the points of VTK's image, or its cells: one less along each axis.
+    shape = [max(1, n - (data is in_cells)) for n in image.GetDimensions()]
+    if found.GetNumberOfTuples() != np.prod(shape):
+        fail(f"{path} has {found.GetNumberOfTuples()} numbers, expected {' x '.join(map(str, shape))}")
+    return vtk_to_numpy(found).reshape(shape[::-1])
+
+
+def checked(path, values, image, ending):
+    spacing = tuple(abs(s) for s in image.GetSpacing())
+    if not all(0 < s < np.inf for s in spacing):
+        fail(f"{path}: spacing {spacing}, expected three numbers > 0")
+    # VTK says 1 where a file says nothing; a voxel of 1 m is none.
+    return Image(values, None if spacing == (1, 1, 1) else spacing, ending[1:].upper())
