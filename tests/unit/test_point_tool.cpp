@@ -126,6 +126,14 @@ TEST_F(PointToolTest, CompressionMirrorsTension) {
   EXPECT_NEAR(push, -pull, 1e-12 * pull);
 }
 
+TEST_F(PointToolTest, AnOrdinaryMaterialShowsHookesLaw) {
+  const std::string words = "--material steel --uniaxial-strain 1e3 0.01 --steps 3",
+                    name = "\"Elastic Correspondence\"";
+  const std::vector<Row> law = follow(words);
+  write("deck.xml", std::string(deck).replace(std::string(deck).find(name), name.size(), "\"Elastic\""));
+  EXPECT_EQ(follow(words), law);
+}
+
 TEST_F(PointToolTest, ElasticMaterialHasNoStateColumns) {
   const std::vector<Row> rows = follow("--material steel --uniaxial-stress 1 1e-3 --steps 1");
   EXPECT_EQ(rows.back().size(), 14u);
