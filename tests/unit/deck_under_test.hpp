@@ -65,7 +65,7 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
   </ParameterList>
   <ParameterList name="Contact">
     <Parameter name="Search Radius" type="double" value="0.01"/>
-    <Parameter name="Search Frequency" type="int" value="100"/>
+    <Parameter name="Search Frequency" type="int" value="50"/>
     <ParameterList name="Models">
       <ParameterList name="touch">
         <Parameter name="Contact Model" type="string" value="Short Range Force"/>
