@@ -54,12 +54,14 @@ class Contact {
     double skin = 0;       // m: how much nearer than a search finds its pairs two points may come before the next one
     double allowance = 0;  // relative motion after which the next search is due, m
     double travelled = 0;  // a bound of the relative motion since the last search, m
-    bool due = true;
+    bool due = true;       // the bound has come near the allowance
+    std::vector<Vector> places = {};  // at the last search, of the first party and then the second, m
     Pairs pairs = {};
     Tally tally = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
   };
   void search(const Crowd& crowd, Meeting& meeting);
+  static bool search_is_needed(const Crowd& crowd, Meeting& meeting);
   void add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density);
 
   std::vector<Meeting> meetings_;

@@ -92,16 +92,15 @@ Pool pool_of(const Crowd& crowd, const Parties& parties, double reach) {
   return pool;
 }
 
-// Whether two members of the pool may touch before they have come closer by the skin.
+// Whether two members of the pool, `distance2` from each other (squared), may touch before they have come closer by the
+// skin.
 struct Criterion {
   const std::vector<BlockBonds>& bonds;
   double radius, skin;
   const Parties& parties;
 
-  bool operator()(const Candidate& a, const Candidate& b) const {
-    const double limit = radius + skin;
-    const double distance2 = (place(a) - place(b)).squaredNorm();
-    if (distance2 > limit * limit || (!parties.self && a.block == b.block)) return false;
+  bool operator()(const Candidate& a, const Candidate& b, double distance2) const {
+    if (!parties.self && a.block == b.block) return false;
     if (!parties.one_body) return true;
     const Vector xi = reference(b) - reference(a);
     const double reach = touching_distance(radius, xi.norm()) + skin;
@@ -120,10 +119,11 @@ Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
   Lists lists;
   for (std::size_t k = 0; k < pool.owned; ++k) {
     const std::size_t begin = lists.partners.size();
-    grid.visit_near(pool.places[k], [&](int other) {
-      if (other != static_cast<int>(k) && may_touch(pool.members[k], pool.members[other])) {
-        lists.partners.push_back(other);
-      }
+    const Vector here = pool.places[k];
+    grid.visit_near(here, [&](int other) {
+      const double distance2 = (pool.places[other] - here).squaredNorm();
+      if (distance2 > reach * reach || other == static_cast<int>(k)) return;
+      if (may_touch(pool.members[k], pool.members[other], distance2)) lists.partners.push_back(other);
     });
     std::sort(lists.partners.begin() + static_cast<std::ptrdiff_t>(begin), lists.partners.end(),
               [&](int a, int b) { return pool.members[a].id < pool.members[b].id; });

@@ -113,6 +113,7 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
   const double point_steps = static_cast<double>(scene.points) * solver.steps();
   const double core_seconds = seconds * scene.body.domain.communicator.size();
   text << formatted("%-26s %10.3f\n", "whole run", seconds);
+  if (solver.contact().any()) text << solver.contact().searches() << " searches for contact\n";
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
                     point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
   text << formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -94,26 +95,47 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
   return bonds;
 }
 
-// A horizon that is smaller than the spacing, or a hundred times as large, is a slip of units.
-void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
-                    deck::Problems& problems) {
+// The mean spacing of each block's points over all ranks, m.
+std::vector<double> spacings(const PointCloud& cloud, const Communicator& communicator) {
   std::vector<double> sums(2 * cloud.block_names.size(), 0);  // volume and number of points of each block
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     sums[2 * cloud.blocks[i]] += cloud.volumes[i];
     sums[2 * cloud.blocks[i] + 1] += 1;
   }
   communicator.sum(sums);
+  std::vector<double> result;
+  for (std::size_t b = 0; b < sums.size(); b += 2) result.push_back(std::cbrt(sums[b] / std::max(1.0, sums[b + 1])));
+  return result;
+}
+
+// A horizon that is smaller than the spacing, or a hundred times as large, is a slip of units.
+void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                    deck::Problems& problems) {
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
     const deck::Block* section = section_of(deck, cloud.block_names[b]);
     if (!section) continue;  // check_blocks has said so
-    const double spacing = std::cbrt(sums[2 * b] / std::max(1.0, sums[2 * b + 1]));
-    if (section->horizon > spacing && section->horizon < 20 * spacing) continue;
+    if (section->horizon > spacings[b] && section->horizon < 20 * spacings[b]) continue;
     std::ostringstream text;
     text << section->horizon << " m does not fit the points of block " << cloud.block_names[b]
-         << ", whose mean spacing is " << spacing
+         << ", whose mean spacing is " << spacings[b]
          << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
     problems.add("Blocks > " + section->name + " > Horizon", text.str());
   }
+}
+
+// What a step of a point of each block takes, in ns, roughly (tests/bench): its bonds, as many as in bulk, and its
+// update.
+std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings) {
+  constexpr double bond = 5, update = 60, state = 200;
+  std::vector<double> costs;
+  for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
+    const deck::Block& section = *section_of(deck, cloud.block_names[b]);
+    const auto has_state = []<class L>(const L&) { return materials::state_size<L> > 0; };
+    const double neighbours = 4.0 / 3 * std::numbers::pi * std::pow(section.horizon / spacings[b], 3);
+    const bool flows = std::visit(has_state, deck.materials[section.material].law);
+    costs.push_back(neighbours * bond + update + (flows ? state : 0));
+  }
+  return costs;
 }
 
 // Every interaction names blocks of the mesh.
@@ -306,14 +328,15 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   PointCloud cloud = read_mesh(deck.discretization, communicator);
   deck::Problems problems;
   check_blocks(deck, cloud, problems);
-  check_horizons(deck, cloud, communicator, problems);
+  const std::vector<double> spacing = spacings(cloud, communicator);
+  check_horizons(deck, cloud, spacing, problems);
   add_node_sets(deck.node_sets, cloud, problems);
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   {
     const Timed timed(phase("Partition"));
-    cloud = partitioned(cloud, communicator);
+    cloud = partitioned(cloud, communicator, step_costs(deck, cloud, spacing));
   }
   std::int64_t dropped = 0;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);

@@ -42,6 +42,7 @@ void append(PointCloud& cloud, const Parcel& parcel) {
 // What Zoltan's callbacks read and fill.
 struct Migration {
   const PointCloud& from;
+  const std::vector<double>& costs;  // of a point of each block
   PointCloud arrived;
 };
 
@@ -52,11 +53,13 @@ int count(void* data, int* error) {
   return static_cast<int>(cloud_of(data).size());
 }
 
-void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int, float*, int* error) {
+void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int weights, float* weight, int* error) {
   const PointCloud& cloud = cloud_of(data);
+  const std::vector<double>& costs = static_cast<Migration*>(data)->costs;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     global[i] = static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]);
     local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+    if (weights == 1) weight[i] = static_cast<float>(costs[cloud.blocks[i]]);
   }
   *error = ZOLTAN_OK;
 }
@@ -101,6 +104,7 @@ Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
   zoltan.Set_Param("DEBUG_LEVEL", "0");
   zoltan.Set_Param("LB_METHOD", "RCB");
   zoltan.Set_Param("RETURN_LISTS", "EXPORT");
+  zoltan.Set_Param("OBJ_WEIGHT_DIM", migration.costs.empty() ? "0" : "1");
   zoltan.Set_Num_Obj_Fn(count, &migration);
   zoltan.Set_Obj_List_Fn(list, &migration);
   zoltan.Set_Num_Geom_Fn(dimensions, &migration);
@@ -119,8 +123,8 @@ PointCloud emptied(const PointCloud& cloud) {
   return result;
 }
 
-PointCloud bisected(const PointCloud& cloud, const Communicator& communicator) {
-  Migration migration{cloud, emptied(cloud)};
+PointCloud bisected(const PointCloud& cloud, const Communicator& communicator, const std::vector<double>& costs) {
+  Migration migration{cloud, costs, emptied(cloud)};
   Zoltan zoltan = started_zoltan(communicator, migration);
   int changed, gid_size, lid_size, imports, exports;
   ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
@@ -182,8 +186,8 @@ std::vector<int> along_curve(const PointCloud& cloud) {
 
 }  // namespace
 
-PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator) {
-  const PointCloud mine = communicator.size() == 1 ? cloud : bisected(cloud, communicator);
+PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const std::vector<double>& costs) {
+  const PointCloud mine = communicator.size() == 1 ? cloud : bisected(cloud, communicator, costs);
   return reordered(mine, along_curve(mine));
 }
 
