@@ -283,9 +283,9 @@ void throw_apart(Body& body, double speed) {
   }
 }
 
-// Noise, the worst there is, over some thousand steps at nine tenths of the limit. Central differences at a constant step
-// conserve the energy of a linear body to round-off; strains of 1e-6 make these linear to 1e-6, and of the energy of the
-// stabilisation, a difference of sums 1e12 times as large, some 1e-5 are round-off.
+// Noise, the worst there is, over some thousand steps at nine tenths of the limit. Central differences at a constant
+// step conserve the energy of a linear body to round-off; strains of 1e-6 make these linear to 1e-6, and of the energy
+// of the stabilisation, a difference of sums 1e12 times as large, some 1e-5 are round-off.
 TEST_P(Bodies, ConserveEnergyOverThousandsOfSteps) {
   Body b = body();
   const double limit = CentralDifference(b, {}, {}, {0, 1}, 0).stable_step();
