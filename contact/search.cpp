@@ -120,8 +120,8 @@ Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
   for (std::size_t k = 0; k < pool.owned; ++k) {
     const std::size_t begin = lists.partners.size();
     const Vector here = pool.places[k];
-    grid.visit_near(here, [&](int other) {
-      const double distance2 = (pool.places[other] - here).squaredNorm();
+    grid.visit_near(here, [&](int other, const Vector& there) {
+      const double distance2 = (there - here).squaredNorm();
       if (distance2 > reach * reach || other == static_cast<int>(k)) return;
       if (may_touch(pool.members[k], pool.members[other], distance2)) lists.partners.push_back(other);
     });

@@ -12,7 +12,7 @@ class CellGrid {
   // `reach`: the largest distance (m) that will be asked for.
   CellGrid(const std::vector<Vector>& points, double reach);
 
-  // Calls visit(j) for every point in the cells within `reach` of x: a superset of the points that near.
+  // Calls visit(j, place of j) for every point in the cells within `reach` of x: a superset of the points that near.
   template <class Visit>
   void visit_near(const Vector& x, Visit&& visit) const;
 
@@ -22,19 +22,21 @@ class CellGrid {
 
   Vector origin_ = Vector::Zero();
   double width_ = 1;
+  int cells_within_reach_ = 1;
   Eigen::Array3i shape_ = Eigen::Array3i::Ones();
   std::vector<int> start_, members_;
+  std::vector<Vector> places_;  // of members_: read in a row
 };
 
 template <class Visit>
 void CellGrid::visit_near(const Vector& x, Visit&& visit) const {
   const Eigen::Array3i here = cell_of(x);
-  const Eigen::Array3i low = (here - 1).max(0), high = (here + 1).min(shape_ - 1);
+  const Eigen::Array3i low = (here - cells_within_reach_).max(0), high = (here + cells_within_reach_).min(shape_ - 1);
   for (int k = low[2]; k <= high[2]; ++k) {
     for (int j = low[1]; j <= high[1]; ++j) {
       // A row of cells along x is one run of members.
       const int end = start_[index(high[0], j, k) + 1];
-      for (int m = start_[index(low[0], j, k)]; m < end; ++m) visit(members_[m]);
+      for (int m = start_[index(low[0], j, k)]; m < end; ++m) visit(members_[m], places_[m]);
     }
   }
 }

@@ -48,59 +48,63 @@ Pool pool_of(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, cons
   return pool;
 }
 
-Families families_of(const Pool& pool, int owned, double reach) {
-  const CellGrid grid(pool.positions, reach);
-  Families families;
-  families.start.reserve(owned + 1);
-  for (int i = 0; i < owned; ++i) {
-    const std::size_t begin = families.neighbours.size();
-    grid.visit_near(pool.positions[i], [&](int j) {
-      if (j != i && bonded(pool.bonds[i], pool.bonds[j], pool.positions[j] - pool.positions[i])) {
-        families.neighbours.push_back(j);
-      }
-    });
-    std::sort(families.neighbours.begin() + begin, families.neighbours.end(),
-              [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
-    families.start.push_back(families.neighbours.size());
-  }
-  return families;
-}
-
-// The candidates that are in some family, ordered by id (ranks that own them send runs of ids).
-std::vector<int> used_ghosts(const Families& families, const Pool& pool, int owned) {
-  std::vector<char> used(pool.ids.size(), 0);
-  for (const int j : families.neighbours) used[j] = 1;
-  std::vector<int> ghosts;
-  for (std::size_t j = owned; j < pool.ids.size(); ++j) {
-    if (used[j]) ghosts.push_back(static_cast<int>(j));
-  }
-  std::sort(ghosts.begin(), ghosts.end(), [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
-  return ghosts;
-}
-
-// Owned points without ghosts in their family first; both parts keep their order along the curve.
-std::vector<int> interior_first(const Families& families, int owned, int& interior) {
-  std::vector<int> order(owned);
-  std::iota(order.begin(), order.end(), 0);
-  const auto boundary = std::stable_partition(order.begin(), order.end(), [&](int i) {
-    return std::all_of(families.neighbours.begin() + families.start[i],
-                       families.neighbours.begin() + families.start[i + 1], [&](int j) { return j < owned; });
+// Calls visit(j) for the family of pool member i.
+template <class Visit>
+void for_each_neighbour(const CellGrid& grid, const Pool& pool, int i, double reach, Visit&& visit) {
+  const Vector here = pool.positions[i];
+  grid.visit_near(here, [&](int j, const Vector& there) {
+    const Vector xi = there - here;
+    if (xi.squaredNorm() <= reach * reach && j != i && bonded(pool.bonds[i], pool.bonds[j], xi)) visit(j);
   });
-  interior = static_cast<int>(boundary - order.begin());
+}
+
+// The order in which points and ghosts stand in memory, as places in the pool: owned points without ghosts in their
+// family first, then the others, both along the curve; then the ghosts that are in some family, ordered by id (ranks
+// that own them send runs of ids).
+struct Order {
+  std::vector<int> points, ghosts;
+  std::vector<std::size_t> family_sizes;  // of points
+  int interior = 0;
+};
+
+Order order_of(const CellGrid& grid, const Pool& pool, int owned, double reach) {
+  Order order;
+  std::vector<std::size_t> sizes(owned, 0);
+  std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
+  for (int i = 0; i < owned; ++i) {
+    for_each_neighbour(grid, pool, i, reach, [&](int j) {
+      ++sizes[i];
+      if (j >= owned) needs_ghost[i] = used[j] = 1;
+    });
+  }
+  order.points.resize(owned);
+  std::iota(order.points.begin(), order.points.end(), 0);
+  const auto boundary =
+      std::stable_partition(order.points.begin(), order.points.end(), [&](int i) { return !needs_ghost[i]; });
+  order.interior = static_cast<int>(boundary - order.points.begin());
+  for (const int i : order.points) order.family_sizes.push_back(sizes[i]);
+  for (int j = owned; j < static_cast<int>(pool.ids.size()); ++j) {
+    if (used[j]) order.ghosts.push_back(j);
+  }
+  std::sort(order.ghosts.begin(), order.ghosts.end(), [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
   return order;
 }
 
-// Families of the points order[0], order[1], …, with neighbours renumbered by local[].
-Families renumbered(const Families& old, const std::vector<int>& order, const std::vector<int>& local) {
+// Families of the points in their order, neighbours by local[]. Filled in a second look at the grid: growing or copying
+// the lists, by far the largest of a run, would take twice their memory.
+Families families_of(const CellGrid& grid, const Pool& pool, const Order& order, const std::vector<int>& local,
+                     double reach) {
   Families families;
-  families.start.reserve(old.start.size());
-  families.neighbours.reserve(old.bonds());
-  for (const int i : order) {
-    for (std::size_t b = old.start[i]; b < old.start[i + 1]; ++b) {
-      families.neighbours.push_back(local[old.neighbours[b]]);
-    }
-    families.start.push_back(families.neighbours.size());
+  families.start.reserve(order.points.size() + 1);
+  for (const std::size_t size : order.family_sizes) families.start.push_back(families.start.back() + size);
+  families.neighbours.reserve(families.start.back());
+  for (const int i : order.points) {
+    const auto begin = static_cast<std::ptrdiff_t>(families.neighbours.size());
+    for_each_neighbour(grid, pool, i, reach, [&](int j) { families.neighbours.push_back(j); });
+    std::sort(families.neighbours.begin() + begin, families.neighbours.end(),
+              [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
   }
+  for (int& j : families.neighbours) j = local[j];
   return families;
 }
 
@@ -117,22 +121,17 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   for (const BlockBonds& block : bonds) reach = std::max(reach, block.horizon * (1 + 1e-9));
   const int owned = static_cast<int>(cloud.size());
   const Pool pool = pool_of(cloud, bonds, candidates(cloud, reach, communicator));
-  const Families found = families_of(pool, owned, reach);
-
-  int interior = 0;
-  std::vector<int> order = interior_first(found, owned, interior);
-  PointCloud mine = reordered(cloud, order);
-  const std::vector<int> points = order;
-  const std::vector<int> ghosts = used_ghosts(found, pool, owned);
-  order.insert(order.end(), ghosts.begin(), ghosts.end());
-
+  const CellGrid grid(pool.positions, reach);
+  const Order order = order_of(grid, pool, owned, reach);
+  PointCloud mine = reordered(cloud, order.points);
   std::vector<int> local(pool.ids.size(), -1);
   std::vector<Vector> positions;
   std::vector<double> volumes, horizons;
   std::vector<std::int64_t> ghost_ids;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const int p = order[k];
-    local[p] = static_cast<int>(k);
+  std::vector<int> members = order.points;
+  members.insert(members.end(), order.ghosts.begin(), order.ghosts.end());
+  for (const int p : members) {
+    local[p] = static_cast<int>(positions.size());
     positions.push_back(pool.positions[p]);
     volumes.push_back(pool.volumes[p]);
     horizons.push_back(pool.bonds[p].horizon);
@@ -141,14 +140,14 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   Halo halo(communicator, mine.ids, ghost_ids);
   return {communicator,
           std::move(mine),
-          interior,
+          order.interior,
           owned,
-          static_cast<int>(ghosts.size()),
+          static_cast<int>(order.ghosts.size()),
           std::move(positions),
           std::move(volumes),
           std::move(horizons),
           bonds,
-          renumbered(found, points, local),
+          families_of(grid, pool, order, local, reach),
           std::move(halo)};
 }
 
