@@ -1,7 +1,10 @@
 #include "base/timing.hpp"
 
 #include <Teuchos_Time.hpp>
+#include <algorithm>
 #include <deque>
+#include <span>
+#include <sstream>
 
 #include "base/communicator.hpp"
 
@@ -12,6 +15,21 @@ namespace {
 std::deque<Teuchos::Time>& phases() {  // a deque: references stay valid
   static std::deque<Teuchos::Time> all;
   return all;
+}
+
+// Collective. The phases of all ranks, those of rank 0 first: a rank may never have come to one of another.
+std::vector<std::string> names_on_all_ranks(const Communicator& communicator) {
+  std::string mine;
+  for (const Teuchos::Time& timer : phases()) mine += timer.name() + "\n";
+  const std::vector<char> gathered = communicator.gather(std::span<const char>(mine));
+  std::string all(gathered.begin(), gathered.end());
+  communicator.broadcast(all);
+  std::vector<std::string> names;
+  std::istringstream lines(all);
+  for (std::string name; std::getline(lines, name);) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -29,9 +47,9 @@ Timed::~Timed() { phase_.stop(); }
 
 std::vector<PhaseTime> phase_times(const Communicator& communicator) {
   std::vector<PhaseTime> times;
-  for (const Teuchos::Time& timer : phases()) {
-    const double seconds = timer.totalElapsedTime();
-    times.push_back({timer.name(), communicator.sum(seconds) / communicator.size(), communicator.max(seconds)});
+  for (const std::string& name : names_on_all_ranks(communicator)) {
+    const double seconds = phase(name).totalElapsedTime();
+    times.push_back({name, communicator.sum(seconds) / communicator.size(), communicator.max(seconds)});
   }
   return times;
 }

@@ -32,7 +32,7 @@ struct PhaseTime {
   double mean, longest;  // s over ranks
 };
 
-// Collective. All phases in the order of their first use, forgetting none.
+// Collective. All phases of all ranks in the order of their first use; on a rank that never came to one it took no time.
 std::vector<PhaseTime> phase_times(const Communicator& communicator);
 
 }  // namespace strut

@@ -1,6 +1,6 @@
 #!/bin/sh
-# A Taylor impact, and a bar whose upper half is ordinary elastic, on 1, 2, 3 and 4 ranks: results and histories must be
-# the same.
+# A Taylor impact, a bar whose upper half is ordinary elastic, and the same in two bodies that meet with friction, on 1, 2,
+# 3 and 4 ranks: results and histories must be the same.
 #   invariance.sh strut strut-mesh strut-compare mpirun [its options]
 set -u
 strut=$1 mesh=$2 compare=$3
@@ -24,29 +24,51 @@ awk 'BEGIN { h = 0.004; srand(1)
   for (k = 0; k < 20; ++k) for (j = 0; j < 6; ++j) for (i = 0; i < 6; ++i)
     printf "%.17g %.17g %.17g %d %.17g\n", h*(i - 2.5 + 0.1*rand()), h*(j - 2.5 + 0.1*rand()), h*(k + 0.5 + 0.1*rand()),
            k < 10 ? 1 : 2, h*h*h }' > mixed.txt
+awk '{ if ($4 == 2) $3 += 0.002; print }' CONVFMT=%.17g mixed.txt > apart.txt
 
-# block NAME BLOCK MATERIAL: a section of Blocks.
+# block NAME BLOCK MATERIAL [true]: a section of Blocks; true: a body of its own.
 block() {
   cat <<END
     <ParameterList name="$1">
       <Parameter name="Block Names" type="string" value="$2"/>
       <Parameter name="Material" type="string" value="$3"/>
       <Parameter name="Horizon" type="double" value="0.0085"/>
+      <Parameter name="Separate Body" type="bool" value="${4:-false}"/>
     </ParameterList>
 END
 }
 
+contact_section='<ParameterList name="Contact">
+    <ParameterList name="Models">
+      <ParameterList name="touch">
+        <Parameter name="Contact Model" type="string" value="Short Range Force"/>
+        <Parameter name="Contact Radius" type="double" value="0.0045"/>
+        <Parameter name="Spring Constant" type="double" value="1.0e12"/>
+        <Parameter name="Friction Coefficient" type="double" value="0.3"/>
+      </ParameterList>
+    </ParameterList>
+    <ParameterList name="Interactions">
+      <ParameterList name="General Contact">
+        <Parameter name="Contact Model" type="string" value="touch"/>
+      </ParameterList>
+    </ParameterList>
+  </ParameterList>'
+
 # problem NAME: sets what deck() reads.
 problem() {
+  contact=
   case $1 in
     bar) mesh_type=Exodus mesh_file=bar.g sets= foot=foot blocks=$(block bar all copper) ;;
-    mixed)
+    mixed | meeting)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
       </ParameterList>'
       blocks=$(block lower block_1 copper; block upper block_2 steel) ;;
   esac
+  [ $1 = meeting ] || return 0
+  mesh_file=apart.txt contact=$contact_section
+  blocks=$(block lower block_1 copper true; block upper block_2 steel true)
 }
 
 # deck NAME: a deck that writes NAME.e and NAME.csv. The step follows the deformation, so that its estimate is under
@@ -87,6 +109,7 @@ deck() {
   <ParameterList name="Blocks">
 $blocks
   </ParameterList>
+  $contact
   <ParameterList name="Boundary Conditions">
     <ParameterList name="flight">
       <Parameter name="Type" type="string" value="Initial Velocity"/>
@@ -132,7 +155,7 @@ END
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
-for name in bar mixed; do
+for name in bar mixed meeting; do
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml

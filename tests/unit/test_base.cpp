@@ -6,6 +6,7 @@
 #include "base/errors.hpp"
 #include "base/function.hpp"
 #include "base/tensors.hpp"
+#include "base/timing.hpp"
 
 namespace strut {
 namespace {
@@ -122,6 +123,18 @@ TEST(Tensors, SymmetricOrderAndProducts) {
   Symmetric uniaxial = Symmetric::Zero();
   uniaxial[1] = -3;
   EXPECT_DOUBLE_EQ(von_mises(uniaxial), 3);
+}
+
+// A rank may pass through phases that others never see (a contact that it alone has): the table must not wait for them.
+TEST(Timing, PhasesOfOneRankAreInTheTableOfAll) {
+  const Communicator world;
+  phase("of all");
+  phase("of rank " + std::to_string(world.rank()));
+  std::vector<std::string> names;
+  for (const PhaseTime& time : phase_times(world)) names.push_back(time.name);
+  ASSERT_EQ(names.size(), 1u + world.size());
+  EXPECT_EQ(names[0], "of all");
+  for (int r = 0; r < world.size(); ++r) EXPECT_EQ(names[1 + r], "of rank " + std::to_string(r));
 }
 
 }  // namespace
