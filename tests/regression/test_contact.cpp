@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bodies.hpp"
+#include "report.hpp"
 
 namespace strut::regression {
 namespace {
@@ -206,6 +207,15 @@ TEST(Contact, CrossingPathsWithoutContactAreWarnedOf) {
   EXPECT_EQ(Simulation(folder, parts).scene.warnings, "");
   parts.conditions = along("press", "Prescribed Displacement", "block_2", "z", "-20*t");
   EXPECT_NE(Simulation(folder, parts).scene.warnings, "");
+}
+
+TEST(Contact, OverlapAtTheStartIsWarnedOf) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 4.5 * h}, 4, 4, 4, h));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1.4e-3", "1e12");  // points start 1.5e-3 m apart
+  EXPECT_EQ(overlap_warning(Simulation(folder, parts).solver.contact(), folder.world), "");
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1.6e-3", "1e12");
+  EXPECT_NE(overlap_warning(Simulation(folder, parts).solver.contact(), folder.world), "");
 }
 
 // Bodies of their own are not bonded: cubes face to face share no bond, and fall apart.

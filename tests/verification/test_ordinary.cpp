@@ -7,8 +7,8 @@
 
 #include "base/errors.hpp"
 #include "base/rotation.hpp"
-#include "lattice.hpp"
 #include "mechanics/bonds.hpp"
+#include "probes.hpp"
 #include "solvers/central_difference.hpp"
 
 namespace strut {
@@ -277,12 +277,6 @@ TEST_P(Bodies, ConserveBothMomenta) {
 
 // ---- In time -------------------------------------------------------------------------------------------------------
 
-void throw_apart(Body& body, double speed) {
-  for (int i = 0; i < body.owned(); ++i) {
-    body.velocity[i] = speed * Vector(noise(body, i, 0), noise(body, i, 1), noise(body, i, 2));
-  }
-}
-
 // Noise, the worst there is, over some thousand steps at nine tenths of the limit. Central differences at a constant
 // step conserve the energy of a linear body to round-off; strains of 1e-6 make these linear to 1e-6, and of the energy
 // of the stabilisation, a difference of sums 1e12 times as large, some 1e-5 are round-off.
@@ -299,21 +293,6 @@ TEST_P(Bodies, ConserveEnergyOverThousandsOfSteps) {
     solver.move(look);
   }
   EXPECT_LT(worst, GetParam() == Kind::mixed ? 2e-5 : 3e-6);
-}
-
-bool stays_bounded(Body body, double factor) {
-  const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
-  throw_apart(body, 1e-3);
-  CentralDifference solver(body, {}, {}, {factor * limit, 0}, 0);
-  try {
-    for (int n = 0; n < 1000; ++n) {
-      solver.kick(1e9);
-      solver.move(false);
-    }
-  } catch (const Error&) {
-    return false;
-  }
-  return largest_over(body, [&](int i) { return body.velocity[i].norm(); }) < 1;
 }
 
 TEST_P(Bodies, StableStepIsTheLimit) {
@@ -371,27 +350,8 @@ TEST(OrdinaryWaves, DispersionOfTheOperator) {
   const LatticeSpec spec{{15, 15, 15}, 1, 2.515, 0, Influence::linear_decay, ordinary(0.2)};
   const Vector direction(1, 0.4, -0.2), wave(0.5, 0.8, 0.3);
   Body body = lattice_body(spec, world);
-  advance_stress_and_force(body, 0, false);
-  const auto phase = [&](int i) { return std::cos(wave.dot(body.domain.positions[i])); };
-  std::vector<Site> directions = body.sites;
-  for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = (direction * phase(i)).array();
-  ForceStates scratch = body.force_states;
-  std::vector<Vector> result(body.owned());
-  apply_tangent(body, body.domain.halo, directions, scratch, result);
-  double scale = 0;
-  int deep = 0;
-  const double error = largest_over(body, [&](int i) {
-    if (!is_deep(spec, body.domain.positions[i], 2 * spec.horizon)) return 0.0;
-    ++deep;
-    const Vector expected = closed_form(spec, body, i, direction, wave);
-    scale = std::max(scale, expected.norm());
-    return (result[i] - expected * phase(i)).norm();
-  });
-  EXPECT_GT(world.sum(static_cast<std::int64_t>(deep)), 20);
-  EXPECT_LT(error, 1e-11 * world.max(scale));  // sums of 80 terms, twice
+  expect_dispersion(body, spec, direction, wave, [&](int i) { return closed_form(spec, body, i, direction, wave); });
 }
-
-double pulse(double x) { return std::abs(x) < 1 ? std::pow(std::cos(0.5 * M_PI * x), 4) : 0; }
 
 // A pulse along a plate whose edges do not matter yet: d'Alembert, with the speed √((K + 4/3 q μ)/ρ) of long waves
 // along an axis of the lattice, where q is its quadrature. Root mean square error in the middle over the pulse's own.

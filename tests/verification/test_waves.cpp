@@ -1,7 +1,7 @@
 // Elastic waves against closed forms: the dispersion of the discrete operator, and a pulse along a bar.
 #include <gtest/gtest.h>
 
-#include "lattice.hpp"
+#include "probes.hpp"
 #include "solvers/central_difference.hpp"
 
 namespace strut {
@@ -41,29 +41,10 @@ TEST(Waves, DispersionOfTheOperator) {
   const Communicator world;
   Lattice l;
   Body body = lattice_body(l.spec, world);
-  advance_stress_and_force(body, 0, false);
-  const auto phase = [&](int i) { return std::cos(l.wave.dot(body.domain.positions[i])); };
-  std::vector<Site> directions = body.sites;
-  for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = (l.direction * phase(i)).array();
-  ForceStates scratch = body.force_states;
-  std::vector<Vector> result(body.owned());
-  apply_tangent(body, body.domain.halo, directions, scratch, result);
-  double scale = 0;
-  int deep = 0;
-  const double error = largest_over(body, [&](int i) {
-    if (!is_deep(l.spec, body.domain.positions[i], 2 * l.spec.horizon)) return 0.0;
-    ++deep;
-    const Vector expected = closed_form(l, body, i);
-    scale = std::max(scale, expected.norm());
-    return (result[i] - expected * phase(i)).norm();
-  });
-  EXPECT_GT(world.sum(static_cast<std::int64_t>(deep)), 20);
-  EXPECT_LT(error, 1e-11 * world.max(scale));  // sums of 80 terms, twice
+  expect_dispersion(body, l.spec, l.direction, l.wave, [&](int i) { return closed_form(l, body, i); });
 }
 
 // ---- A pulse along a bar with ν = 0: d'Alembert, c = √(E/ρ) --------------------------------------------------------
-
-double pulse(double x) { return std::abs(x) < 1 ? std::pow(std::cos(0.5 * M_PI * x), 4) : 0; }
 
 // The root mean square error of the displacement over the pulse's own, after it has split and travelled half a bar.
 double pulse_error(int cells, const Communicator& world) {

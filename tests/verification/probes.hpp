@@ -1,0 +1,69 @@
+// What several tests ask of a body: does it stay bounded at a step, and what does the linearised operator make of a
+// wave?
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/errors.hpp"
+#include "lattice.hpp"
+#include "solvers/central_difference.hpp"
+
+namespace strut {
+
+// Random velocities, the same on any number of ranks.
+inline void throw_apart(Body& body, double speed) {
+  for (int i = 0; i < body.owned(); ++i) {
+    std::mt19937 engine(static_cast<unsigned>(body.domain.cloud.ids[i]));
+    std::uniform_real_distribution<double> uniform(-speed, speed);
+    for (int c = 0; c < 3; ++c) body.velocity[i][c] = uniform(engine);
+  }
+}
+
+// Whether noise stays bounded over a thousand steps of `factor` times the estimated limit.
+inline bool stays_bounded(Body body, double factor) {
+  const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
+  throw_apart(body, 1e-3);
+  CentralDifference solver(body, {}, {}, {factor * limit, 0}, 0);
+  try {
+    for (int n = 0; n < 1000; ++n) {
+      solver.kick(1e9);
+      solver.move(false);
+    }
+  } catch (const Error&) {
+    return false;
+  }
+  return largest_over(body, [&](int i) { return body.velocity[i].norm(); }) < 1;
+}
+
+// The operator on direction · cos(wave · X), deep inside the lattice, is closed_form(i) · cos(wave · X).
+template <class ClosedForm>
+void expect_dispersion(Body& body, const LatticeSpec& spec, const Vector& direction, const Vector& wave,
+                       ClosedForm&& closed_form) {
+  const Communicator& world = body.domain.communicator;
+  advance_stress_and_force(body, 0, false);
+  const auto phase = [&](int i) { return std::cos(wave.dot(body.domain.positions[i])); };
+  std::vector<Site> directions = body.sites;
+  for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = (direction * phase(i)).array();
+  ForceStates scratch = body.force_states;
+  std::vector<Vector> result(body.owned());
+  apply_tangent(body, body.domain.halo, directions, scratch, result);
+  double scale = 0;
+  int deep = 0;
+  const double error = largest_over(body, [&](int i) {
+    if (!is_deep(spec, body.domain.positions[i], 2 * spec.horizon)) return 0.0;
+    ++deep;
+    const Vector expected = closed_form(i);
+    scale = std::max(scale, expected.norm());
+    return (result[i] - expected * phase(i)).norm();
+  });
+  EXPECT_GT(world.sum(static_cast<std::int64_t>(deep)), 20);
+  EXPECT_LT(error, 1e-11 * world.max(scale));  // sums of 80 terms, twice
+}
+
+// A pulse of half-width 1.
+inline double pulse(double x) { return std::abs(x) < 1 ? std::pow(std::cos(0.5 * M_PI * x), 4) : 0; }
+
+}  // namespace strut
