@@ -76,10 +76,13 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
     const deck::Material& material = deck.materials[section_of(deck, name)->material];
-    const bool stabilized = material.stabilization == deck::StabilizationType::silling;
+    const auto coefficient = [&material](deck::StabilizationType type) {
+      return material.stabilization == type ? material.stabilization_coefficient : 0.0;
+    };
     const bool ordinary = material.formulation == deck::Formulation::ordinary;
-    materials.push_back({material.density, material.law, stabilized ? material.stabilization_coefficient : 0.0,
-                         ordinary ? Formulation::ordinary : Formulation::correspondence});
+    materials.push_back({material.density, material.law, coefficient(deck::StabilizationType::silling),
+                         ordinary ? Formulation::ordinary : Formulation::correspondence,
+                         ordinary ? 0.0 : coefficient(deck::StabilizationType::mean_gradient)});
   }
   return materials;
 }

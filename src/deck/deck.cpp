@@ -71,12 +71,16 @@ std::vector<NodeSet> node_sets(const Values& values, Problems& problems) {
   return sets;
 }
 
+StabilizationType stabilization(const std::string& name) {
+  if (name == "None") return StabilizationType::none;
+  return name == "Silling" ? StabilizationType::silling : StabilizationType::mean_gradient;
+}
+
 Material material(const Values& values, Problems& problems) {
-  Material material{
-      .name = values.name(),
-      .density = values.real("Density"),
-      .stabilization = values.text("Stabilization") == "None" ? StabilizationType::none : StabilizationType::silling,
-      .stabilization_coefficient = values.real("Stabilization Coefficient")};
+  Material material{.name = values.name(),
+                    .density = values.real("Density"),
+                    .stabilization = stabilization(values.text("Stabilization")),
+                    .stabilization_coefficient = values.real("Stabilization Coefficient")};
   for (const LawEntry& law : laws()) {
     if (law.schema.name != values.text("Material Model")) continue;
     material.formulation = law.formulation;

@@ -20,7 +20,7 @@ namespace strut::deck {
 enum class MeshType { exodus, text };
 enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
 enum class DegeneratePoints { error, drop };
-enum class StabilizationType { none, silling };
+enum class StabilizationType { none, silling, mean_gradient };
 enum class Formulation { correspondence, ordinary };
 
 struct Discretization {

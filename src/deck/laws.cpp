@@ -58,7 +58,7 @@ materials::AnyLaw make_j2(const Values& material, Problems& problems) {
 Section with_stabilization(Section law) {
   law.keys.push_back({.name = "Stabilization",
                       .kind = Kind::choice,
-                      .choices = {"Silling", "None"},
+                      .choices = {"Mean Gradient", "Silling", "None"},
                       .fallback = "Silling",
                       .meaning = "What holds zero-energy modes down."});
   law.keys.push_back({.name = "Stabilization Coefficient",

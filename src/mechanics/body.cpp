@@ -48,6 +48,9 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   ForceStates states;
   if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::packed(Tensor::Zero(), 0));
   if (any(Formulation::ordinary)) states.scalars.resize(points);
+  const bool with_gradients =
+      std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) { return m.mean_stabilization > 0; });
+  if (with_gradients) states.gradients.assign(points, bonds::packed(Tensor::Zero(), 0));
   return states;
 }
 
@@ -63,6 +66,7 @@ void set_shape(Body& body, MaterialBlock& block) {
         block.ordinary[k].weighted_volume = K.trace();
       } else {
         body.points[i].stabilization = block.material.stabilization * modulus / (K.trace() / 3);
+        body.points[i].mean_stabilization = block.material.mean_stabilization * modulus / (K.trace() / 3);
       }
     });
   });
@@ -120,7 +124,8 @@ Footprint footprint(const Body& body, const MaterialBlock& block) {
   const std::size_t state =
       std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law) * sizeof(double);
   const std::size_t forces = (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
-                             (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState));
+                             (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
+                             (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
   const std::size_t ordinary = block.is_ordinary() ? sizeof(OrdinaryPoint) : 0;
   constexpr std::size_t mechanics =
       sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);

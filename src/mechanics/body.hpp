@@ -36,6 +36,9 @@ struct alignas(16) ScalarState {
 struct ForceStates {
   std::vector<ForceState> tensors;
   std::vector<ScalarState> scalars;
+  // F (columns), and C̄ in the fourth lane of the first column: what the stabilisation by the mean gradient reads of an
+  // end. Empty where no block of the scene has it.
+  std::vector<ForceState> gradients;
 };
 
 // What only the point itself reads.
@@ -45,6 +48,7 @@ struct MaterialPoint {
   Symmetric stress = Symmetric::Zero();              // unrotated Cauchy stress, Pa
   Symmetric shape_inverse = Symmetric::Zero();       // K⁻¹, 1/m⁵
   double stabilization = 0;                          // C, Pa/m⁵
+  double mean_stabilization = 0;                     // C̄, Pa/m⁵
 };
 
 // What an ordinary point has besides.
@@ -59,6 +63,7 @@ struct BlockMaterial {
   materials::AnyLaw law;
   double stabilization = 0;  // in units of (λ + 2μ)/(tr K/3); 0: none. Ordinary bonds need none, and have none
   Formulation formulation = Formulation::correspondence;
+  double mean_stabilization = 0;  // by the mean gradient of both ends; unit as above
 };
 
 // The points of one block of the mesh on this rank, with their law's state in columns.

@@ -1,6 +1,8 @@
-// The two sums over a family that correspondence peridynamics needs, and the choice of ω outside of them.
+// The sums over a family that correspondence peridynamics needs, and the choice of ω outside of them.
 //   gather:  N = Σ ω V_j (y_j − y_i) ⊗ ξ                                              (F = N K⁻¹)
 //   force:   f_i = Σ ω V_j [ (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i) ],  ξ = X_j − X_i
+// and, between them, the one of the stabilisation by the mean gradient:
+//   residual: Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ,  z = (y_j − y_i) − ½ (F_i + F_j) ξ
 // A family is read in the order of global ids, four lanes at a time; what stands in the fourth lane is ignored.
 // The sums of ordinary points: ordinary_bonds.hpp.
 #pragma once
@@ -122,6 +124,41 @@ inline Vector force(const Families& families, const Site* sites, const ForceStat
     sum[lane] += w * bond;
   });
   return (sum[0] + sum[1]).head<3>().matrix();
+}
+
+struct Residual {
+  Vector force;   // Σ ω V_j C_ij z, N/m³
+  Tensor moment;  // M = Σ ω V_j C_ij z ⊗ ξ, Pa
+  double energy;  // ½ Σ ω V_j ½ C_ij |z|², the point's half of it, J/m³, if asked for
+};
+
+// What the mean gradient of both ends does not see of their bond: z = (y_j − y_i) − ½ (F_i + F_j) ξ. A bond is as stiff
+// as its softer end: C_ij = 2 min(C̄_i, C̄_j), none to a point that has none.
+template <bool with_energy, class Weight>
+inline Residual residual(const Families& families, const Site* places, const ForceState* gradients, int i,
+                         Weight weight) {
+  const Eigen::Array4d y = places[i].current;
+  const ForceState here = gradients[i];
+  const double own = here.column[0][3];
+  struct Sums {
+    Eigen::Array4d force = Eigen::Array4d::Zero(), x = force, y = force, z = force, square = force;
+  } sums[2];
+  over_family(families, places, i, weight, [&](auto lane, int j, const Eigen::Array4d& xi, double w) {
+    const ForceState& there = gradients[j];
+    Eigen::Array4d fitted = (here.column[0] + there.column[0]) * xi[0];
+    fitted += (here.column[1] + there.column[1]) * xi[1];
+    fitted += (here.column[2] + there.column[2]) * xi[2];
+    const Eigen::Array4d z = (places[j].current - y) - 0.5 * fitted;
+    const Eigen::Array4d t = (2 * w * std::min(own, there.column[0][3])) * z;
+    sums[lane].force += t;
+    sums[lane].x += t * xi[0];
+    sums[lane].y += t * xi[1];
+    sums[lane].z += t * xi[2];
+    if constexpr (with_energy) sums[lane].square += t * z;
+  });
+  const Eigen::Array4d force = sums[0].force + sums[1].force, square = sums[0].square + sums[1].square;
+  return {force.head<3>().matrix(), tensor_of(sums[0].x + sums[1].x, sums[0].y + sums[1].y, sums[0].z + sums[1].z),
+          0.25 * square.head<3>().sum()};
 }
 
 }  // namespace strut::bonds

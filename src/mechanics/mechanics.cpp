@@ -1,5 +1,6 @@
 #include "mechanics/mechanics.hpp"
 
+#include <span>
 #include <sstream>
 
 #include "base/timing.hpp"
@@ -30,6 +31,37 @@ void behind_exchange(Halo& halo, double* data, int stride, int width, Interior&&
   boundary();
 }
 
+// Runs work(part) for the points that need no ghost of `states` while its exchange is under way, then for the others.
+template <class State, class Work>
+void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
+  constexpr int width = sizeof(State) / sizeof(double);
+  behind_exchange(
+      halo, reinterpret_cast<double*>(states.data()), width, width, [&] { work(Part::interior); },
+      [&] { work(Part::boundary); });
+}
+
+// The stabilisation by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
+// is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `places`: y, or
+// the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
+void add_residual(const Body& body, const std::vector<Site>& places, Part part, ForceStates& states,
+                  std::vector<Vector>& result, std::span<double> energy) {
+  for (const MaterialBlock& block : body.blocks) {
+    if (!(block.material.mean_stabilization > 0)) continue;
+    const auto [begin, end] = range(block, part);
+    bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
+      for_each_point(begin, end, [&, weight](int k) {
+        const int i = block.points[k];
+        const auto sums =
+            bonds::residual<true>(body.domain.families, places.data(), states.gradients.data(), i, weight);
+        const Tensor share = 0.5 * sums.moment * to_tensor(body.points[i].shape_inverse);
+        for (int c = 0; c < 3; ++c) states.tensors[i].column[c].head<3>() -= share.col(c).array();
+        result[i] = sums.force;
+        if (!energy.empty()) energy[i] += sums.energy;
+      });
+    });
+  }
+}
+
 // The force on every point, summed over the formulations that its block feels. `places`: y, or the field that stands in
 // its place for a tangent; `extension`: of a bond between ordinary points.
 template <class Extension>
@@ -41,8 +73,9 @@ struct ForceSum {
   std::vector<Vector>& result;
 
   void correspondence(Part part) const {
-    over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock&, int i, auto weight) {
-      result[i] = bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight);
+    over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock& block, int i, auto weight) {
+      const Vector force = bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight);
+      result[i] = block.material.mean_stabilization > 0 ? result[i] + force : force;
     });
   }
 
@@ -76,10 +109,7 @@ void add_up(Halo& halo, const ForceSum<Extension>& sum, const Timed& timed) {
       [[maybe_unused]] const auto time = timed();
       (sum.*over)(part);
     };
-    constexpr int width = sizeof(State) / sizeof(double);
-    behind_exchange(
-        halo, reinterpret_cast<double*>(states.data()), width, width, [&] { run(Part::interior); },
-        [&] { run(Part::boundary); });
+    behind_exchange(halo, states, run);
   };
   behind(sum.states.tensors, &ForceSum<Extension>::correspondence);
   behind(sum.states.scalars, &ForceSum<Extension>::ordinary);
@@ -120,7 +150,9 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
         }
         const MaterialPoint& point = body.points[i];
         const Tensor N = bonds::gather<false>(body.domain.families, directions.data(), i, weight).moment;
-        result.tensors[i] = tangent_state(point, moduli, N * to_tensor(point.shape_inverse));
+        const Tensor dF = N * to_tensor(point.shape_inverse);
+        result.tensors[i] = tangent_state(point, moduli, dF);
+        if (point.mean_stabilization > 0) result.gradients[i] = bonds::packed(dF, point.mean_stabilization);
       });
     });
   }
@@ -130,6 +162,7 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
 
 StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
+  static Teuchos::Time& stabilizing = phase("Stabilisation");
   static Teuchos::Time& summing = phase("Force");
   StepReport report;
   const auto over = [&](Part part) {
@@ -145,6 +178,13 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   behind_exchange(
       body.domain.halo, places(body.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
+  if (!body.force_states.gradients.empty()) {
+    const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
+    behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
+      const Timed timed(stabilizing);
+      add_residual(body, body.sites, part, body.force_states, body.force_density, energy);
+    });
+  }
   add_up(body.domain.halo, ForceSum<bonds::OfPlaces>{body, body.sites, {}, body.force_states, body.force_density},
          [] { return Timed(summing); });
   return report;
@@ -155,6 +195,10 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, 
   behind_exchange(
       halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
       [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
+  if (!scratch.gradients.empty()) {
+    behind_exchange(halo, scratch.gradients,
+                    [&](Part part) { add_residual(body, directions, part, scratch, result, {}); });
+  }
   add_up(halo, ForceSum<bonds::OfField>{body, directions, {directions.data()}, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });

@@ -132,7 +132,11 @@ struct Update {
     MaterialPoint& point = *g.points[l];
     point.rotation = lane(polar.rotation, l);
     point.deformation_gradient = lane(F, l);
-    body.force_states.tensors[block.points[g.k[l]]] = bonds::packed(lane(A, l), point.stabilization);
+    const int i = block.points[g.k[l]];
+    body.force_states.tensors[i] = bonds::packed(lane(A, l), point.stabilization);
+    if (point.mean_stabilization > 0) {
+      body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.mean_stabilization);
+    }
   }
 
   // N of the points of a group; a point that stands in for a missing one gets the first one's.

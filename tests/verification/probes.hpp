@@ -53,7 +53,7 @@ void expect_dispersion(Body& body, const LatticeSpec& spec, const Vector& direct
   double scale = 0;
   int deep = 0;
   const double error = largest_over(body, [&](int i) {
-    if (!is_deep(spec, body.domain.positions[i], 2 * spec.horizon)) return 0.0;
+    if (!is_deep(spec, body.domain.positions[i], 3 * spec.horizon)) return 0.0;
     ++deep;
     const Vector expected = closed_form(i);
     scale = std::max(scale, expected.norm());

@@ -347,7 +347,7 @@ Vector closed_form(const LatticeSpec& spec, const Body& body, int i, const Vecto
 
 TEST(OrdinaryWaves, DispersionOfTheOperator) {
   const Communicator world;
-  const LatticeSpec spec{{15, 15, 15}, 1, 2.515, 0, Influence::linear_decay, ordinary(0.2)};
+  const LatticeSpec spec{{19, 19, 19}, 1, 2.515, 0, Influence::linear_decay, ordinary(0.2)};
   const Vector direction(1, 0.4, -0.2), wave(0.5, 0.8, 0.3);
   Body body = lattice_body(spec, world);
   expect_dispersion(body, spec, direction, wave, [&](int i) { return closed_form(spec, body, i, direction, wave); });

@@ -22,7 +22,8 @@ class Patch : public testing::TestWithParam<Case> {
   Communicator world;
   LatticeSpec spec = [] {
     const auto [influence, perturbation] = GetParam();
-    return LatticeSpec{{7, 8, 9}, 1e-3, 3.015, perturbation, influence, {1000, elastic(1e9, 0.3), 0.02}};
+    return LatticeSpec{{7, 8, 9},    1e-3,      3.015,
+                       perturbation, influence, {1000, elastic(1e9, 0.3), 0.02, Formulation::correspondence, 0.02}};
   }();
   Body body = lattice_body(spec, world);
 };
