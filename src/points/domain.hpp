@@ -57,10 +57,10 @@ struct Domain {
   int owned = 0;
   int ghosts = 0;
   // Owned points and ghosts.
-  std::vector<Vector> positions;  // m
-  std::vector<double> volumes;    // m³
-  std::vector<double> horizons;   // m
-  std::vector<BlockHorizons> blocks;
+  std::vector<Vector> positions;      // m
+  std::vector<double> volumes;        // m³
+  std::vector<double> horizons;       // m
+  std::vector<BlockHorizons> blocks;  // one each
   Families families;
   Halo halo;
 };
