@@ -68,10 +68,10 @@ Vector place(const Crowd& crowd, int i) { return crowd.sites[i].current.head<3>(
 Contact::Contact(const std::vector<Interaction>& interactions, const Domain& domain) {
   for (const Interaction& interaction : interactions) {
     const auto [first, second, model] = interaction;
-    const bool one_body = domain.bonds[first].body == domain.bonds[second].body;
+    const bool one_body = domain.blocks[first].body == domain.blocks[second].body;
     Parties parties{points_of_block(domain, first), {}, first == second, one_body};
     if (!parties.self) parties.second = points_of_block(domain, second);
-    const double horizon = std::min(domain.bonds[first].horizon, domain.bonds[second].horizon);
+    const double horizon = std::min(domain.blocks[first].smallest, domain.blocks[second].smallest);
     meetings_.push_back({interaction, std::move(parties), skin_share * horizon});
     blocks_.insert(blocks_.end(), {first, second});
   }

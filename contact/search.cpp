@@ -95,7 +95,6 @@ Pool pool_of(const Crowd& crowd, const Parties& parties, double reach) {
 // Whether two members of the pool, `distance2` from each other (squared), may touch before they have come closer by the
 // skin.
 struct Criterion {
-  const std::vector<BlockBonds>& bonds;
   double radius, skin;
   const Parties& parties;
 
@@ -104,7 +103,7 @@ struct Criterion {
     if (!parties.one_body) return true;
     const Vector xi = reference(b) - reference(a);
     const double reach = touching_distance(radius, xi.norm()) + skin;
-    return distance2 <= reach * reach && !bonded(bonds[a.block], bonds[b.block], xi);
+    return distance2 <= reach * reach && !bonded(a.current[3], b.current[3], xi);
   }
 };
 
@@ -158,7 +157,7 @@ void make_halo(const Communicator& communicator, const Pool& pool, const std::ve
 Pairs find_pairs(const Crowd& crowd, const Parties& parties, const Model& model, double skin) {
   const double reach = model.radius + skin;
   const Pool pool = pool_of(crowd, parties, reach);
-  const Lists lists = lists_of(pool, {crowd.domain.bonds, model.radius, skin, parties}, reach);
+  const Lists lists = lists_of(pool, {model.radius, skin, parties}, reach);
   const std::vector<int> members = paired_members(pool, lists);
   Pairs pairs;
   pairs.one_body = parties.one_body;

@@ -72,8 +72,8 @@ std::optional<double> meeting_time(const Flight& a, const Flight& b, double dura
   return from <= to ? std::optional(from) : std::nullopt;
 }
 
-bool may_be_bonded(const BlockBonds& one, const BlockBonds& other, double gap) {
-  return one.body == other.body && gap <= 0.5 * (one.horizon + other.horizon);
+bool may_be_bonded(const BlockHorizons& one, const BlockHorizons& other, double gap) {
+  return one.body == other.body && gap <= 0.5 * (one.largest + other.largest);
 }
 
 bool declared(const std::vector<contact::Interaction>& interactions, int a, int b) {
@@ -92,7 +92,7 @@ std::string paths_that_cross(const Scene& scene, const std::vector<contact::Inte
   for (int a = 0; a < static_cast<int>(all.size()); ++a) {
     for (int b = a + 1; b < static_cast<int>(all.size()); ++b) {
       const double gap = all[a].places.exteriorDistance(all[b].places);
-      if (declared(interactions, a, b) || may_be_bonded(domain.bonds[a], domain.bonds[b], gap)) continue;
+      if (declared(interactions, a, b) || may_be_bonded(domain.blocks[a], domain.blocks[b], gap)) continue;
       const auto time = meeting_time(all[a], all[b], duration);
       if (!time) continue;
       text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]

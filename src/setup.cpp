@@ -19,8 +19,9 @@ namespace {
 
 PointCloud read_mesh(const deck::Discretization& discretization, const Communicator& communicator) {
   const Timed timed(phase("Mesh in"));
-  return discretization.type == deck::MeshType::exodus ? io::read_exodus(discretization.mesh, communicator)
-                                                       : io::read_text(discretization.mesh, communicator);
+  if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
+  const bool nodes = discretization.points == deck::Points::nodes;
+  return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements);
 }
 
 void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
@@ -93,33 +94,35 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
   for (const std::string& name : cloud.block_names) {
     const deck::Block* section = section_of(deck, name);
     const int place = static_cast<int>(section - deck.blocks.data());
-    bonds.emplace_back(section->horizon, section->separate_body ? place + 1 : 0);
+    const int body = section->separate_body ? place + 1 : 0;
+    bonds.push_back(section->horizon_factor ? BlockBonds::per_spacing(*section->horizon_factor, body)
+                                            : BlockBonds(*section->horizon, body));
   }
   return bonds;
 }
 
-// The mean spacing of each block's points over all ranks, m.
-std::vector<double> spacings(const PointCloud& cloud, const Communicator& communicator) {
-  std::vector<double> sums(2 * cloud.block_names.size(), 0);  // volume and number of points of each block
+// The mean spacing of each block's points over all ranks, m; 0 where it has none.
+std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& communicator) {
+  std::vector<double> sums(2 * cloud.block_names.size(), 0);  // spacings and number of points of each block
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    sums[2 * cloud.blocks[i]] += cloud.volumes[i];
+    sums[2 * cloud.blocks[i]] += cloud.spacings[i];
     sums[2 * cloud.blocks[i] + 1] += 1;
   }
   communicator.sum(sums);
   std::vector<double> result;
-  for (std::size_t b = 0; b < sums.size(); b += 2) result.push_back(std::cbrt(sums[b] / std::max(1.0, sums[b + 1])));
+  for (std::size_t b = 0; b < sums.size(); b += 2) result.push_back(sums[b] / std::max(1.0, sums[b + 1]));
   return result;
 }
 
-// A horizon that is smaller than the spacing, or a hundred times as large, is a slip of units.
+// A horizon in m that is smaller than the spacing, or a hundred times as large, is a slip of units.
 void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
                     deck::Problems& problems) {
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
     const deck::Block* section = section_of(deck, cloud.block_names[b]);
-    if (!section) continue;  // check_blocks has said so
-    if (section->horizon > spacings[b] && section->horizon < 20 * spacings[b]) continue;
+    if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks tells of blocks without a section
+    if (*section->horizon > spacings[b] && *section->horizon < 20 * spacings[b]) continue;
     std::ostringstream text;
-    text << section->horizon << " m does not fit the points of block " << cloud.block_names[b]
+    text << *section->horizon << " m does not fit the points of block " << cloud.block_names[b]
          << ", whose mean spacing is " << spacings[b]
          << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
     problems.add("Blocks > " + section->name + " > Horizon", text.str());
@@ -134,7 +137,10 @@ std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, 
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
     const deck::Block& section = *section_of(deck, cloud.block_names[b]);
     const auto has_state = []<class L>(const L&) { return materials::state_size<L> > 0; };
-    const double neighbours = 4.0 / 3 * std::numbers::pi * std::pow(section.horizon / spacings[b], 3);
+    const double ratio = section.horizon_factor ? *section.horizon_factor
+                         : spacings[b] > 0      ? *section.horizon / spacings[b]
+                                                : 0;
+    const double neighbours = 4.0 / 3 * std::numbers::pi * std::pow(ratio, 3);
     const bool flows = std::visit(has_state, deck.materials[section.material].law);
     costs.push_back(neighbours * bond + update + (flows ? state : 0));
   }
@@ -201,7 +207,7 @@ std::vector<int> degenerate_points(const Domain& domain, std::string& text) {
     if (found.size() > 1) continue;
     const Vector& X = domain.positions[i];
     std::ostringstream line;
-    line << "element " << domain.cloud.element_ids[i] << " of block "
+    line << word(domain.cloud.at) << " " << domain.cloud.element_ids[i] << " of block "
          << domain.cloud.block_names[domain.cloud.blocks[i]] << " at (" << X[0] << ", " << X[1] << ", " << X[2]
          << ") m has " << domain.families.size(i) << " neighbours: " << reason;
     text = line.str();
@@ -331,7 +337,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   PointCloud cloud = read_mesh(deck.discretization, communicator);
   deck::Problems problems;
   check_blocks(deck, cloud, problems);
-  const std::vector<double> spacing = spacings(cloud, communicator);
+  const std::vector<double> spacing = mean_spacings(cloud, communicator);
   check_horizons(deck, cloud, spacing, problems);
   add_node_sets(deck.node_sets, cloud, problems);
   check_conditions(deck, cloud, communicator, problems);

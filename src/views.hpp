@@ -11,7 +11,7 @@ struct Views {
   std::vector<Extreme> extremes;  // History > Variables
 };
 
-// Throws one Error for all unknown names.
+// Collective. Throws one Error for all unknown names, and extremes over no point.
 Views views_of(const deck::Deck& deck, const Body& body);
 
 }  // namespace strut

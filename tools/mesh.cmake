@@ -6,5 +6,5 @@ target_link_libraries(strut_foam PUBLIC strut_io PRIVATE ${VORO_LIBRARY})
 # The same seed gives the same foam on any machine, with fused multiply-add or without.
 target_compile_options(strut_foam PRIVATE -ffp-contract=off)
 
-add_executable(strut-mesh mesh.cpp mesh/recipe.cpp mesh/section.cpp mesh/body.cpp mesh/foam.cpp mesh/arrays.cpp)
+add_executable(strut-mesh mesh.cpp mesh/recipe.cpp mesh/section.cpp mesh/layers.cpp mesh/body.cpp mesh/foam.cpp mesh/arrays.cpp)
 target_link_libraries(strut-mesh PRIVATE strut_foam)

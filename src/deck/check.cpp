@@ -61,7 +61,9 @@ class Checker {
         set(key, *parameter, true);
       } else if (key.fallback) {
         set(key, {key.name, "string", *key.fallback}, false);
-      } else if (key.required && !find(list_.lists, key.name)) {
+      } else if (find(list_.lists, key.name)) {
+        values_.set(key.name, {}, true);  // a section where a key belongs: report_unknown tells of it
+      } else if (key.required) {
         problems_.add(path_to(path_, key.name), "missing; " + expected(key));
       }
     }

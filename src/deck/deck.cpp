@@ -24,9 +24,15 @@ Enum to_enum(const std::string& choice, const std::vector<std::string>& in_order
   return static_cast<Enum>(found == in_order.end() ? 0 : found - in_order.begin());
 }
 
-Discretization discretization(const Values& values, const fs::path& deck) {
+Discretization discretization(const Values& values, const fs::path& deck, Problems& problems) {
+  if (values.text("Type") == "Text File" && values.text("Points") == "Nodes") {
+    problems.add(path_to(values.path(), "Points"),
+                 "'Nodes'; a text file has points only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
+                 "tetrahedra)");
+  }
   return {.type = to_enum<MeshType>(values.text("Type"), {"Exodus", "Text File"}),
           .mesh = values.has("Input Mesh File") ? deck.parent_path() / values.text("Input Mesh File") : fs::path(),
+          .points = to_enum<Points>(values.text("Points"), {"Elements", "Nodes"}),
           .influence = to_enum<Influence>(values.text("Influence Function"), {"One", "Linear Decay", "Cubic Decay"}),
           .degenerate = to_enum<DegeneratePoints>(values.text("Degenerate Points"), {"Error", "Drop"})};
 }
@@ -125,13 +131,33 @@ void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
   }
 }
 
+// Reports where both keys are given.
+void check_one_of(const Values& values, const std::string& one, const std::string& other, Problems& problems) {
+  if (values.given(one) && values.given(other)) {
+    problems.add(values.path(), "'" + one + "' and '" + other + "' are both given; expected one of them");
+  }
+}
+
+std::optional<double> real_if_given(const Values& values, const std::string& key) {
+  return values.has(key) ? std::optional(values.real(key)) : std::nullopt;
+}
+
+void check_horizon(const Values& values, Problems& problems) {
+  check_one_of(values, "Horizon", "Horizon Factor", problems);
+  if (values.given("Horizon") || values.given("Horizon Factor")) return;
+  problems.add(path_to(values.path(), "Horizon"),
+               "missing; expected a real number > 0, in m, or 'Horizon Factor' in its place");
+}
+
 std::vector<Block> blocks(const Values& values, const std::vector<Material>& materials, Problems& problems) {
   std::vector<Block> all;
   for (const Values& section : values.sections()) {
+    check_horizon(section, problems);
     all.push_back({.name = section.name(),
                    .block_names = section.names("Block Names"),
                    .material = find_named(section, "Material", materials, "Materials", problems),
-                   .horizon = section.real("Horizon"),
+                   .horizon = real_if_given(section, "Horizon"),
+                   .horizon_factor = real_if_given(section, "Horizon Factor"),
                    .separate_body = section.flag("Separate Body")});
   }
   check_overlaps(all, problems);
@@ -206,19 +232,12 @@ std::vector<Condition> conditions(const Values& values, Problems& problems) {
   return all;
 }
 
-// Reports where both keys are given.
-void check_one_of(const Values& values, const std::string& one, const std::string& other, Problems& problems) {
-  if (values.given(one) && values.given(other)) {
-    problems.add(values.path(), "'" + one + "' and '" + other + "' are both given; expected one of them");
-  }
-}
-
 Solver solver(const Values& values, Problems& problems) {
   const Values& verlet = values.section("Verlet");
   Solver solver{.initial_time = values.real("Initial Time"),
                 .final_time = values.real("Final Time"),
                 .safety_factor = verlet.real("Safety Factor")};
-  if (verlet.has("Fixed dt")) solver.fixed_dt = verlet.real("Fixed dt");
+  solver.fixed_dt = real_if_given(verlet, "Fixed dt");
   check_one_of(verlet, "Fixed dt", "Safety Factor", problems);
   if (values.has("Initial Time") && values.has("Final Time") && solver.final_time <= solver.initial_time) {
     problems.add(
@@ -268,7 +287,7 @@ History history(const Values* values, const Solver& solver, Problems& problems) 
 Deck build(const Values& values, const fs::path& file, Problems& problems) {
   Deck deck;
   deck.file = file;
-  deck.discretization = discretization(values.section("Discretization"), file);
+  deck.discretization = discretization(values.section("Discretization"), file, problems);
   deck.node_sets = node_sets(values.section("Node Sets"), problems);
   deck.materials = materials_of(values.section("Materials"), problems);
   deck.blocks = blocks(values.section("Blocks"), deck.materials, problems);

@@ -18,6 +18,7 @@ class Communicator;
 namespace strut::deck {
 
 enum class MeshType { exodus, text };
+enum class Points { elements, nodes };
 enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
 enum class DegeneratePoints { error, drop };
 enum class StabilizationType { none, silling, mean_gradient };
@@ -25,7 +26,8 @@ enum class Formulation { correspondence, ordinary };
 
 struct Discretization {
   MeshType type = MeshType::exodus;
-  std::filesystem::path mesh;  // as it can be opened: relative to the deck's folder in the deck
+  std::filesystem::path mesh;        // as it can be opened: relative to the deck's folder in the deck
+  Points points = Points::elements;  // where they are; nodes: of Exodus meshes only
   Influence influence = Influence::one;
   DegeneratePoints degenerate = DegeneratePoints::error;
 };
@@ -50,7 +52,9 @@ struct Block {
   std::string name;                      // of the section
   std::vector<std::string> block_names;  // of the mesh; "all" stands for every block
   int material = 0;                      // index into Deck::materials
-  double horizon = 0;                    // m
+  // Exactly one of them:
+  std::optional<double> horizon;         // m
+  std::optional<double> horizon_factor;  // in local spacings of each point
   bool separate_body = false;            // bonded to nothing outside of this section
 };
 

@@ -42,31 +42,38 @@ const Key verbose = {.name = "Verbose",
                      .meaning = "Accepted for Peridigm's decks; no effect."};
 
 Section discretization() {
-  return {
-      .name = "Discretization",
-      .required = true,
-      .meaning = "The points: where they are, and how much each sees of the others.",
-      .keys = {{.name = "Type",
-                .kind = Kind::choice,
-                .choices = {"Exodus", "Text File"},
-                .required = true,
-                .meaning = "The mesh file's format: elements become points at their centroids, or a list of points.",
-                .hints = {{"PdQuickGrid", "there is no built-in grid: make a mesh file from a recipe"}}},
-               {.name = "Input Mesh File",
-                .kind = Kind::text,
-                .required = true,
-                .meaning = "Its path, relative to the deck's folder."},
-               {.name = "Influence Function",
-                .kind = Kind::choice,
-                .choices = {"One", "Linear Decay", "Cubic Decay"},
-                .fallback = "One",
-                .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
-               {.name = "Degenerate Points",
-                .kind = Kind::choice,
-                .choices = {"Error", "Drop"},
-                .fallback = "Error",
-                .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
-                           "gradient."}}};
+  return {.name = "Discretization",
+          .required = true,
+          .meaning = "The points: where they are, and how much each sees of the others.",
+          .keys = {
+              {.name = "Type",
+               .kind = Kind::choice,
+               .choices = {"Exodus", "Text File"},
+               .required = true,
+               .meaning = "The mesh file's format: elements or nodes become points, or a list of points.",
+               .hints = {{"PdQuickGrid", "there is no built-in grid: make a mesh file from a recipe"}}},
+              {.name = "Input Mesh File",
+               .kind = Kind::text,
+               .required = true,
+               .meaning = "Its path, relative to the deck's folder."},
+              {.name = "Points",
+               .kind = Kind::choice,
+               .choices = {"Elements", "Nodes"},
+               .fallback = "Elements",
+               .meaning = "Where the points of an Exodus mesh are: at the centroids of its elements, or, for hexahedra "
+                          "and tetrahedra, at its nodes, each with its part of the elements around it. With nodes, "
+                          "faces and rims of the body are where the mesh has them."},
+              {.name = "Influence Function",
+               .kind = Kind::choice,
+               .choices = {"One", "Linear Decay", "Cubic Decay"},
+               .fallback = "One",
+               .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
+              {.name = "Degenerate Points",
+               .kind = Kind::choice,
+               .choices = {"Error", "Drop"},
+               .fallback = "Error",
+               .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
+                          "gradient."}}};
 }
 
 Section node_sets() {
@@ -114,8 +121,12 @@ Section blocks() {
                              {.name = "Horizon",
                               .unit = "m",
                               .range = positive,
-                              .required = true,
-                              .meaning = "δ: points closer than this are neighbours."},
+                              .meaning = "δ: points closer than this are neighbours. Either this or Horizon Factor."},
+                             {.name = "Horizon Factor",
+                              .range = {.low = 1, .high = 20},
+                              .meaning = "δ of each point in local spacings: the edge of a cube with the volume of its "
+                                         "element, or with the mean volume of the elements around its node. Points i "
+                                         "and j are neighbours when they are closer than (δ_i + δ_j)/2."},
                              {.name = "Separate Body",
                               .kind = Kind::boolean,
                               .fallback = "false",
@@ -280,9 +291,10 @@ Section history() {
                 .meaning = "Every so much time. Where neither is given: 1/1000 of the run."}},
       .sections = {{.name = "Variables",
                     .meaning = "The columns.",
-                    .any_key = Key{.name = any_name,
-                                   .kind = Kind::boolean,
-                                   .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for one block."}}}};
+                    .any_key = Key{
+                        .name = any_name,
+                        .kind = Kind::boolean,
+                        .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block."}}}};
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ PointCloud distribute(const PointCloud& whole, const Communicator& communicator)
   mine.ids = column(whole.ids);
   mine.element_ids = column(whole.element_ids);
   mine.volumes = column(whole.volumes);
+  mine.spacings = column(whole.spacings);
   mine.blocks = column(whole.blocks);
   mine.sets = column(whole.sets);
 
@@ -60,6 +61,9 @@ PointCloud distribute(const PointCloud& whole, const Communicator& communicator)
   const std::vector<double> xyz = communicator.scatter(std::span<const double>(numbers), triple);
   for (std::size_t i = 0; i < xyz.size(); i += 3) mine.positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
 
+  std::vector<PointsAt> at{whole.at};
+  communicator.broadcast(at);
+  mine.at = at.front();
   mine.block_names = broadcast_names(whole.block_names, communicator);
   mine.set_names = broadcast_names(whole.set_names, communicator);
   return mine;

@@ -17,6 +17,11 @@ struct ElementPoint {
 ElementPoint hexahedron(std::span<const Vector, 8> nodes);
 ElementPoint tetrahedron(std::span<const Vector, 4> nodes);
 
+// ∫ N_a dV of the shape function of each node: the parts of the volume that belong to the nodes. Their sum is the
+// volume, and Σ part × node = volume × centroid.
+std::array<double, 8> hexahedron_parts(std::span<const Vector, 8> nodes);
+std::array<double, 4> tetrahedron_parts(std::span<const Vector, 4> nodes);
+
 double sphere_volume(double radius);
 double sphere_radius(double volume);  // of the sphere of equal volume
 

@@ -17,10 +17,13 @@ namespace strut::io {
 
 // Reads hex8 (volume by exact integration, centroid), tet4 and sphere elements (attributes: radius, volume; a file with
 // one attribute has the radius only, one with none has an element variable Volume). Block names: the file's, else
-// "block_<id>". Node sets: the file's names, else "nodelist_<id>"; a point belongs to a set when any node of its
-// element does. Each rank receives a contiguous slice. Throws Error on all ranks: file missing, not Exodus, unsupported
-// element type, no elements, volume not positive (names element and block), more than 64 node sets.
-PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator);
+// "block_<id>". Node sets: the file's names, else "nodelist_<id>". Each rank receives a contiguous slice.
+// `at` elements: a point for each; it belongs to a set when any node of its element does. `at` nodes: a point for each
+// node that a hex8 or tet4 element uses, in the block that comes first in the file; ids count the file's nodes from 0.
+// Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
+// (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
+PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
+                       PointsAt at = PointsAt::elements);
 
 // Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);

@@ -230,6 +230,12 @@ std::vector<std::int64_t> ExodusFile::element_numbers() const {
   return numbers;
 }
 
+std::vector<std::int64_t> ExodusFile::node_numbers() const {
+  std::vector<std::int64_t> numbers(sizes().nodes);
+  check(ex_get_id_map(handle_, EX_NODE_MAP, numbers.data()), "read the numbers of its nodes");
+  return numbers;
+}
+
 std::vector<double> ExodusFile::times() const {
   std::vector<double> times(inquire(EX_INQ_TIME, "read its number of time steps"));
   if (!times.empty()) check(ex_get_all_times(handle_, times.data()), "read its times");

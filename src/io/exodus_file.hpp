@@ -56,6 +56,7 @@ class ExodusFile {
   std::vector<double> attribute(const Block& block, int index) const;
   std::vector<std::int64_t> nodes_of(const NodeSet& set) const;  // node numbers from 1
   std::vector<std::int64_t> element_numbers() const;             // the file's map, else 1, 2, …
+  std::vector<std::int64_t> node_numbers() const;                // the same for nodes
   std::vector<double> times() const;
   std::vector<std::string> variable_names(On on) const;
   std::vector<double> nodal_values(int step, int variable) const;

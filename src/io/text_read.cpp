@@ -73,6 +73,7 @@ PointCloud cloud_of(const std::vector<Line>& lines) {
   for (const Line& line : lines) {
     cloud.positions.push_back(line.position);
     cloud.volumes.push_back(line.volume);
+    cloud.spacings.push_back(std::cbrt(line.volume));
     cloud.blocks.push_back(index[line.block]);
   }
   cloud.sets.assign(lines.size(), 0);

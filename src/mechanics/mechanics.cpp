@@ -252,7 +252,7 @@ std::string describe(const Failure& failure, const Body& body) {
     return text.str();
   };
   std::ostringstream text;
-  text << "element " << cloud.element_ids[i] << " of block " << cloud.block_names[cloud.blocks[i]]
+  text << word(cloud.at) << " " << cloud.element_ids[i] << " of block " << cloud.block_names[cloud.blocks[i]]
        << ", reference position " << place(cloud.positions[i]) << " m, now at " << place(body.current(i)) << " m: ";
   switch (failure.kind) {
     case Failure::Kind::inverted:

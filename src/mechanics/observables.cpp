@@ -1,6 +1,7 @@
 #include "mechanics/observables.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <span>
@@ -60,6 +61,15 @@ std::vector<Observable> kinematic() {
   return {
       observable(
           "Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
+      observable(
+          "Coordinate_X", "of the present place y, m", [](const Body& b, int i) { return b.current(i)[0]; }, true),
+      observable(
+          "Coordinate_Y", "of y, m", [](const Body& b, int i) { return b.current(i)[1]; }, true),
+      observable(
+          "Coordinate_Z", "of y, m", [](const Body& b, int i) { return b.current(i)[2]; }, true),
+      observable(
+          "Radial_Distance", "of y from the z axis, m",
+          [](const Body& b, int i) { return std::hypot(b.current(i)[0], b.current(i)[1]); }, true),
       observable(
           "Velocity", "at the time of the frame, m/s",
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
@@ -170,7 +180,7 @@ std::vector<Observable> chosen(const std::vector<Observable>& all, const std::ve
   return result;
 }
 
-Extreme::Extreme(const std::vector<Observable>& all, const std::vector<std::string>& blocks, const std::string& name,
+Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
                  const std::string& where)
     : name_(name) {
   const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
@@ -184,16 +194,37 @@ Extreme::Extreme(const std::vector<Observable>& all, const std::vector<std::stri
                 joined(names_of(all, {""})));
   }
   if (bracket != std::string::npos) {
-    const std::string block = name.substr(bracket + 1, name.size() - bracket - 2);
-    const auto at = std::find(blocks.begin(), blocks.end(), block);
-    if (at == blocks.end()) {
-      throw Error(where + " > " + name + ": the mesh has no block '" + block + "'" + did_you_mean(block, blocks) +
-                  "; it has " + joined(blocks));
-    }
-    block_ = static_cast<int>(at - blocks.begin());
+    choose_points(cloud, name.substr(bracket + 1, name.size() - bracket - 2), where);
   }
   sign_ = kind == "Max_" ? 1 : -1;
   observable_ = *found;
+}
+
+// As the Node Set of a condition: a set, else a block.
+void Extreme::choose_points(const PointCloud& cloud, const std::string& group, const std::string& where) {
+  const auto place = [&group](const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), group);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  };
+  set_ = place(cloud.set_names);
+  if (set_ >= 0) return;
+  block_ = place(cloud.block_names);
+  if (block_ >= 0) return;
+  std::vector<std::string> valid = cloud.set_names;
+  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
+  throw Error(where + " > " + name_ + ": there is no node set or block '" + group + "'" + did_you_mean(group, valid) +
+              "; there are " + joined(valid));
+}
+
+bool Extreme::counts(const PointCloud& cloud, int i) const {
+  if (set_ >= 0) return (cloud.sets[i] >> set_ & 1) != 0;
+  return block_ < 0 || cloud.blocks[i] == block_;
+}
+
+std::int64_t Extreme::points(const PointCloud& cloud) const {
+  std::int64_t count = 0;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) count += counts(cloud, i);
+  return count;
 }
 
 double Extreme::local(const Body& body) const {
@@ -202,7 +233,7 @@ double Extreme::local(const Body& body) const {
   double best = -std::numeric_limits<double>::infinity();
   const int width = observable_.components;
   for (int i = 0; i < body.owned(); ++i) {
-    if (block_ >= 0 && body.domain.cloud.blocks[i] != block_) continue;
+    if (!counts(body.domain.cloud, i)) continue;
     const double* first = &values[static_cast<std::size_t>(i) * width];
     const double value = width == 1 ? *first : Eigen::Map<const Eigen::VectorXd>(first, width).norm();
     best = std::max(best, sign_ * value);

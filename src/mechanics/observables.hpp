@@ -27,21 +27,25 @@ std::vector<Observable> chosen(const std::vector<Observable>& all, const std::ve
                                const std::string& where);
 
 // "Max_X" and "Min_X" of an observable X (the length of a vector): collective, over all points of all ranks;
-// "Max_X(foam)": over the points of block foam.
+// "Max_X(foam)": over the points of the node set foam or, where there is no such set, of the block.
 class Extreme {
  public:
-  // Throws Error like chosen(). `blocks`: the blocks of the body.
-  Extreme(const std::vector<Observable>& all, const std::vector<std::string>& blocks, const std::string& name,
+  // Throws Error like chosen(). `cloud`: the points of the body.
+  Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
           const std::string& where);
   const std::string& name() const { return name_; }
+  std::int64_t points(const PointCloud& cloud) const;  // how many points of this rank it is taken over
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that all ranks take the maximum
   double value(double largest) const { return sign_ * largest; }
 
  private:
+  void choose_points(const PointCloud& cloud, const std::string& group, const std::string& where);
+  bool counts(const PointCloud& cloud, int i) const;
+
   std::string name_;
   Observable observable_;
   double sign_ = 1;
-  int block_ = -1;  // -1: all
+  int set_ = -1, block_ = -1;  // both -1: all points
 };
 
 }  // namespace strut

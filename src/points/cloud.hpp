@@ -9,16 +9,24 @@
 
 namespace strut {
 
+// What of a mesh a point stands for. A text mesh has points only: they count as elements.
+enum class PointsAt { elements, nodes };
+
+// "element" or "node", for messages.
+constexpr const char* word(PointsAt at) { return at == PointsAt::nodes ? "node" : "element"; }
+
 struct PointCloud {
   // One entry a point.
   std::vector<std::int64_t> ids;          // 0-based place in the file's order: unique over all ranks
-  std::vector<std::int64_t> element_ids;  // the mesh's own number of the element
+  std::vector<std::int64_t> element_ids;  // the mesh's own number of the element or node
   std::vector<Vector> positions;          // reference position X, m
   std::vector<double> volumes;            // m³
+  std::vector<double> spacings;           // m: the edge of a cube as large as the elements here (see io/README.md)
   std::vector<int> blocks;                // index into block_names
   std::vector<std::uint64_t> sets;        // bit k: the point is in node set set_names[k]
 
   // The same on all ranks.
+  PointsAt at = PointsAt::elements;
   std::vector<std::string> block_names;
   std::vector<std::string> set_names;  // at most 64
 

@@ -1,6 +1,7 @@
 #include "points/domain.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "points/cell_grid.hpp"
@@ -14,16 +15,17 @@ namespace {
 // A point that another rank may need, as it travels.
 struct Candidate {
   double position[3];
-  double volume;
+  double volume, horizon;
   std::int64_t id, block;
 };
 
 // Points of other ranks that lie within `reach` of the box of this rank's points.
-std::vector<Candidate> candidates(const PointCloud& cloud, double reach, const Communicator& communicator) {
+std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<double>& horizons, double reach,
+                                  const Communicator& communicator) {
   std::vector<Candidate> mine;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vector& X = cloud.positions[i];
-    mine.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], cloud.ids[i], cloud.blocks[i]});
+    mine.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i], cloud.blocks[i]});
   }
   return from_near_ranks<Candidate>(cloud.positions, mine, reach, communicator);
 }
@@ -33,19 +35,50 @@ struct Pool {
   std::vector<Vector> positions;
   std::vector<double> volumes;
   std::vector<std::int64_t> ids;
-  std::vector<BlockBonds> bonds;
+  std::vector<double> horizons;
+  std::vector<int> bodies;
 };
 
-Pool pool_of(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<Candidate>& others) {
-  Pool pool{cloud.positions, cloud.volumes, cloud.ids, {}};
-  for (const int block : cloud.blocks) pool.bonds.push_back(bonds[block]);
+Pool pool_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
+             const std::vector<Candidate>& others) {
+  Pool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}};
+  for (const int block : cloud.blocks) pool.bodies.push_back(bonds[block].body);
   for (const Candidate& c : others) {
     pool.positions.emplace_back(c.position[0], c.position[1], c.position[2]);
     pool.volumes.push_back(c.volume);
     pool.ids.push_back(c.id);
-    pool.bonds.push_back(bonds[c.block]);
+    pool.horizons.push_back(c.horizon);
+    pool.bodies.push_back(bonds[c.block].body);
   }
   return pool;
+}
+
+std::vector<double> horizons_of(const PointCloud& cloud, const std::vector<BlockBonds>& bonds) {
+  std::vector<double> horizons;
+  horizons.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    horizons.push_back(bonds[cloud.blocks[i]].horizon_at(cloud.spacings[i]));
+  }
+  return horizons;
+}
+
+// Collective.
+std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::vector<double>& horizons,
+                                          const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> bounds(2 * bonds.size(), none);  // the largest of each block, and the smallest, negated
+  for (std::size_t i = 0; i < horizons.size(); ++i) {
+    double* of_block = &bounds[2 * cloud.blocks[i]];
+    of_block[0] = std::max(of_block[0], horizons[i]);
+    of_block[1] = std::max(of_block[1], -horizons[i]);
+  }
+  communicator.max(bounds);
+  std::vector<BlockHorizons> blocks;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const bool empty = bounds[2 * b] == none;
+    blocks.push_back({empty ? 0 : -bounds[2 * b + 1], empty ? 0 : bounds[2 * b], bonds[b].body});
+  }
+  return blocks;
 }
 
 // Calls visit(j) for the family of pool member i.
@@ -54,7 +87,8 @@ void for_each_neighbour(const CellGrid& grid, const Pool& pool, int i, double re
   const Vector here = pool.positions[i];
   grid.visit_near(here, [&](int j, const Vector& there) {
     const Vector xi = there - here;
-    if (xi.squaredNorm() <= reach * reach && j != i && bonded(pool.bonds[i], pool.bonds[j], xi)) visit(j);
+    if (xi.squaredNorm() > reach * reach || j == i || pool.bodies[i] != pool.bodies[j]) return;
+    if (bonded(pool.horizons[i], pool.horizons[j], xi)) visit(j);
   });
 }
 
@@ -110,17 +144,19 @@ Families families_of(const CellGrid& grid, const Pool& pool, const Order& order,
 
 }  // namespace
 
-bool bonded(const BlockBonds& one, const BlockBonds& other, const Vector& xi) {
+bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
   constexpr double tolerance = 1 + 1e-9;  // a neighbour at exactly the horizon stays in despite round-off
-  const double horizon = 0.5 * (one.horizon + other.horizon) * tolerance;
-  return one.body == other.body && xi.squaredNorm() <= horizon * horizon;
+  const double horizon = 0.5 * (one_horizon + other_horizon) * tolerance;
+  return xi.squaredNorm() <= horizon * horizon;
 }
 
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
-  double reach = 0;
-  for (const BlockBonds& block : bonds) reach = std::max(reach, block.horizon * (1 + 1e-9));
+  const std::vector<double> own_horizons = horizons_of(cloud, bonds);
+  std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
+  double reach = std::numeric_limits<double>::min();  // where there is no point
+  for (const BlockHorizons& block : blocks) reach = std::max(reach, block.largest * (1 + 1e-9));
   const int owned = static_cast<int>(cloud.size());
-  const Pool pool = pool_of(cloud, bonds, candidates(cloud, reach, communicator));
+  const Pool pool = pool_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
   const CellGrid grid(pool.positions, reach);
   const Order order = order_of(grid, pool, owned, reach);
   PointCloud mine = reordered(cloud, order.points);
@@ -134,7 +170,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     local[p] = static_cast<int>(positions.size());
     positions.push_back(pool.positions[p]);
     volumes.push_back(pool.volumes[p]);
-    horizons.push_back(pool.bonds[p].horizon);
+    horizons.push_back(pool.horizons[p]);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
   }
   Halo halo(communicator, mine.ids, ghost_ids);
@@ -146,7 +182,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
           std::move(positions),
           std::move(volumes),
           std::move(horizons),
-          bonds,
+          std::move(blocks),
           families_of(grid, pool, order, local, reach),
           std::move(halo)};
 }

@@ -20,15 +20,33 @@ struct Families {
   std::size_t bonds() const { return neighbours.size(); }
 };
 
-// How the points of a block are bonded: δ (m), and the body they belong to. Bodies are not bonded to each other.
+// How the points of a block are bonded: their horizon δ, and the body they belong to. Bodies are not bonded to each
+// other.
 struct BlockBonds {
   BlockBonds(double horizon, int body = 0) : horizon(horizon), body(body) {}
-  double horizon;
+  static BlockBonds per_spacing(double factor, int body = 0) {
+    BlockBonds bonds(factor, body);
+    bonds.in_spacings = true;
+    return bonds;
+  }
+
+  double horizon;  // of all points, m; or in local spacings of each
+  bool in_spacings = false;
   int body;
+
+  // δ of a point with this local spacing, m.
+  double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }
 };
 
-// Whether two points with the bond ξ are in each other's families: |ξ| ≤ (δ_i + δ_j)/2, which is symmetric.
-bool bonded(const BlockBonds& one, const BlockBonds& other, const Vector& xi);
+// Whether two points of one body, with these horizons (m) and the bond ξ, are in each other's families:
+// |ξ| ≤ (δ_i + δ_j)/2, which is symmetric.
+bool bonded(double one_horizon, double other_horizon, const Vector& xi);
+
+// What the horizons of a block's points turned out to be, over all ranks.
+struct BlockHorizons {
+  double smallest = 0, largest = 0;  // m; 0 where the block has no points
+  int body = 0;
+};
 
 // Local indices: [0, interior) owned, all neighbours owned; [interior, owned) owned, with ghosts in the family;
 // [owned, owned + ghosts) owned by other ranks.
@@ -39,10 +57,10 @@ struct Domain {
   int owned = 0;
   int ghosts = 0;
   // Owned points and ghosts.
-  std::vector<Vector> positions;  // m
-  std::vector<double> volumes;    // m³
-  std::vector<double> horizons;   // m
-  std::vector<BlockBonds> bonds;  // of each block
+  std::vector<Vector> positions;      // m
+  std::vector<double> volumes;        // m³
+  std::vector<double> horizons;       // m
+  std::vector<BlockHorizons> blocks;  // one each
   Families families;
   Halo halo;
 };

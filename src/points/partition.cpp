@@ -20,14 +20,15 @@ namespace {
 struct Parcel {
   std::int64_t id, element_id;
   double position[3];
-  double volume;
+  double volume, spacing;
   int block;
   std::uint64_t sets;
 };
 
 Parcel packed(const PointCloud& cloud, std::size_t i) {
   const Vector& X = cloud.positions[i];
-  return {cloud.ids[i], cloud.element_ids[i], {X[0], X[1], X[2]}, cloud.volumes[i], cloud.blocks[i], cloud.sets[i]};
+  return {cloud.ids[i],      cloud.element_ids[i], {X[0], X[1], X[2]}, cloud.volumes[i],
+          cloud.spacings[i], cloud.blocks[i],      cloud.sets[i]};
 }
 
 void append(PointCloud& cloud, const Parcel& parcel) {
@@ -35,6 +36,7 @@ void append(PointCloud& cloud, const Parcel& parcel) {
   cloud.element_ids.push_back(parcel.element_id);
   cloud.positions.emplace_back(parcel.position[0], parcel.position[1], parcel.position[2]);
   cloud.volumes.push_back(parcel.volume);
+  cloud.spacings.push_back(parcel.spacing);
   cloud.blocks.push_back(parcel.block);
   cloud.sets.push_back(parcel.sets);
 }
@@ -115,9 +117,10 @@ Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
   return zoltan;
 }
 
-// The same block and set names, no points.
+// What holds for all points, but no points.
 PointCloud emptied(const PointCloud& cloud) {
   PointCloud result;
+  result.at = cloud.at;
   result.block_names = cloud.block_names;
   result.set_names = cloud.set_names;
   return result;

@@ -34,6 +34,7 @@ Scatter scatter() {
     all.cloud.element_ids.push_back(i + 1);
     all.cloud.positions.push_back(vector());
     all.cloud.volumes.push_back(1e-4 * (1 + in(engine)));
+    all.cloud.spacings.push_back(std::cbrt(all.cloud.volumes.back()));
     all.cloud.blocks.push_back(i % 3);
     all.cloud.sets.push_back(0);
     all.places.push_back(all.cloud.positions.back() + 0.05 * vector());

@@ -21,8 +21,9 @@ using Pair = std::pair<Id, Id>;
 // Points whose places are random but the same on all ranks.
 struct Case {
   int count;
-  std::vector<double> horizons;  // of the blocks, m
+  std::vector<double> horizons;  // of the blocks, m; or in local spacings of the points
   int seed;
+  bool in_spacings = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
@@ -33,6 +34,7 @@ PointCloud whole_cloud(const Case& c) {
   std::mt19937 random(c.seed);
   std::uniform_real_distribution<double> place(0, 1);
   PointCloud cloud;
+  cloud.at = PointsAt::nodes;  // not the default, so that its loss shows
   cloud.set_names = {"left"};
   for (std::size_t b = 0; b < c.horizons.size(); ++b) cloud.block_names.push_back("block_" + std::to_string(b));
   for (int id = 0; id < c.count; ++id) {
@@ -41,6 +43,7 @@ PointCloud whole_cloud(const Case& c) {
     cloud.element_ids.push_back(10 * id + 3);
     cloud.positions.emplace_back(2 * x, y, 0.5 * z);
     cloud.volumes.push_back(1e-3 + id);
+    cloud.spacings.push_back(0.05 + 0.1 * z);
     cloud.blocks.push_back(static_cast<int>(x * static_cast<double>(c.horizons.size())));  // they touch at a plane
     cloud.sets.push_back(x < 0.3 ? 1 : 0);
   }
@@ -56,7 +59,13 @@ PointCloud slice(const PointCloud& whole, const Communicator& world) {
 }
 
 Domain domain_of(const Case& c, const Communicator& world) {
-  return make_domain(partitioned(slice(whole_cloud(c), world), world), {c.horizons.begin(), c.horizons.end()}, world);
+  std::vector<BlockBonds> bonds;
+  for (const double h : c.horizons) bonds.push_back(c.in_spacings ? BlockBonds::per_spacing(h) : BlockBonds(h));
+  return make_domain(partitioned(slice(whole_cloud(c), world), world), bonds, world);
+}
+
+double horizon_of(const Case& c, const PointCloud& whole, Id id) {
+  return c.horizons[whole.blocks[id]] * (c.in_spacings ? whole.spacings[id] : 1);
 }
 
 // The ids of owned points and ghosts, by local index: what the halo brings says who a ghost is.
@@ -72,7 +81,7 @@ std::set<Pair> brute_force(const Case& c) {
   std::set<Pair> pairs;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     for (std::size_t j = 0; j < cloud.size(); ++j) {
-      const double horizon = 0.5 * (c.horizons[cloud.blocks[i]] + c.horizons[cloud.blocks[j]]);
+      const double horizon = 0.5 * (horizon_of(c, cloud, i) + horizon_of(c, cloud, j));
       if (i != j && (cloud.positions[i] - cloud.positions[j]).norm() <= horizon) pairs.emplace(i, j);
     }
   }
@@ -116,9 +125,11 @@ TEST_P(DomainOf, EveryPointHasOneOwnerAndKeepsWhatItIs) {
     EXPECT_EQ(domain.cloud.element_ids[i], whole.element_ids[id]);
     EXPECT_EQ(domain.cloud.positions[i], whole.positions[id]);
     EXPECT_EQ(domain.cloud.volumes[i], whole.volumes[id]);
+    EXPECT_EQ(domain.cloud.spacings[i], whole.spacings[id]);
     EXPECT_EQ(domain.cloud.blocks[i], whole.blocks[id]);
     EXPECT_EQ(domain.cloud.sets[i], whole.sets[id]);
   }
+  EXPECT_EQ(domain.cloud.at, whole.at);
   EXPECT_EQ(domain.cloud.block_names, whole.block_names);
   EXPECT_EQ(domain.cloud.set_names, whole.set_names);
 }
@@ -155,7 +166,7 @@ TEST_P(DomainOf, GhostsAreWhatTheirOwnersSay) {
     EXPECT_TRUE(seen.insert(ids[g]).second) << "twice";
     EXPECT_EQ(domain.positions[g], whole.positions[ids[g]]);
     EXPECT_EQ(domain.volumes[g], whole.volumes[ids[g]]);
-    EXPECT_EQ(domain.horizons[g], GetParam().horizons[whole.blocks[ids[g]]]);
+    EXPECT_EQ(domain.horizons[g], horizon_of(GetParam(), whole, ids[g]));
   }
   if (world.size() == 1) {
     EXPECT_EQ(domain.ghosts, 0);
@@ -177,6 +188,20 @@ TEST_P(DomainOf, InteriorPointsNeedNoGhostAndTheOthersDo) {
     EXPECT_EQ(has_ghost, i >= domain.interior) << i;
   }
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "ghosts that nobody needs";
+}
+
+TEST_P(DomainOf, SmallestAndLargestHorizonOfABlockAreThoseOfAllRanks) {
+  for (std::size_t b = 0; b < whole.block_names.size(); ++b) {
+    double smallest = 0, largest = 0;
+    for (std::size_t id = 0; id < whole.size(); ++id) {
+      if (whole.blocks[id] != static_cast<int>(b)) continue;
+      const double horizon = horizon_of(GetParam(), whole, static_cast<Id>(id));
+      smallest = largest == 0 ? horizon : std::min(smallest, horizon);
+      largest = std::max(largest, horizon);
+    }
+    EXPECT_EQ(domain.blocks[b].smallest, smallest);
+    EXPECT_EQ(domain.blocks[b].largest, largest);
+  }
 }
 
 // Two fields side by side: only the one that is asked for travels, owned values stay.
@@ -215,9 +240,9 @@ TEST_P(DomainOf, SpreadIsThatOfAllPairs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, DomainOf,
-                         testing::Values(dense, Case{600, {0.12, 0.25}, 2}, Case{500, {0.2}, 3},
-                                         Case{40, {0.3, 0.3}, 4},  // some without a neighbour
-                                         Case{3, {1.0}, 5},        // fewer points than ranks
+                         testing::Values(dense, Case{600, {1.5, 2.5}, 7, true}, Case{600, {0.12, 0.25}, 2},
+                                         Case{500, {0.2}, 3}, Case{40, {0.3, 0.3}, 4},  // some without a neighbour
+                                         Case{3, {1.0}, 5},                             // fewer points than ranks
                                          Case{1, {1.0}, 6}),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
@@ -232,6 +257,7 @@ TEST(Lattice, NeighboursAtExactlyTheHorizonAreIn) {
   }
   cloud.element_ids = cloud.ids;
   cloud.volumes.assign(cloud.ids.size(), 1e-3);
+  cloud.spacings.assign(cloud.ids.size(), 0.1);
   cloud.blocks.assign(cloud.ids.size(), 0);
   cloud.sets.assign(cloud.ids.size(), 0);
   const Domain domain = make_domain(partitioned(slice(cloud, world), world), {0.1}, world);

@@ -97,7 +97,7 @@ inline std::string copper(const std::string& plasticity = "") {
 
 // The parts of a deck; what is empty is left out.
 struct Parts {
-  std::string mesh_type = "Exodus", mesh_file = "bar.g", degenerate;
+  std::string mesh_type = "Exodus", mesh_file = "bar.g", points, degenerate;
   std::string node_sets;
   std::string materials = copper();
   std::string blocks =
@@ -111,9 +111,13 @@ struct Parts {
     const auto optional = [](const std::string& name, const std::string& content) {
       return content.empty() ? "" : section(name, content);
     };
-    const std::string degenerate_points = degenerate.empty() ? "" : key("Degenerate Points", degenerate);
+    const auto optional_key = [](const std::string& name, const std::string& value) {
+      return value.empty() ? "" : key(name, value);
+    };
     return "<ParameterList>\n" +
-           section("Discretization", key("Type", mesh_type) + key("Input Mesh File", mesh_file) + degenerate_points) +
+           section("Discretization", key("Type", mesh_type) + key("Input Mesh File", mesh_file) +
+                                         optional_key("Points", points) +
+                                         optional_key("Degenerate Points", degenerate)) +
            optional("Node Sets", node_sets) + section("Materials", materials) + section("Blocks", blocks) +
            optional("Contact", contact) + optional("Boundary Conditions", conditions) +
            section("Solver", times + section("Verlet", verlet)) + optional("Output", output) +

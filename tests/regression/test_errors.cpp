@@ -208,6 +208,37 @@ TEST_F(Mistake, OutputThatCannotBeWritten) {
   expect_error(changed(deck, "@/history.csv", "@/taken.csv"), {"taken.csv", "cannot create"});
 }
 
+TEST_F(Mistake, BothHorizonsOrNone) {
+  const std::string deck = right_parts().text(), horizon = key("Horizon", "2.01e-3");
+  expect_error(changed(deck, horizon, horizon + key("Horizon Factor", "2")),
+               {"1 problem\n", "Blocks > metal: 'Horizon' and 'Horizon Factor' are both given"});
+  expect_error(changed(deck, horizon, ""), {"1 problem\n", "Blocks > metal > Horizon: missing", "'Horizon Factor'"});
+}
+
+TEST_F(Mistake, NodesOfSpheresOrOfAText) {
+  const std::string mesh = key("Input Mesh File", "bar.g"), deck = right_parts().text();
+  EXPECT_EQ(outcome(changed(deck, mesh, mesh + key("Points", "Nodes"))).value_or("no error"), "no error");
+  run_on_root(world, [&] {
+    io::Mesh balls;
+    balls.nodes = {Vector(0, 0, 0), Vector(1e-3, 0, 0)};
+    balls.blocks.push_back({"bar", "SPHERE", {0, 1}, {1e-9, 1e-9}});
+    io::write_mesh(folder / "balls.g", balls);
+  });
+  expect_error(changed(deck, mesh, key("Input Mesh File", "balls.g") + key("Points", "Nodes")),
+               {"balls.g: block 'bar' has spheres", "HEX8", "TET4", "points at elements"});
+  const std::string text = changed(deck, key("Type", "Exodus"), key("Type", "Text File"));
+  expect_error(changed(text, mesh, mesh + key("Points", "Nodes")),
+               {"1 problem\n", "Discretization > Points: 'Nodes'", "expected 'Elements'"});
+}
+
+TEST_F(Mistake, FewNeighboursAtANodeAreTheNodes) {
+  const std::string mesh = key("Input Mesh File", "bar.g");
+  const std::string deck = changed(right_parts().text(), key("Horizon", "2.01e-3"), key("Horizon Factor", "1.1"));
+  // A corner has three neighbours at one spacing; the first one is node 1.
+  expect_error(changed(deck, mesh, mesh + key("Points", "Nodes")),
+               {"points have too few neighbours", "node 1 of block bar at (0, 0, 0) m has 3 neighbours"});
+}
+
 TEST_F(Mistake, UnknownVariables) {
   const std::string deck = right_parts().text();
   expect_error(changed(deck, "\"Displacement\"", "\"Displacment\""),
@@ -217,6 +248,14 @@ TEST_F(Mistake, UnknownVariables) {
                {"History > Variables > Max_Displacment", "did you mean 'Max_Displacement'"});
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
                {"History > Variables > Displacement", "expected Max_ or Min_"});
+  expect_error(
+      changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(fot)\""),
+      {"History > Variables > Max_Displacement(fot): there is no node set or block 'fot' (did you mean 'foot'?)",
+       "there are foot, top, bar, plate"});
+  const std::string nowhere = "    <ParameterList name=\"Node Sets\">" + key("nowhere", "x > 1") + "</ParameterList>";
+  expect_error(changed(changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(nowhere)\""),
+                       "<ParameterList name=\"Materials\">", nowhere + "<ParameterList name=\"Materials\">"),
+               {"History > Variables > Max_Displacement(nowhere)", "holds no point"});
   const std::string both = changed(deck, "\"Displacement\"", "\"Displacment\"");
   expect_error(changed(both, "\"Max_Displacement\"", "\"Max_Displacment\""),
                {"Output > Output Variables > Displacment", "History > Variables > Max_Displacment"});

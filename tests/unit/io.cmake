@@ -1,1 +1,1 @@
-strut_test(test_io SOURCES test_io.cpp test_io_broken_files.cpp SEES io points RANKS 1 2 3)
+strut_test(test_io SOURCES test_io.cpp test_io_broken_files.cpp test_node_points.cpp SEES io points RANKS 1 2 3)

@@ -37,6 +37,7 @@ PointCloud gathered(const PointCloud& cloud, const Communicator& world) {
   whole.ids = gathered(cloud.ids, world);
   whole.element_ids = gathered(cloud.element_ids, world);
   whole.volumes = gathered(cloud.volumes, world);
+  whole.spacings = gathered(cloud.spacings, world);
   whole.blocks = gathered(cloud.blocks, world);
   whole.sets = gathered(cloud.sets, world);
   return whole;
@@ -77,6 +78,7 @@ TEST(Mesh, RoundTripKeepsBlocksSetsAndVolumes) {
   const Vector centres[] = {{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.25, 0.25, 1.25}, {5, 5, 5}, {6, 5, 5}};
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(whole.volumes[i], volumes[i], 1e-15);
+    EXPECT_NEAR(whole.spacings[i], std::cbrt(volumes[i]), 1e-15);
     EXPECT_LT((whole.positions[i] - centres[i]).norm(), 1e-14);
   }
 }

@@ -1,4 +1,5 @@
 // strut-mesh: points, volumes and node sets of what it makes, and what it says about wrong recipes.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -134,6 +135,63 @@ TEST_F(MeshTool, SeveralBodiesShareTheKeysBeforeThem) {
   EXPECT_EQ(sizes.size(), 12);
   EXPECT_EQ(sizes.count("foot"), 0);
   EXPECT_EQ(sizes.at("block_zmin"), 4);
+}
+
+// The faces of the layers, from the nodes.
+std::vector<double> levels(const std::string& file) {
+  std::vector<double> all;
+  for (const Vector& node : io::read_mesh(file).nodes) all.push_back(node.z());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+TEST_F(MeshTool, GradedLayersGrowUpToTheCoarsestAndFillTheLength) {
+  const std::string cylinder =
+      "shape = cylinder\nmethod = fitted\nlength = 0.0324\nradius = 0.0032\nspacing = 0.35e-3\n";
+  ASSERT_EQ(make(cylinder + "grading = 1.08\nuniform = 4e-3\ncoarsest = 0.5e-3\n").status, 0);
+  const std::vector<double> z = levels(path("mesh.g"));
+  EXPECT_EQ(z.front(), 0);
+  EXPECT_EQ(z.back(), 0.0324);
+  const auto layer = [&](std::size_t k) { return z[k + 1] - z[k]; };
+  const double first = layer(0);
+  EXPECT_NEAR(first, 0.35e-3, 0.01 * 0.35e-3);  // half a layer more or less of 69
+  // 12 layers make 4.2 mm; then thicknesses grow by 1.08 until four steps have made 0.476 mm and a fifth would be more
+  // than 0.5 mm.
+  const double expected[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1.08, 1.1664, 1.259712, 1.36048896, 0.5 / 0.35};
+  for (std::size_t k = 0; k < std::size(expected); ++k) EXPECT_NEAR(layer(k) / first, expected[k], 1e-9) << k;
+  for (std::size_t k = 16; k + 1 < z.size(); ++k) EXPECT_NEAR(layer(k) / first, 0.5 / 0.35, 1e-9) << k;
+  // The section is that of the spacing: 16 cells across.
+  EXPECT_EQ(points().size(), 16 * 16 * (z.size() - 1));
+  EXPECT_NEAR(volume(points()), 0.0324 * 32 * 0.0032 * 0.0032 * std::sin(pi / 32), 1e-15);
+}
+
+TEST_F(MeshTool, GradedBoxHasTheSamePointsAsSpheres) {
+  const std::string box = "shape = box\nsize = 2 2 9\nspacing = 1\ngrading = 1.5\n";
+  const PointCloud hexahedra = made(box);
+  EXPECT_EQ(levels(path("mesh.g")).size(), 5);  // 1, 1.5, 2.25, 3.375: 8.125 is nearer to 9 than 13.2
+  const PointCloud spheres = made(box + "elements = sphere\n");
+  ASSERT_EQ(hexahedra.size(), spheres.size());
+  EXPECT_EQ(hexahedra.sets, spheres.sets);
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    EXPECT_NEAR((hexahedra.positions[i] - spheres.positions[i]).norm(), 0, 1e-14);
+    EXPECT_NEAR(hexahedra.volumes[i], spheres.volumes[i], 1e-14);
+  }
+}
+
+TEST_F(MeshTool, GradingThatCannotBeIsRefused) {
+  const std::string box = "shape = box\nsize = 1 1 1\nspacing = 0.1\n";
+  const std::string lattice = "shape = cylinder\nlength = 1\nradius = 1\nspacing = 0.2\n";
+  for (const auto& [recipe, expected] :
+       {std::pair(box + "grading = 0.9\n", "line 4: grading is '0.9', expected a number from 1 to 2"),
+        {box + "grading = 1.1\ncoarsest = 0.05\n", "line 5: coarsest is less than the spacing"},
+        {box + "grading = 1.1\nuniform = 0\n", "line 5: uniform is '0', expected a length > 0"},
+        {box + "uniform = 0.5\n", "line 4: a body without grading has no key 'uniform'"},
+        {lattice + "grading = 1.1\n", "line 5: a lattice cylinder has no key 'grading'"}}) {
+    const testing::Outcome outcome = make(recipe);
+    EXPECT_EQ(outcome.status, 1) << recipe;
+    EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
+  }
 }
 
 TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {

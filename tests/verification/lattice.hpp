@@ -39,6 +39,7 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
         cloud.element_ids.push_back(cloud.ids.back() + 1);
         cloud.positions.push_back(spec.spacing * Vector(i + 0.5 + dx, j + 0.5 + dy, k + 0.5 + dz));
         cloud.volumes.push_back(std::pow(spec.spacing, 3));
+        cloud.spacings.push_back(spec.spacing);
         cloud.blocks.push_back(0);
         cloud.sets.push_back(0);
       }

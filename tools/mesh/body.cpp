@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/foam.hpp"
+#include "mesh/layers.hpp"
 #include "mesh/section.hpp"
 
 namespace strut::mesh {
@@ -28,14 +29,13 @@ void check_cells(const Body& body, const Vector& extent) {
   }
 }
 
-int layers_of(const Body& body) {
+void check_size(const Body& body) {
   const double across = 2 * body.radius;
   check_cells(body, body.shape == Body::Shape::box ? body.size : Vector(across, across, body.length));
   // A lattice's cubes take the thickness of a layer, which must not be far from what was asked for.
   if (body.shape == Body::Shape::cylinder && body.length < body.spacing / 2) {
     throw Error("body '" + body.name + "' is shorter than half a cell: the spacing is too large");
   }
-  return std::max(1, static_cast<int>(std::lround(height(body) / body.spacing)));
 }
 
 Section section_of(const Body& body, double layer) {
@@ -44,11 +44,11 @@ Section section_of(const Body& body, double layer) {
   return lattice_disc(body.radius, layer, body.centred);  // cubes: the fitted spacing in the plane, too
 }
 
-// A body in the making: a section and its layers, in the body's own coordinates.
+// A body in the making: a section and the heights of its layers' faces, in the body's own coordinates.
 struct Extrusion {
   const Section& section;
-  int layers;
-  double layer;  // thickness
+  const std::vector<double>& levels;
+  int layers = static_cast<int>(levels.size()) - 1;
 
   io::Mesh hexahedra() const;
   io::Mesh spheres() const;
@@ -75,7 +75,7 @@ io::Mesh Extrusion::hexahedra() const {
   io::Mesh mesh;
   const int stride = static_cast<int>(section.nodes.size());
   for (int k = 0; k <= layers; ++k) {
-    for (const Point& p : section.nodes) mesh.nodes.emplace_back(p.x(), p.y(), layer * k);
+    for (const Point& p : section.nodes) mesh.nodes.emplace_back(p.x(), p.y(), levels[k]);
   }
   io::Mesh::Block& block = mesh.blocks.emplace_back();
   block.type = "HEX8";
@@ -101,8 +101,8 @@ io::Mesh Extrusion::spheres() const {
     for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
       const Section::Shape shape = section.shape(cell);
       block.nodes.push_back(static_cast<int>(mesh.nodes.size()));
-      block.volumes.push_back(shape.area * layer);
-      mesh.nodes.emplace_back(shape.centroid.x(), shape.centroid.y(), (k + 0.5) * layer);
+      block.volumes.push_back(shape.area * (levels[k + 1] - levels[k]));
+      mesh.nodes.emplace_back(shape.centroid.x(), shape.centroid.y(), (levels[k] + levels[k + 1]) / 2);
     }
   }
   mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range((layers - 1) * stride, layers * stride)}};
@@ -125,7 +125,20 @@ std::vector<int> Extrusion::cells_touching(const std::vector<int>& nodes) const 
   return cells;
 }
 
-std::string summary_of(const Body& body, const Section& section, int layers) {
+std::string thickness_of(const std::vector<double>& levels) {
+  const std::size_t layers = levels.size() - 1;
+  const double first = levels[1] - levels[0], last = levels[layers] - levels[layers - 1];
+  char text[100];
+  if (last < 1.000001 * first) {
+    std::snprintf(text, sizeof text, "%.6g m", levels.back() / static_cast<double>(layers));
+  } else {
+    std::snprintf(text, sizeof text, "%.6g to %.6g m", first, last);
+  }
+  return text;
+}
+
+std::string summary_of(const Body& body, const Section& section, const std::vector<double>& levels) {
+  const int layers = static_cast<int>(levels.size()) - 1;
   double area = 0;
   double smallest = INFINITY;
   for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
@@ -136,18 +149,17 @@ std::string summary_of(const Body& body, const Section& section, int layers) {
   const double volume = area * height(body);
   const double exact = exact_volume(body);
   char text[500];
-  std::snprintf(
-      text, sizeof text,
-      "%s: %s, %s: %.0f points = %.0f in a layer x %d layers\n"
-      "  spacing along z %.6g m, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
-      "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
-      body.name.c_str(), body.shape == Body::Shape::box ? "box" : "cylinder",
-      body.method == Body::Method::fitted     ? "fitted"
-      : body.shape == Body::Shape::box        ? "lattice"
-      : body.centred == Body::Centred::corner ? "lattice, axis through a corner"
-                                              : "lattice, axis through a point",
-      cells * layers, cells, layers, height(body) / layers, std::sqrt(area / cells), std::sqrt(smallest), body.spacing,
-      volume, exact, 100 * (volume / exact - 1));
+  std::snprintf(text, sizeof text,
+                "%s: %s, %s: %.0f points = %.0f in a layer x %d layers\n"
+                "  spacing along z %s, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
+                "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
+                body.name.c_str(), body.shape == Body::Shape::box ? "box" : "cylinder",
+                body.method == Body::Method::fitted     ? "fitted"
+                : body.shape == Body::Shape::box        ? "lattice"
+                : body.centred == Body::Centred::corner ? "lattice, axis through a corner"
+                                                        : "lattice, axis through a point",
+                cells * layers, cells, layers, thickness_of(levels).c_str(), std::sqrt(area / cells),
+                std::sqrt(smallest), body.spacing, volume, exact, 100 * (volume / exact - 1));
   return text;
 }
 
@@ -167,11 +179,13 @@ void check_new(const std::vector<std::string>& names, const std::vector<std::str
 }
 
 io::Mesh extruded(const Body& body, std::string& summary) {
-  const int layers = layers_of(body);
-  const double layer = height(body) / layers;
-  const Section section = section_of(body, layer);
-  const Extrusion extrusion{section, layers, layer};
-  summary = summary_of(body, section, layers);
+  check_size(body);
+  const std::vector<double> levels = levels_of(body, height(body));
+  // The cells of a uniform cylinder are as wide as its layers are thick; where layers grow, as the spacing.
+  const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
+  const Section section = section_of(body, across);
+  const Extrusion extrusion{section, levels};
+  summary = summary_of(body, section, levels);
   return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
 }
 

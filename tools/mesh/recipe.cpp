@@ -17,9 +17,10 @@ namespace {
 
 const std::vector<std::string> keys = {"name",         "shape", "method",  "centred", "elements", "length",
                                        "radius",       "size",  "spacing", "origin",  "cell",     "relative_density",
-                                       "irregularity", "seed",  "file"};
+                                       "irregularity", "seed",  "file",    "grading", "uniform",  "coarsest"};
 
 const std::vector<std::string> foam_keys = {"cell", "relative_density", "irregularity", "seed"};
+const std::vector<std::string> grading_keys = {"grading", "uniform", "coarsest"};
 
 struct Entry {
   std::string value;
@@ -124,6 +125,7 @@ class Converter {
   void convert_file(Body& body) {
     refuse({"method", "elements", "spacing", "length", "radius", "centred", "size"}, "file");
     refuse(foam_keys, "file");
+    refuse(grading_keys, "file");
     const Entry* entry = required("file");
     if (entry == nullptr) return;
     body.file = folder_ / entry->value;
@@ -145,12 +147,22 @@ class Converter {
     body.centred = choice<Body::Centred>("centred", {"point", "corner"}, "corner");
     refuse({"size", "file"}, "cylinder");
     refuse(foam_keys, "cylinder");
-    if (body.method == Body::Method::fitted) refuse({"centred"}, "fitted cylinder");
+    if (body.method == Body::Method::fitted) {
+      refuse({"centred"}, "fitted cylinder");
+      convert_grading(body);
+    } else {
+      refuse(grading_keys, "lattice cylinder");  // its cells are cubes
+    }
   }
 
   void convert_box(Body& body, const std::string& shape) {
     refuse({"length", "radius", "centred", "file"}, shape);
-    if (shape == "box") refuse(foam_keys, shape);
+    if (shape == "box") {
+      refuse(foam_keys, shape);
+      convert_grading(body);
+    } else {
+      refuse(grading_keys, shape);
+    }
     if (body.method == Body::Method::fitted)
       fail(*entries_.find("method"), "a " + shape + " has only the method lattice");
     const Entry* entry = required("size");
@@ -174,6 +186,20 @@ class Converter {
       }
     }
     if (const Entry* entry = entries_.find("seed")) body.seed = whole(*entry);
+  }
+
+  void convert_grading(Body& body) {
+    const Entry* grading = entries_.find("grading");
+    if (grading == nullptr) return refuse({"uniform", "coarsest"}, "body without grading");
+    body.grading = number(grading->value).value_or(NAN);
+    if (!(body.grading >= 1 && body.grading <= 2)) {
+      fail(*grading, "grading is '" + grading->value + "', expected a number from 1 to 2");
+    }
+    if (entries_.find("uniform")) body.uniform = length("uniform");
+    if (const Entry* entry = entries_.find("coarsest")) {
+      body.coarsest = length("coarsest");
+      if (body.coarsest < body.spacing) fail(*entry, "coarsest is less than the spacing, with which layers begin");
+    }
   }
 
   std::uint64_t whole(const Entry& entry) {

@@ -23,6 +23,9 @@ struct Body {
   Centred centred = Centred::corner;
   Elements elements = Elements::hexahedra;
   double spacing = 0;              // m, wanted
+  double grading = 1;              // largest ratio of the thicknesses of neighbouring layers; 1: all alike
+  double uniform = 0;              // m, at zmin, where layers are not yet growing
+  double coarsest = 0;             // m, largest thickness of a layer; 0: no limit
   double length = 0;               // m, of a cylinder, along z
   double radius = 0;               // m
   Vector size = Vector::Zero();    // m, of a box
