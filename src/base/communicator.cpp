@@ -6,7 +6,9 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace strut {
 
@@ -84,6 +86,22 @@ double Communicator::min(double value) const { return -max(-value); }
 std::int64_t Communicator::sum(std::int64_t value) const {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_SUM, implementation_->raw);
   return value;
+}
+
+double Communicator::reproducible_sum(std::span<const double> terms) const {
+  double largest = 0;
+  bool finite = true;
+  for (const double term : terms) {
+    largest = std::max(largest, std::abs(term));
+    finite = finite && std::isfinite(term);
+  }
+  largest = max(finite ? largest : std::numeric_limits<double>::infinity());
+  if (largest == 0 || !std::isfinite(largest)) return largest;
+  const std::int64_t count = sum(static_cast<std::int64_t>(terms.size()));
+  const int unit = std::ilogb(largest) + 1 + std::ilogb(static_cast<double>(count)) + 1 - 62;
+  std::int64_t total = 0;
+  for (const double term : terms) total += std::llrint(std::ldexp(term, -unit));
+  return std::ldexp(static_cast<double>(sum(total)), unit);
 }
 
 std::int64_t Communicator::offset(std::int64_t value) const {

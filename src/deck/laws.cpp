@@ -59,11 +59,13 @@ Section with_stabilization(Section law) {
   law.keys.push_back({.name = "Stabilization",
                       .kind = Kind::choice,
                       .choices = {"Mean Gradient", "Silling", "None"},
-                      .fallback = "Silling",
-                      .meaning = "What holds zero-energy modes down."});
+                      .fallback = "Mean Gradient",
+                      .meaning =
+                          "What holds zero-energy modes down: a spring in each bond on what the mean deformation "
+                          "gradient of both ends, or (Silling) each end's own, does not see of it."});
   law.keys.push_back({.name = "Stabilization Coefficient",
                       .range = not_negative,
-                      .fallback = "0.02",
+                      .fallback = "0.01",
                       .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for "
                                  "every influence function and horizon. Not Peridigm's Hourglass Coefficient."});
   return law;

@@ -9,9 +9,8 @@ namespace strut {
 // from below; the residual of the last one is added, so that the estimate errs on the safe side.
 class StableStep {
  public:
-  // Collective. 2/ω_max in s, rounded down to a part in a thousand so that round-off, which depends on the number of
-  // ranks, does not reach the step. Infinity for a body without stiffness. Later calls start from the mode found last,
-  // which makes them cheaper.
+  // Collective. 2/ω_max in s, the same on any number of ranks to the last bit; infinity for a body without stiffness.
+  // Later calls start from the mode found last, which makes them cheaper.
   double estimate(Body& body);
 
   static constexpr int basis_size = 8;      // vectors kept: 24 bytes a point each while the estimate runs

@@ -58,12 +58,10 @@ contact_section='<ParameterList name="Contact">
 
 # problem NAME: sets what deck() reads.
 problem() {
-  contact= verlet= points=Elements horizon='name="Horizon" value="0.0085"'
+  contact= points=Elements horizon='name="Horizon" value="0.0085"'
   case $1 in
     bar) mesh_type=Exodus mesh_file=bar.g sets= foot=foot blocks=$(block bar all copper) ;;
     nodes)
-      # Modes of this symmetric mesh come in pairs, among which round-off chooses: the estimate of the step may tip.
-      verlet='<ParameterList name="Verlet"><Parameter name="Fixed dt" type="double" value="5e-7"/></ParameterList>'
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"'
       blocks=$(block bar all copper) ;;
     mixed | meeting)
@@ -133,7 +131,6 @@ $blocks
   </ParameterList>
   <ParameterList name="Solver">
     <Parameter name="Final Time" type="double" value="3.2e-4"/>
-    $verlet
   </ParameterList>
   <ParameterList name="Output">
     <Parameter name="Output Filename" type="string" value="$1.e"/>

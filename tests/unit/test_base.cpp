@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/communicator.hpp"
@@ -79,6 +81,26 @@ TEST(Communicator, Reductions) {
   std::string text = world.rank() == 0 ? "deck" : "";
   world.broadcast(text);
   EXPECT_EQ(text, "deck");
+}
+
+// Terms of very different size in any order on any rank: the same bits, and as near the true sum as doubles get.
+TEST(Communicator, ReproducibleSumDoesNotKnowOfRanks) {
+  const Communicator world;
+  const auto term = [](int k) { return std::sin(k) * std::pow(10, k % 7) / 3; };
+  std::vector<double> all, mine;
+  double expected = 0;
+  for (int k = 0; k < 1000; ++k) {
+    all.push_back(term(k));
+    expected += term(k);
+    if ((k * 7 + 3) % 5 % world.size() == world.rank()) mine.push_back(term(k));
+  }
+  std::reverse(mine.begin(), mine.end());
+  if (world.rank() > 0) all.clear();
+  EXPECT_EQ(world.reproducible_sum(mine), world.reproducible_sum(all));
+  EXPECT_NEAR(world.reproducible_sum(mine), expected, 1e-12 * 1e6);
+  EXPECT_EQ(world.reproducible_sum(std::vector<double>(3, 0)), 0);
+  if (world.rank() == 0) mine.push_back(std::nan(""));
+  EXPECT_FALSE(std::isfinite(world.reproducible_sum(mine)));
 }
 
 TEST(Function, NumberExpressionStatement) {
