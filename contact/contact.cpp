@@ -128,9 +128,7 @@ void Contact::add_forces(const Crowd& crowd, double dt, std::vector<Vector>& for
 
 void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const {
   if (!any()) return;
-  double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
-  for (const Meeting& meeting : meetings_) stiffness += meeting.tally.stiffness;
-  numbers.push_back(stiffness);
+  for (const Meeting& meeting : meetings_) numbers.push_back(meeting.tally.stiffness);
   for (const int block : blocks_) {
     for (const Meeting& meeting : meetings_) {
       const bool first = meeting.interaction.first == block;
@@ -145,15 +143,16 @@ void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) 
 
 void Contact::take_agreed(std::span<const double> numbers, double dt) {
   if (!any()) return;
-  stiffness_ = std::max(numbers[0], decay * stiffness_);
+  double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
+  for (std::size_t m = 0; m < meetings_.size(); ++m) stiffness += numbers[m];
+  stiffness_ = std::max(stiffness, decay * stiffness_);
   const auto reach = [&](int block) {
     const auto at = std::find(blocks_.begin(), blocks_.end(), block) - blocks_.begin();
-    return numbers.data() + 1 + 6 * at;
+    return numbers.data() + meetings_.size() + 6 * at;
   };
   for (Meeting& meeting : meetings_) {
     const double motion = dt * diagonal(reach(meeting.interaction.first), reach(meeting.interaction.second));
     meeting.travelled += motion;
-    // Said so that a speed that is not a number means a search, too.
     meeting.due = !(meeting.travelled + forecast * motion < meeting.allowance);
   }
 }

@@ -38,6 +38,8 @@ class Shares {
  private:
   template <std::size_t size, class Parts>
   void add_block(int index, const Parts& parts_of) {
+    // A cube around each node: as many hexahedra as nodes fill a body, but six times as many tetrahedra.
+    constexpr double cells = size == 4 ? 6 : 1;
     const Mesh::Block& block = mesh_.blocks[index];
     for (std::size_t e = 0; e < block.elements(); ++e) {
       const std::array<double, size> parts = parts_of(corners<size>(mesh_, block, e));
@@ -47,7 +49,7 @@ class Shares {
       for (std::size_t n = 0; n < size; ++n) {
         Share& share = shares_[block.nodes[e * size + n]];
         share.volume += parts[n];
-        share.around += volume;
+        share.around += cells * volume;
         ++share.elements;
         if (share.block < 0) share.block = index;
       }
@@ -59,6 +61,18 @@ class Shares {
   std::vector<Share> shares_;
   std::size_t elements_ = 0;  // so far
 };
+
+// A block all of whose nodes belong to blocks before it would be gone without a word.
+void check_blocks_have_points(const PointCloud& cloud, const std::string& file) {
+  std::vector<char> found(cloud.block_names.size(), 0);
+  for (const int block : cloud.blocks) found[block] = 1;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b]) continue;
+    throw Error(file + ": block '" + cloud.block_names[b] +
+                "' would have no point: all its nodes belong to blocks before it. Put it first in the file, refine it, or "
+                "use Points \"Elements\"");
+  }
+}
 
 }  // namespace
 
@@ -84,6 +98,7 @@ PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& nu
     cloud.blocks.push_back(share.block);
     cloud.sets.push_back(sets[n]);
   }
+  check_blocks_have_points(cloud, file);
   return cloud;
 }
 
