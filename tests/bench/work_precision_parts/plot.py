@@ -1,0 +1,33 @@
+"""Error against core-seconds, a panel a case; the Pareto front is drawn through."""
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+COLOURS = {"none": "tab:gray", "Silling": "tab:blue", "Mean": "tab:red", "ordinary": "tab:green"}
+
+
+def panel(axes, case, rows):
+    rows = [row for row in rows if row["error"]]
+    for row in rows:
+        nodes = row["points"] == "nodes"
+        axes.plot(row["seconds"], row["error"], "o" if nodes else "s", mfc="none" if float(row["horizon"]) > 2 else None,
+                  color=COLOURS[row["stabilisation"].split()[0]], ms=7)
+    front = sorted((row["seconds"], row["error"]) for row in rows if row["front"])
+    axes.plot(*zip(*front), "k-", lw=1, zorder=0)
+    axes.set(xscale="log", yscale="log", title=case.title, xlabel="core-seconds", ylabel="relative error")
+    axes.grid(alpha=0.3, which="both")
+
+
+def front(cases, path):
+    cases = [(case, rows) for case, rows in cases if rows]
+    figure, axes = plt.subplots(2, 2, figsize=(11, 9), layout="constrained")
+    for one, (case, rows) in zip(axes.flat, cases):
+        panel(one, case, rows)
+    marks = [plt.Line2D([], [], ls="", marker="o", color=colour, label={"Mean": "mean gradient"}.get(name, name))
+             for name, colour in COLOURS.items()]
+    marks += [plt.Line2D([], [], ls="", marker=m, color="k", mfc=face, label=label) for m, face, label in
+              (("o", "k", "points at nodes"), ("s", "k", "points at elements"), ("o", "none", "horizon 3 spacings"))]
+    marks.append(plt.Line2D([], [], color="k", lw=1, label="Pareto front"))
+    figure.legend(handles=marks, loc="outside lower center", ncols=4, frameon=False)
+    figure.savefig(path, dpi=110)

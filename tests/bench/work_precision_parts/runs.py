@@ -1,0 +1,102 @@
+"""One run: mesh from a recipe, deck from what differs, core-seconds and history out."""
+import csv
+import dataclasses
+import pathlib
+import re
+import subprocess
+
+import netCDF4
+import numpy as np
+
+STEPPING = ("Deformation and stress", "Stabilisation", "Force", "Halo exchange", "Agreement of ranks", "Stable step",
+            "Motion and conditions", "Contact search", "Contact forces")
+
+
+def build(root):
+    subprocess.run([root / "tools/prepare", "release", "--target", "strut", "strut-mesh"], check=True,
+                   stdout=subprocess.DEVNULL)
+
+
+def parameter(name, value, kind="string"):
+    return f'<Parameter name="{name}" type="{kind}" value="{value}"/>\n'
+
+
+def section(name, *content):
+    return f'<ParameterList name="{name}">\n{"".join(content)}</ParameterList>\n'
+
+
+def method_keys(method):
+    if method.stabilisation == "ordinary":
+        return parameter("Material Model", "Elastic")
+    kind, coefficient = method.kind()
+    return parameter("Stabilization", kind) + (parameter("Stabilization Coefficient", coefficient) if coefficient else "")
+
+
+@dataclasses.dataclass
+class Result:
+    seconds: float  # of the steps, on one core
+    number: int     # of points
+    history: dict   # columns
+    path: pathlib.Path
+
+    def last_field(self, name):
+        """Reference positions and a vector field at the last output, a row a point."""
+        with netCDF4.Dataset(self.path) as file:
+            names = ["".join(c.decode() for c in row.compressed()).strip("\0") for row in file["name_nod_var"][:]]
+            places = np.column_stack([file["coord" + axis][:] for axis in "xyz"])
+            field = [file[f"vals_nod_var{names.index(name + axis) + 1}"][-1] for axis in "XYZ"]
+            return places, np.column_stack(field)
+
+
+class Runner:
+    def __init__(self, root, work):
+        self.program, self.mesh_program, self.work = root / "build/release/strut", root / "build/release/tools/strut-mesh", work
+
+    def mesh(self, name, recipe):
+        """The mesh of a recipe, made anew."""
+        (self.work / f"{name}.recipe").write_text(recipe)
+        path = self.work / f"{name}.g"
+        path.unlink(missing_ok=True)
+        subprocess.run([self.mesh_program, f"{name}.recipe", path.name], cwd=self.work, check=True,
+                       stdout=subprocess.DEVNULL)
+        return path.name
+
+    def run(self, name, mesh, method, material, conditions, final_time, interval, variables):
+        """None where the run fails."""
+        model = method_keys(method)
+        if method.stabilisation != "ordinary":
+            model = parameter("Material Model", material.correspondence) + model
+        deck = section(
+            "deck",
+            section("Discretization", parameter("Type", "Exodus"), parameter("Input Mesh File", mesh),
+                    parameter("Points", method.points), parameter("Influence Function", method.influence),
+                    parameter("Degenerate Points", "Drop")),
+            section("Materials", section("solid", model, material.keys)),
+            section("Blocks", section("all", parameter("Block Names", "all"), parameter("Material", "solid"),
+                                      parameter("Horizon Factor", method.horizon, "double"))),
+            section("Boundary Conditions", *conditions),
+            section("Solver", parameter("Final Time", final_time, "double"),
+                    section("Verlet", parameter("Safety Factor", 0.8, "double"))),
+            section("Output", parameter("Output Filename", f"{name}.e"),
+                    parameter("Output Interval", final_time, "double"),
+                    section("Output Variables", parameter("Velocity", "true", "bool"))),
+            section("History", parameter("Filename", f"{name}.csv"), parameter("Interval", interval, "double"),
+                    section("Variables", *(parameter(v, "true", "bool") for v in variables))))
+        (self.work / f"{name}.xml").write_text(deck)
+        done = subprocess.run([self.program, f"{name}.xml"], cwd=self.work, capture_output=True, text=True)
+        if done.returncode != 0:
+            return None
+        with open(self.work / f"{name}.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        history = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+        number = int(re.search(r"(\d+) points,", done.stdout).group(1))
+        return Result(seconds(done.stdout), number, history, self.work / f"{name}.e")
+
+
+def seconds(report):
+    """Of the steps alone: start-up and output are not the method's."""
+    total = 0.0
+    for phase in STEPPING:
+        found = re.search(rf"^{phase} +([0-9.]+)", report, re.M)
+        total += float(found.group(1)) if found else 0.0
+    return total
