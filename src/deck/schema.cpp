@@ -107,32 +107,34 @@ Section blocks() {
       .name = "Blocks",
       .required = true,
       .meaning = "What the blocks of the mesh are made of.",
-      .sections = {{.name = any_name,
-                    .required = true,
-                    .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
-                    .keys = {{.name = "Block Names",
-                              .kind = Kind::names,
-                              .required = true,
-                              .meaning = "Blocks of the mesh, or `all`."},
-                             {.name = "Material",
-                              .kind = Kind::text,
-                              .required = true,
-                              .meaning = "The name of a section in Materials."},
-                             {.name = "Horizon",
-                              .unit = "m",
-                              .range = positive,
-                              .meaning = "δ: points closer than this are neighbours. Either this or Horizon Factor."},
-                             {.name = "Horizon Factor",
-                              .range = {.low = 1, .high = 20},
-                              .meaning = "δ of each point in local spacings: the edge of a cube with the volume of its "
-                                         "element, or with the mean volume of the elements around its node. Points i "
-                                         "and j are neighbours when they are closer than (δ_i + δ_j)/2."},
-                             {.name = "Separate Body",
-                              .kind = Kind::boolean,
-                              .fallback = "false",
-                              .meaning = "Points of this section are not bonded to those of others, however near: a "
-                                         "body of its own, that others meet in contact."}},
-                    .hints = {{"Damage Model", reserved}}}}};
+      .sections = {
+          {.name = any_name,
+           .required = true,
+           .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
+           .keys = {{.name = "Block Names",
+                     .kind = Kind::names,
+                     .required = true,
+                     .meaning = "Blocks of the mesh, or `all`."},
+                    {.name = "Material",
+                     .kind = Kind::text,
+                     .required = true,
+                     .meaning = "The name of a section in Materials."},
+                    {.name = "Horizon",
+                     .unit = "m",
+                     .range = positive,
+                     .meaning = "δ: points closer than this are neighbours. Either this or Horizon Factor."},
+                    {.name = "Horizon Factor",
+                     .range = {.low = 1, .high = 20},
+                     .meaning =
+                         "δ of each point in local spacings: the edge of a cube with the volume of its "
+                         "element, or with the mean volume of the elements around its node (six times "
+                         "that of tetrahedra). Points i and j are neighbours when they are closer than (δ_i + δ_j)/2."},
+                    {.name = "Separate Body",
+                     .kind = Kind::boolean,
+                     .fallback = "false",
+                     .meaning = "Points of this section are not bonded to those of others, however near: a "
+                                "body of its own, that others meet in contact."}},
+           .hints = {{"Damage Model", reserved}}}}};
 }
 
 Section contact() {

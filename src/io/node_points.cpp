@@ -68,9 +68,10 @@ void check_blocks_have_points(const PointCloud& cloud, const std::string& file) 
   for (const int block : cloud.blocks) found[block] = 1;
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b]) continue;
-    throw Error(file + ": block '" + cloud.block_names[b] +
-                "' would have no point: all its nodes belong to blocks before it. Put it first in the file, refine it, or "
-                "use Points \"Elements\"");
+    throw Error(
+        file + ": block '" + cloud.block_names[b] +
+        "' would have no point: all its nodes belong to blocks before it. Put it first in the file, refine it, or "
+        "use Points \"Elements\"");
   }
 }
 

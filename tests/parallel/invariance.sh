@@ -157,7 +157,7 @@ $blocks
 END
 }
 
-# Families are in the order of ids and the step is rounded, so that fields should not depend on the ranks at all; totals
+# Families are in the order of ids and the step's estimate sums reproducibly, so that fields should not depend on the ranks at all; totals
 # are sums over ranks and differ by round-off, 1e-15 of their terms. 1e-9 of the largest value leaves room for both, and
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.

@@ -227,6 +227,27 @@ TEST_F(NodePoints, ComeOutOfAResultAgain) {
   for (std::size_t n = 0; n < result.nodal[0][0].size(); ++n) EXPECT_EQ(result.nodal[0][0][n], n);
 }
 
+// Six tetrahedra a brick, cubes of one size: inner nodes have the spacing that they have with bricks.
+TEST_F(NodePoints, OfTetrahedraHaveTheSpacingOfBricks) {
+  const PointCloud cloud = read(as_tetrahedra(bricks({0, 2, 4, 6}, {0, 2, 4}, {0, 2, 4})));
+  for (const double spacing : cloud.spacings) EXPECT_NEAR(spacing, 2, 1e-13);
+}
+
+// Two bricks with a brick between them that is last in the file: its eight nodes belong to them.
+TEST_F(NodePoints, ABlockWithoutNodesOfItsOwnIsAnError) {
+  Mesh mesh = bricks({0, 1}, {0, 1}, {0, 1, 2, 3});
+  const std::vector<int> all = mesh.blocks[0].nodes;
+  mesh.blocks[0].nodes.assign(all.begin(), all.begin() + 8);
+  mesh.blocks[0].nodes.insert(mesh.blocks[0].nodes.end(), all.begin() + 16, all.end());
+  mesh.blocks.push_back({"glue", "HEX8", {all.begin() + 8, all.begin() + 16}, {}});
+  try {
+    read(mesh);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("block 'glue' would have no point"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(NodePoints, AreRefusedForSpheresAndElementsInsideOut) {
   const auto error = [&](const Mesh& mesh) -> std::string {
     try {
