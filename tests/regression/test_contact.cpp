@@ -12,10 +12,11 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double h = 1e-3;  // spacing, m
 
-// Two blocks of copper that are bodies of their own, horizon 2.01 spacings.
-std::string two_bodies() {
+// Blocks of copper that are bodies of their own, horizon 2.01 spacings.
+std::string bodies(int count) {
   std::string blocks;
-  for (const std::string name : {"block_1", "block_2"}) {
+  for (int b = 1; b <= count; ++b) {
+    const std::string name = "block_" + std::to_string(b);
     blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
                                 key("Separate Body", "true"));
   }
@@ -27,7 +28,7 @@ Parts parts_with(const RunFolder& folder, const std::string& points) {
   Parts parts;
   parts.mesh_type = "Text File";
   parts.mesh_file = "points.txt";
-  parts.blocks = two_bodies();
+  parts.blocks = bodies(2);
   return parts;
 }
 
@@ -216,6 +217,23 @@ TEST(Contact, OverlapAtTheStartIsWarnedOf) {
   EXPECT_EQ(overlap_warning(Simulation(folder, parts).solver.contact(), folder.world), "");
   parts.contact = contact_of({{"block_1", "block_2"}}, "1.6e-3", "1e12");
   EXPECT_NE(overlap_warning(Simulation(folder, parts).solver.contact(), folder.world), "");
+}
+
+// Two pairs far apart, which two ranks share: the bound of the stiffness is the sum of both interactions' on any
+// number.
+TEST(Contact, StiffnessOfInteractionsAddsUpOverRanks) {
+  const RunFolder folder;
+  const auto pair = [](int block, double x) {
+    return cubes(block, {x, 0, 0}, 4, 4, 4, h) + cubes(block + 1, {x, 0, 4.5 * h}, 4, 4, 4, h);
+  };
+  Parts parts = parts_with(folder, pair(1, 0));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1.6e-3", "1e12");
+  const double one = Simulation(folder, parts).solver.contact().stiffness();
+  parts = parts_with(folder, pair(1, 0) + pair(3, 50 * h));
+  parts.blocks = bodies(4);
+  parts.contact = contact_of({{"block_1", "block_2"}, {"block_3", "block_4"}}, "1.6e-3", "1e12");
+  EXPECT_GT(one, 0);
+  EXPECT_NEAR(Simulation(folder, parts).solver.contact().stiffness(), 2 * one, 8 * epsilon * one);
 }
 
 // Bodies of their own are not bonded: cubes face to face share no bond, and fall apart.
