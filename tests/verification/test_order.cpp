@@ -12,7 +12,8 @@ LatticeSpec spec_of(double horizon) {
   return {{7, 7, 7}, h, horizon, 0, Influence::one, {1000, elastic(1e9, 0.3), 0, Formulation::correspondence, 0.01}};
 }
 
-// F_xx − 1 under x → x + field(x), of the points whose x-layer is `layer`, less the exact slope there; the same for all.
+// F_xx − 1 under x → x + field(x), of the points whose x-layer is `layer`, less the exact slope there; the same for
+// all.
 double slope_error(double horizon, int layer, const std::function<double(double)>& field, double exact_slope) {
   const Communicator world;
   Body body = lattice_body(spec_of(horizon), world);
