@@ -54,11 +54,14 @@ class Case:
     name = unit = title = ""
     methods, spacings, scale = PLAIN, (), 1.0
 
+    def spacings_of(self, method):
+        return self.spacings
+
     def rows(self, runner):
         """Each method at each spacing; what does not run is a row without an error."""
         rows = []
         for method in self.methods:
-            for spacing in self.spacings:
+            for spacing in self.spacings_of(method):
                 result = self.run(runner, method, spacing)
                 row = {"points": method.points.lower(), "stabilisation": method.stabilisation, "horizon": method.horizon,
                        "spacing": round(spacing * self.scale, 6), "number": "", "seconds": None, "error": None,
@@ -78,7 +81,7 @@ class Wave(Case):
     name, unit, title = "wave", "mm", "elastic wave in a bar"
     spacings, scale = (0.04, 0.02, 0.01), 1e3
     methods = PLAIN + [Method("Elements", "ordinary", 3.015, "Linear Decay")]
-    length, speed, density, width, centre = 1.0, 1000.0, 1000.0, 0.15, 0.4
+    length, speed, density, width, centre = 1.0, 1000.0, 1000.0, 0.3, 0.45
 
     def run(self, runner, method, spacing):
         mesh = runner.mesh("wave", recipe(shape="box", size="0.12 0.12 1", spacing=spacing, origin="-0.06 -0.06 0"))
@@ -129,7 +132,7 @@ class Torsion(Case):
             shape = np.cos(ratio * self.frequency() * time) ** 2
             return np.sum((kinetic - shape * (kinetic @ shape) / (shape @ shape)) ** 2)
 
-        return abs(minimum(misfit, 0.5, 1.5) - 1)
+        return abs(minimum(misfit, 0.2, 1.8) - 1)
 
 
 def minimum(function, low, high):
@@ -146,7 +149,7 @@ class Bar(Case):
     error is the root mean square of both."""
     name, unit, title = "bar", "mm", "Taylor bar at 227 m/s"
     spacings, scale = (0.8e-3, 0.5e-3, 0.35e-3), 1e3
-    methods = [m for m in PLAIN if m.horizon < 3 or m.stabilisation != "none"]
+    methods = [m for m in PLAIN if m.horizon < 3 or (m.points == "Elements" and m.stabilisation != "none")]
     times = (5, 10, 20, 30, 40, 50, 60, 70, 78, 80)
     radii = (4.522, 5.233, 6.205, 6.820, 7.147, 7.237, 7.234, 7.234, 7.233, 7.233)
     lengths = (31.264, 30.139, 28.065, 26.189, 24.562, 23.221, 22.213, 21.593, 21.420, 21.430)
@@ -155,6 +158,10 @@ class Bar(Case):
         ("Yield Stress", 400e6, "double"))) + section("Hardening", parameter("Type", "Linear"),
                                                       parameter("Hardening Modulus", 100e6, "double")),
         "Elastic Plastic Correspondence")
+
+    def spacings_of(self, method):
+        """The finest takes minutes: for the best ones."""
+        return self.spacings if method.points == "Nodes" and method.stabilisation != "none" else self.spacings[:2]
 
     def run(self, runner, method, spacing):
         """A point at an element stands for what reaches half a spacing farther: so far is the wall from the lowest."""

@@ -21,7 +21,8 @@ def panel(axes, case, rows):
 
 def front(cases, path):
     cases = [(case, rows) for case, rows in cases if rows]
-    figure, axes = plt.subplots(2, 2, figsize=(11, 9), layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(11, 9.5))
+    figure.subplots_adjust(left=0.07, right=0.98, top=0.96, bottom=0.12, hspace=0.25, wspace=0.2)
     for one, (case, rows) in zip(axes.flat, cases):
         panel(one, case, rows)
     marks = [plt.Line2D([], [], ls="", marker="o", color=colour, label={"Mean": "mean gradient"}.get(name, name))
@@ -29,5 +30,5 @@ def front(cases, path):
     marks += [plt.Line2D([], [], ls="", marker=m, color="k", mfc=face, label=label) for m, face, label in
               (("o", "k", "points at nodes"), ("s", "k", "points at elements"), ("o", "none", "horizon 3 spacings"))]
     marks.append(plt.Line2D([], [], color="k", lw=1, label="Pareto front"))
-    figure.legend(handles=marks, loc="outside lower center", ncols=4, frameon=False)
+    figure.legend(handles=marks, loc="lower center", ncol=5, frameon=False)
     figure.savefig(path, dpi=110)
