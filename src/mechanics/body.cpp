@@ -106,7 +106,8 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .velocity = {},
             .previous_velocity = {},
             .force_density = {},
-            .stabilization_work = {}};
+            .stabilization_work = {},
+            .residual = {}};
   const std::size_t owned = body.owned();
   body.force_states = zero_states(body.sites.size(), materials);
   body.points.resize(owned);
@@ -115,6 +116,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.previous_velocity.assign(owned, Vector::Zero());
   body.force_density.assign(owned, Vector::Zero());
   body.stabilization_work.assign(owned, 0);
+  body.residual.assign(owned, 0);
   for (MaterialBlock& block : body.blocks) set_shape(body, block);
   set_what_blocks_feel(body);
   return body;
@@ -128,7 +130,7 @@ Footprint footprint(const Body& body, const MaterialBlock& block) {
                              (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
   const std::size_t ordinary = block.is_ordinary() ? sizeof(OrdinaryPoint) : 0;
   constexpr std::size_t mechanics =
-      sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
+      sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + 2 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int) +
                                 sizeof(std::uint64_t) + sizeof(std::size_t);
   return {static_cast<double>(mechanics + forces + ordinary + cloud + state), sizeof(int)};

@@ -96,6 +96,7 @@ struct Body {
   std::vector<Vector> previous_velocity;   // at the mid-step before, m/s
   std::vector<Vector> force_density;       // N/m³ of reference volume
   std::vector<double> stabilization_work;  // energy of the stabilisation, J/m³; current after a step with views
+  std::vector<double> residual;  // Σ ω V |η − F ξ|², m⁵, by correspondence; current after a step with views
 
   int owned() const { return domain.owned; }
   double mass(int i) const { return density[i] * domain.volumes[i]; }

@@ -87,6 +87,11 @@ std::vector<Observable> kinematic() {
                    const MaterialPoint& p = b.points[i];
                    return symmetric_part(p.deformation_gradient * p.rotation.transpose());
                  }),
+      observable("Residual", "of F: the root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
+                 [](const Body& b, int i) {
+                   const double spread = to_tensor(b.points[i].shape_inverse).inverse().trace();
+                   return std::sqrt(std::max(0.0, b.residual[i]) / spread);
+                 }),
       observable("Jacobian", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
       dilatation(),

@@ -186,15 +186,17 @@ struct Update {
       }
       store_point(g, l, polar, F, A);
       steepest = std::max(steepest, steepness[l]);
-      if constexpr (with_views) store_energy(g, l, N, F, square[l]);
+      if constexpr (with_views) store_residual(g, l, N, F, square[l]);
     }
     return steepest;
   }
 
-  // ½ C Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F
-  void store_energy(const Group& g, int l, const LaneTensor& N, const LaneTensor& F, double square) const {
-    const double fitted = lane(N, l).cwiseProduct(lane(F, l)).sum();
-    body.stabilization_work[block.points[g.k[l]]] = 0.5 * g.points[l]->stabilization * (square - fitted);
+  // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it.
+  void store_residual(const Group& g, int l, const LaneTensor& N, const LaneTensor& F, double square) const {
+    const double residual = square - lane(N, l).cwiseProduct(lane(F, l)).sum();
+    const int i = block.points[g.k[l]];
+    body.residual[i] = residual;
+    body.stabilization_work[i] = 0.5 * g.points[l]->stabilization * residual;
   }
 };
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "bodies.hpp"
+#include "report.hpp"
 #include "simulation.hpp"
 
 namespace strut::regression {
@@ -331,6 +332,13 @@ TEST_F(Mistake, SeveralAreReportedAtOnce) {
   expect_error(deck, {"deck.xml", "6 problems", "Blocks > metal > Horizn", "Blocks > metal > Horizon: missing",
                       "Materials > copper > Density: '-8930'", "'baar.g' does not exist", "Solver > Final Time",
                       "Boundary Conditions > wall > Type: 'Prescribd Displacement'"});
+}
+
+TEST(FixedStep, AboveTheLimitIsWarnedOfAndBelowItNot) {
+  const double limit = 2e-7;
+  EXPECT_EQ(step_warning({0.99 * limit, 0}, limit, 0), "");
+  EXPECT_NE(step_warning({1.05 * limit, 0}, limit, 0).find("WARNING"), std::string::npos);
+  EXPECT_EQ(step_warning({0, 0.8}, limit, 0), "");  // its own step
 }
 
 // The step is some ten times the stable one: the bar blows up within a few steps.

@@ -254,6 +254,7 @@ TEST(Deck, ReadsTheTaylorDecks) {
   const DeckFolder folder;
   folder.write("bar.g", "");
   folder.write("bar-227-fitted.g", "");
+  folder.write("bar-190.g", "");
   const std::filesystem::path inputs = std::filesystem::path(STRUT_SOURCE_DIR) / "inputs" / "taylor";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(inputs)) {
