@@ -129,12 +129,12 @@ inline Vector force(const Families& families, const Site* sites, const ForceStat
 struct Residual {
   Vector force;   // Σ ω V_j C_ij z, N/m³
   Tensor moment;  // M = Σ ω V_j C_ij z ⊗ ξ, Pa
-  double energy;  // ½ Σ ω V_j ½ C_ij |z|², the point's half of it, J/m³, if asked for
+  double energy;  // ½ Σ ω V_j ½ C_ij |z|², the point's half of it, J/m³
 };
 
 // What the mean gradient of both ends does not see of their bond: z = (y_j − y_i) − ½ (F_i + F_j) ξ. A bond is as stiff
 // as its softer end: C_ij = 2 min(C̄_i, C̄_j), none to a point that has none.
-template <bool with_energy, class Weight>
+template <class Weight>
 inline Residual residual(const Families& families, const Site* places, const ForceState* gradients, int i,
                          Weight weight) {
   const Eigen::Array4d y = places[i].current;
@@ -154,7 +154,7 @@ inline Residual residual(const Families& families, const Site* places, const For
     sums[lane].x += t * xi[0];
     sums[lane].y += t * xi[1];
     sums[lane].z += t * xi[2];
-    if constexpr (with_energy) sums[lane].square += t * z;
+    sums[lane].square += t * z;
   });
   const Eigen::Array4d force = sums[0].force + sums[1].force, square = sums[0].square + sums[1].square;
   return {force.head<3>().matrix(), tensor_of(sums[0].x + sums[1].x, sums[0].y + sums[1].y, sums[0].z + sums[1].z),

@@ -51,8 +51,7 @@ void add_residual(const Body& body, const std::vector<Site>& places, Part part, 
     bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
       for_each_point(begin, end, [&, weight](int k) {
         const int i = block.points[k];
-        const auto sums =
-            bonds::residual<true>(body.domain.families, places.data(), states.gradients.data(), i, weight);
+        const auto sums = bonds::residual(body.domain.families, places.data(), states.gradients.data(), i, weight);
         const Tensor share = 0.5 * sums.moment * to_tensor(body.points[i].shape_inverse);
         for (int c = 0; c < 3; ++c) states.tensors[i].column[c].head<3>() -= share.col(c).array();
         result[i] = sums.force;
