@@ -9,14 +9,16 @@ namespace strut {
 namespace {
 
 // The third argument of a bench.
-enum Model { elastic_correspondence, plastic_correspondence, ordinary };
+enum Model { elastic_correspondence, plastic_correspondence, ordinary, plastic_mean_gradient };
 
 BlockMaterial copper(std::int64_t model) {
   const auto e = std::get<materials::Elastic>(elastic(110e9, 0.296));
   if (model == elastic_correspondence) return {8960, e, 0.02};
   if (model == ordinary) return {8960, e, 0, Formulation::ordinary};
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
-  return {8960, materials::J2{e.bulk, e.shear, flow}, 0.02};
+  const materials::J2 law{e.bulk, e.shear, flow};
+  if (model == plastic_mean_gradient) return {8960, law, 0, Formulation::correspondence, 0.01};
+  return {8960, law, 0.02};
 }
 
 // Arguments: points along an edge, horizon in thousandths of a spacing, model.
@@ -48,6 +50,8 @@ BENCHMARK(step)
     ->Args({50, 3015, plastic_correspondence})
     ->Args({27, 2015, plastic_correspondence})
     ->Args({50, 3015, ordinary})
+    ->Args({50, 3015, plastic_mean_gradient})
+    ->Args({50, 1750, plastic_mean_gradient})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
