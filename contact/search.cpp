@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "points/cell_grid.hpp"
+#include "points/common_box.hpp"
 #include "points/near_ranks.hpp"
 
 namespace strut::contact {
@@ -46,13 +47,10 @@ Vector place(const Candidate& c) { return {c.current[0], c.current[1], c.current
 Vector reference(const Candidate& c) { return {c.reference[0], c.reference[1], c.reference[2]}; }
 
 // The box of points over all ranks.
-Box common_box(const Crowd& crowd, std::span<const int> points) {
+Box box_of(const Crowd& crowd, std::span<const int> points) {
   Box mine;
   for (const int i : points) mine.extend(place(crowd.sites[i]));
-  double bounds[6];
-  for (int c = 0; c < 3; ++c) bounds[c] = mine.max()[c], bounds[3 + c] = -mine.min()[c];
-  crowd.domain.communicator.max(bounds);
-  return {-Vector(bounds[3], bounds[4], bounds[5]), Vector(bounds[0], bounds[1], bounds[2])};
+  return common_box(mine, crowd.domain.communicator);
 }
 
 // Those of `points` that lie within `reach` of the box.
@@ -68,8 +66,8 @@ void append_near(const Crowd& crowd, const std::vector<int>& points, const Box& 
 std::vector<int> possible_points(const Crowd& crowd, const Parties& parties, double reach) {
   if (parties.self) return parties.first;
   std::vector<int> points;
-  append_near(crowd, parties.first, common_box(crowd, parties.second), reach, points);
-  append_near(crowd, parties.second, common_box(crowd, parties.first), reach, points);
+  append_near(crowd, parties.first, box_of(crowd, parties.second), reach, points);
+  append_near(crowd, parties.second, box_of(crowd, parties.first), reach, points);
   std::sort(points.begin(), points.end());
   return points;
 }
@@ -177,7 +175,7 @@ Pairs find_pairs(const Crowd& crowd, const Parties& parties, const Model& model,
 }
 
 double distance_of_boxes(const Crowd& crowd, const Parties& parties) {
-  const Box one = common_box(crowd, parties.first), other = common_box(crowd, parties.second);
+  const Box one = box_of(crowd, parties.first), other = box_of(crowd, parties.second);
   if (one.isEmpty() || other.isEmpty()) return std::numeric_limits<double>::infinity();
   return one.exteriorDistance(other);
 }

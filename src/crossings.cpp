@@ -5,6 +5,8 @@
 #include <optional>
 #include <sstream>
 
+#include "points/common_box.hpp"
+
 namespace strut {
 
 namespace {
@@ -40,12 +42,7 @@ std::vector<Flight> flights(const Scene& scene, double start, double duration) {
     all[domain.cloud.blocks[i]].velocities.extend(velocities[i]);
   }
   for (Flight& flight : all) {
-    for (Eigen::AlignedBox3d* box : {&flight.places, &flight.velocities}) {
-      double bounds[6];
-      for (int c = 0; c < 3; ++c) bounds[c] = box->max()[c], bounds[3 + c] = -box->min()[c];
-      domain.communicator.max(bounds);
-      *box = {-Vector(bounds[3], bounds[4], bounds[5]), Vector(bounds[0], bounds[1], bounds[2])};
-    }
+    for (Eigen::AlignedBox3d* box : {&flight.places, &flight.velocities}) *box = common_box(*box, domain.communicator);
   }
   return all;
 }

@@ -42,6 +42,8 @@ Symmetric cauchy(const Body& body, int i) {
   return symmetric_part(p.rotation * to_tensor(p.stress) * p.rotation.transpose());
 }
 
+double weighted_volume(const Body& body, int i) { return to_tensor(body.points[i].shape_inverse).inverse().trace(); }
+
 // Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
 Observable dilatation() {
   const auto fill = [](const Body& body, std::vector<double>& out) {
@@ -88,10 +90,7 @@ std::vector<Observable> kinematic() {
                    return symmetric_part(p.deformation_gradient * p.rotation.transpose());
                  }),
       observable("Residual", "of F: the root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
-                 [](const Body& b, int i) {
-                   const double spread = to_tensor(b.points[i].shape_inverse).inverse().trace();
-                   return std::sqrt(std::max(0.0, b.residual[i]) / spread);
-                 }),
+                 [](const Body& b, int i) { return std::sqrt(std::max(0.0, b.residual[i]) / weighted_volume(b, i)); }),
       observable("Jacobian", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
       dilatation(),
@@ -113,8 +112,7 @@ std::vector<Observable> fixed_properties() {
       observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volumes[i]; }),
       observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
       observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizons[i]; }),
-      observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵",
-                 [](const Body& b, int i) { return to_tensor(b.points[i].shape_inverse).inverse().trace(); }),
+      observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵", weighted_volume),
       observable("Number_Of_Neighbors", "size of the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
       observable("Element_Id", "the mesh's own number",

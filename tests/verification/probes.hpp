@@ -38,18 +38,25 @@ inline bool stays_bounded(Body body, double factor) {
   return largest_over(body, [&](int i) { return body.velocity[i].norm(); }) < 1;
 }
 
+// Kv/ρ of the linearised operator for the field v(i), owned points.
+template <class OfPoint>
+std::vector<Vector> operator_on(Body& body, OfPoint&& field) {
+  advance_stress_and_force(body, 0, false);
+  std::vector<Site> directions = body.sites;
+  for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = field(i).array();
+  ForceStates scratch = body.force_states;
+  std::vector<Vector> result(body.owned());
+  apply_tangent(body, body.domain.halo, directions, scratch, result);
+  return result;
+}
+
 // The operator on direction · cos(wave · X), deep inside the lattice, is closed_form(i) · cos(wave · X).
 template <class ClosedForm>
 void expect_dispersion(Body& body, const LatticeSpec& spec, const Vector& direction, const Vector& wave,
                        ClosedForm&& closed_form) {
   const Communicator& world = body.domain.communicator;
-  advance_stress_and_force(body, 0, false);
   const auto phase = [&](int i) { return std::cos(wave.dot(body.domain.positions[i])); };
-  std::vector<Site> directions = body.sites;
-  for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = (direction * phase(i)).array();
-  ForceStates scratch = body.force_states;
-  std::vector<Vector> result(body.owned());
-  apply_tangent(body, body.domain.halo, directions, scratch, result);
+  const std::vector<Vector> result = operator_on(body, [&](int i) -> Vector { return direction * phase(i); });
   double scale = 0;
   int deep = 0;
   const double error = largest_over(body, [&](int i) {
@@ -65,5 +72,27 @@ void expect_dispersion(Body& body, const LatticeSpec& spec, const Vector& direct
 
 // A pulse of half-width 1.
 inline double pulse(double x) { return std::abs(x) < 1 ? std::pow(std::cos(0.5 * M_PI * x), 4) : 0; }
+
+inline void run_until(CentralDifference& solver, double final_time) {
+  while (solver.time() < final_time) {
+    solver.kick(final_time);
+    solver.move(false);
+  }
+}
+
+// Collective. The root mean square error of the displacement along x over that of the exact one, of the points that
+// count.
+template <class Exact, class Counts>
+double displacement_error(const Body& body, Exact&& exact, Counts&& counts) {
+  double sums[2] = {0, 0};
+  for (int i = 0; i < body.owned(); ++i) {
+    if (!counts(i)) continue;
+    const double expected = exact(body.domain.positions[i][0]);
+    sums[0] += std::pow(body.displacement(i)[0] - expected, 2);
+    sums[1] += expected * expected;
+  }
+  body.domain.communicator.sum(sums);
+  return std::sqrt(sums[0] / sums[1]);
+}
 
 }  // namespace strut

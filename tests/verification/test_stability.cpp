@@ -2,11 +2,9 @@
 //   build/release/tests/verification/test_stability | grep '^|'
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdio>
 #include <string>
 
-#include "base/rotation.hpp"
 #include "probes.hpp"
 
 namespace strut {
@@ -52,17 +50,12 @@ double resistance(double horizon, double stabilization, const Eigen::Array3i& pa
   const Communicator world;
   const LatticeSpec spec{{17, 17, 17}, h, horizon, 0, Influence::one, metal(stabilization)};
   Body body = lattice_body(spec, world);
-  advance_stress_and_force(body, 0, false);
   const auto sign = [&](int i) {
     const Eigen::Array3i cell = (body.domain.positions[i] / h).array().floor().cast<int>();
     return (cell * pattern).sum() % 2 == 0 ? 1.0 : -1.0;
   };
   const Vector direction = Vector(1, 0.5, -0.3).normalized();
-  std::vector<Site> directions = body.sites;
-  for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = (sign(i) * direction).array();
-  ForceStates scratch = body.force_states;
-  std::vector<Vector> result(body.owned());
-  apply_tangent(body, body.domain.halo, directions, scratch, result);
+  const std::vector<Vector> result = operator_on(body, [&](int i) -> Vector { return sign(i) * direction; });
   return largest_over(body, [&](int i) {
     const bool middle = is_deep(spec, body.domain.positions[i], 8);
     return middle ? std::abs(sign(i) * direction.dot(result[i])) : 0.0;

@@ -1,4 +1,4 @@
-"""What the Python tools share: installing what is missing, ending with one line, handing a mesh to strut-mesh."""
+"""What the Python tools share: installing what is missing, ending with one line, handing a mesh to strut-mesh, tables in pages."""
 import argparse
 import contextlib
 import difflib
@@ -195,3 +195,9 @@ def write_mesh(path, nodes, blocks, sets):
         said = errors.decode(errors="replace").strip().splitlines() or [f"exit status {run.returncode}"]
         fail(said[0] if said[0].startswith("strut-mesh") else f"strut-mesh: {said[0]}")
     print(out.decode(), end="")
+
+
+def put_into_page(page, name, body):
+    """Replaces what stands between <!-- name --> and <!-- end --> in the file `page` (a pathlib.Path)."""
+    pattern = re.compile(f"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
+    page.write_text(pattern.sub(lambda m: m.group(1) + body + "\n" + m.group(2), page.read_text()))

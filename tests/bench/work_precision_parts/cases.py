@@ -98,10 +98,10 @@ class Wave(Case):
         return np.where(x < 1, np.cos(np.pi / 2 * x) ** 4, 0)
 
     def error(self, result, method, spacing):
-        places, field = result.last_field("Velocity")
+        places, velocity_z = result.last_field("VelocityZ")
         z, travel = places[:, 2], 2.3 * self.length
         exact = (self.pulse(z - travel) + self.pulse(z + travel)) / 2
-        return np.sqrt(np.mean((field[:, 2] - exact) ** 2) / np.mean(exact**2))
+        return np.sqrt(np.mean((velocity_z - exact) ** 2) / np.mean(exact**2))
 
 
 class Torsion(Case):

@@ -5,8 +5,8 @@ import pathlib
 import re
 import subprocess
 
-import netCDF4
 import numpy as np
+from picture_parts import result as picture_result
 
 STEPPING = ("Deformation and stress", "Stabilisation", "Force", "Halo exchange", "Agreement of ranks", "Stable step",
             "Motion and conditions", "Contact search", "Contact forces")
@@ -40,12 +40,9 @@ class Result:
     path: pathlib.Path
 
     def last_field(self, name):
-        """Reference positions and a vector field at the last output, a row a point."""
-        with netCDF4.Dataset(self.path) as file:
-            names = ["".join(c.decode() for c in row.compressed()).strip("\0") for row in file["name_nod_var"][:]]
-            places = np.column_stack([file["coord" + axis][:] for axis in "xyz"])
-            field = [file[f"vals_nod_var{names.index(name + axis) + 1}"][-1] for axis in "XYZ"]
-            return places, np.column_stack(field)
+        """Reference positions, a row a point, and a component at the last output."""
+        result = picture_result.Result(str(self.path))
+        return result.reference, result.values(name, -1)
 
 
 class Runner:
