@@ -78,7 +78,7 @@ double predicted_memory(const Scene& scene) {
   for (const MaterialBlock& block : scene.body.blocks) {
     bytes += footprint(scene.body, block).per_point * static_cast<double>(block.points.size());
   }
-  bytes += sizeof(int) * static_cast<double>(scene.body.domain.families.bonds());
+  bytes += sizeof(int) * static_cast<double>(scene.body.domain.families.listed());
   return scene.body.domain.communicator.sum(bytes);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mechanics/bonds.hpp"
+#include "mechanics/lattice_sums.hpp"
 #include "points/parallel.hpp"
 
 namespace strut {
@@ -25,6 +26,9 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
       for (const double value : columns) block.state.insert(block.state.end(), block.points.size(), value);
     };
     std::visit(fresh_state, block.material.law);
+    if (!block.points.empty() && !domain.families.lattice_of.empty()) {
+      block.lattice = domain.families.lattice_of[block.points[0]];
+    }
     if (block.is_ordinary()) block.ordinary.resize(block.points.size());
   }
   return blocks;
@@ -60,7 +64,7 @@ void set_shape(Body& body, MaterialBlock& block) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, static_cast<int>(block.points.size()), [&, weight](int k) {
       const int i = block.points[k];
-      const Tensor K = bonds::gather<false>(body.domain.families, body.sites.data(), i, weight).moment;
+      const Tensor K = bonds::gather(body.domain.families, body.sites.data(), i, weight);
       body.points[i].shape_inverse = symmetric_part(K.inverse());
       if (block.is_ordinary()) {
         block.ordinary[k].weighted_volume = K.trace();
@@ -73,6 +77,10 @@ void set_shape(Body& body, MaterialBlock& block) {
 }
 
 void set_what_blocks_feel(Body& body) {
+  if (body.force_states.scalars.empty()) {
+    for (MaterialBlock& block : body.blocks) block.feels_correspondence = true;
+    return;
+  }
   std::vector<double> ordinary(body.sites.size());
   for (const MaterialBlock& block : body.blocks) {
     for (const int i : block.points) ordinary[i] = block.is_ordinary() ? 1 : 0;
@@ -84,10 +92,18 @@ void set_what_blocks_feel(Body& body) {
       (is_ordinary ? block.feels_ordinary : block.feels_correspondence) = true;
     };
     feel(block.is_ordinary());
-    for (const int i : block.points) {
-      for (std::size_t b = families.start[i]; b < families.start[i + 1]; ++b)
-        feel(ordinary[families.neighbours[b]] > 0);
-    }
+    for (const int i : block.points) families.for_each(i, [&](int j) { feel(ordinary[j] > 0); });
+  }
+}
+
+// After the shape tensors, and what the springs' stiffness C follows from.
+void add_lattice_sums(Body& body) {
+  if (body.domain.families.lattices.empty()) return;
+  std::vector<double> springs(body.sites.size());
+  for (int i = 0; i < body.owned(); ++i) springs[i] = body.points[i].stabilization;
+  body.domain.halo.exchange(springs.data(), 1, 1);
+  for (const LatticeFamilies& lattice : body.domain.families.lattices) {
+    body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, springs));
   }
 }
 
@@ -107,7 +123,8 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .previous_velocity = {},
             .force_density = {},
             .stabilization_work = {},
-            .residual = {}};
+            .residual = {},
+            .lattice_sums = {}};
   const std::size_t owned = body.owned();
   body.force_states = zero_states(body.sites.size(), materials);
   body.points.resize(owned);
@@ -119,6 +136,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.residual.assign(owned, 0);
   for (MaterialBlock& block : body.blocks) set_shape(body, block);
   set_what_blocks_feel(body);
+  add_lattice_sums(body);
   return body;
 }
 

@@ -1,6 +1,7 @@
 // All that mechanics knows of the points of one rank: the dictionary of fields.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -77,8 +78,12 @@ struct MaterialBlock {
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
   bool feels_correspondence = false, feels_ordinary = false;
 
+  int lattice = -1;  // in domain.families.lattices, where its points sit on one
+
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
 };
+
+class LatticeSums;
 
 struct Body {
   Domain domain;
@@ -97,6 +102,9 @@ struct Body {
   std::vector<Vector> force_density;       // N/m³ of reference volume
   std::vector<double> stabilization_work;  // energy of the stabilisation, J/m³; current after a step with views
   std::vector<double> residual;  // Σ ω V |η − F ξ|², m⁵, by correspondence; current after a step with views
+
+  // Workspaces of the sums over the families on lattices, as domain.families.lattices.
+  std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
   double mass(int i) const { return density[i] * domain.volumes[i]; }

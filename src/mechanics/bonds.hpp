@@ -59,11 +59,14 @@ void with_influence(Influence influence, Work&& work) {
 template <class Weight, class Visit>
 inline void over_family(const Families& families, const Site* sites, int i, Weight weight, Visit&& visit) {
   const Site here = sites[i];
-  const auto bond = [&](auto lane, std::size_t b) {
-    const int j = families.neighbours[b];
+  const auto bond_to = [&](auto lane, int j) {
     const Eigen::Array4d xi = sites[j].reference - here.reference;
     visit(lane, j, xi, sites[j].reference[3] * weight(xi, here.current[3] + sites[j].current[3]));
   };
+  if (const LatticeFamilies* stencil = families.lattice(i)) {
+    return stencil->for_each(i, [&](int j) { bond_to(std::integral_constant<int, 0>{}, j); });
+  }
+  const auto bond = [&](auto lane, std::size_t b) { bond_to(lane, families.neighbours[b]); };
   const std::size_t begin = families.start[i], end = families.start[i + 1];
   const std::size_t paired = begin + (end - begin) / 2 * 2;
   for (std::size_t b = begin; b < paired; b += 2) {
@@ -86,27 +89,30 @@ inline ForceState packed(const Tensor& A, double stabilization) {
   return state;
 }
 
-struct Gathered {
-  Tensor moment;  // N
-  double square;  // Σ ω V |y_j − y_i|², if asked for
-};
-
-template <bool with_square, class Weight>
-inline Gathered gather(const Families& families, const Site* sites, int i, Weight weight) {
+template <class Weight>
+inline Tensor gather(const Families& families, const Site* sites, int i, Weight weight) {
   const Eigen::Array4d y = sites[i].current;
   struct Sums {
-    Eigen::Array4d x = Eigen::Array4d::Zero(), y = x, z = x, square = x;
+    Eigen::Array4d x = Eigen::Array4d::Zero(), y = x, z = x;
   } sums[2];
   over_family(families, sites, i, weight, [&](auto lane, int j, const Eigen::Array4d& xi, double w) {
-    const Eigen::Array4d eta = sites[j].current - y;
-    const Eigen::Array4d weighted = w * eta;
+    const Eigen::Array4d weighted = w * (sites[j].current - y);
     sums[lane].x += weighted * xi[0];
     sums[lane].y += weighted * xi[1];
     sums[lane].z += weighted * xi[2];
-    if constexpr (with_square) sums[lane].square += weighted * eta;
   });
-  const Eigen::Array4d square = sums[0].square + sums[1].square;
-  return {tensor_of(sums[0].x + sums[1].x, sums[0].y + sums[1].y, sums[0].z + sums[1].z), square.head<3>().sum()};
+  return tensor_of(sums[0].x + sums[1].x, sums[0].y + sums[1].y, sums[0].z + sums[1].z);
+}
+
+// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F.
+template <class Weight>
+inline double squared_residual(const Families& families, const Site* sites, int i, const Tensor& F, Weight weight) {
+  double sum = 0;
+  over_family(families, sites, i, weight, [&](auto, int j, const Eigen::Array4d& xi, double w) {
+    const Vector eta = (sites[j].current - sites[i].current).head<3>().matrix();
+    sum += w * (eta - F * xi.head<3>().matrix()).squaredNorm();
+  });
+  return sum;
 }
 
 template <class Weight>

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/timing.hpp"
+#include "mechanics/lattice_sums.hpp"
 #include "mechanics/ordinary_bonds.hpp"
 #include "mechanics/stress.hpp"
 
@@ -40,22 +41,37 @@ void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
       [&] { work(Part::boundary); });
 }
 
+// What the points of lattices gain from the sums over them, in the part that comes after an exchange.
+template <class Add>
+void over_lattices(const Body& body, Part part, const Add& add) {
+  if (part == Part::interior) return;
+  for (const auto& sums : body.lattice_sums) add(*sums);
+}
+
 // The stabilisation by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
 // is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `places`: y, or
 // the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
-void add_residual(const Body& body, const std::vector<Site>& places, Part part, ForceStates& states,
-                  std::vector<Vector>& result, std::span<double> energy) {
+void add_residual(const Body& body, const std::vector<Site>& places, const Displacements& u, Part part,
+                  ForceStates& states, std::vector<Vector>& result, std::span<double> energy) {
+  over_lattices(body, part, [&](LatticeSums& sums) { sums.add_residuals(body, u, states.gradients); });
   for (const MaterialBlock& block : body.blocks) {
     if (!(block.material.mean_stabilization > 0)) continue;
     const auto [begin, end] = range(block, part);
     bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
       for_each_point(begin, end, [&, weight](int k) {
         const int i = block.points[k];
-        const auto sums = bonds::residual(body.domain.families, places.data(), states.gradients.data(), i, weight);
+        bonds::Residual sums;
+        if (block.lattice < 0 || !energy.empty()) {
+          sums = bonds::residual(body.domain.families, places.data(), states.gradients.data(), i, weight);
+        }
+        if (!energy.empty()) energy[i] += sums.energy;
+        if (block.lattice >= 0) {
+          const LatticeSums& on_lattice = *body.lattice_sums[block.lattice];
+          sums.force = on_lattice.residual_force(i), sums.moment = on_lattice.residual_moment(i);
+        }
         const Tensor share = 0.5 * sums.moment * to_tensor(body.points[i].shape_inverse);
         for (int c = 0; c < 3; ++c) states.tensors[i].column[c].head<3>() -= share.col(c).array();
         result[i] = sums.force;
-        if (!energy.empty()) energy[i] += sums.energy;
       });
     });
   }
@@ -67,13 +83,17 @@ template <class Extension>
 struct ForceSum {
   const Body& body;
   const std::vector<Site>& places;
+  Displacements u;
   Extension extension;
   ForceStates& states;
   std::vector<Vector>& result;
 
   void correspondence(Part part) const {
+    over_lattices(body, part, [this](LatticeSums& sums) { sums.add_forces(body, u, states.tensors); });
     over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock& block, int i, auto weight) {
-      const Vector force = bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight);
+      const Vector force =
+          block.lattice < 0 ? bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight)
+                            : body.lattice_sums[block.lattice]->force(i, u, states.tensors[i]);
       result[i] = block.material.mean_stabilization > 0 ? result[i] + force : force;
     });
   }
@@ -136,7 +156,17 @@ ScalarState tangent_state(const Body& body, const std::vector<Site>& directions,
   return scalar_state(moduli, 3 * moment / m, m);
 }
 
+// δF of a point along a field.
+template <class Weight>
+Tensor change_of_gradient(const Body& body, const MaterialBlock& block, const std::vector<Site>& directions, int i,
+                          Weight weight) {
+  const Tensor N = block.lattice < 0 ? bonds::gather(body.domain.families, directions.data(), i, weight)
+                                     : body.lattice_sums[block.lattice]->moment(i, {directions.data(), true});
+  return N * to_tensor(body.points[i].shape_inverse);
+}
+
 void set_tangent_states(const Body& body, const std::vector<Site>& directions, Part part, ForceStates& result) {
+  over_lattices(body, part, [&](LatticeSums& sums) { sums.add_moments(body, {directions.data(), true}); });
   for (const MaterialBlock& block : body.blocks) {
     const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
     const auto [begin, end] = range(block, part);
@@ -148,8 +178,7 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
           return;
         }
         const MaterialPoint& point = body.points[i];
-        const Tensor N = bonds::gather<false>(body.domain.families, directions.data(), i, weight).moment;
-        const Tensor dF = N * to_tensor(point.shape_inverse);
+        const Tensor dF = change_of_gradient(body, block, directions, i, weight);
         result.tensors[i] = tangent_state(point, moduli, dF);
         if (point.mean_stabilization > 0) result.gradients[i] = bonds::packed(dF, point.mean_stabilization);
       });
@@ -164,8 +193,10 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   static Teuchos::Time& stabilizing = phase("Stabilisation");
   static Teuchos::Time& summing = phase("Force");
   StepReport report;
+  const Displacements u{body.sites.data()};
   const auto over = [&](Part part) {
     const Timed timed(deforming);
+    over_lattices(body, part, [&](LatticeSums& sums) { sums.add_moments(body, u); });
     for (MaterialBlock& block : body.blocks) {
       if (block.is_ordinary()) {
         advance_ordinary(body, block, with_views, part, report);
@@ -181,10 +212,10 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
     const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
       const Timed timed(stabilizing);
-      add_residual(body, body.sites, part, body.force_states, body.force_density, energy);
+      add_residual(body, body.sites, u, part, body.force_states, body.force_density, energy);
     });
   }
-  add_up(body.domain.halo, ForceSum<bonds::OfPlaces>{body, body.sites, {}, body.force_states, body.force_density},
+  add_up(body.domain.halo, ForceSum<bonds::OfPlaces>{body, body.sites, u, {}, body.force_states, body.force_density},
          [] { return Timed(summing); });
   return report;
 }
@@ -196,9 +227,9 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, 
       [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
   if (!scratch.gradients.empty()) {
     behind_exchange(halo, scratch.gradients,
-                    [&](Part part) { add_residual(body, directions, part, scratch, result, {}); });
+                    [&](Part part) { add_residual(body, directions, {directions.data(), true}, part, scratch, result, {}); });
   }
-  add_up(halo, ForceSum<bonds::OfField>{body, directions, {directions.data()}, scratch, result},
+  add_up(halo, ForceSum<bonds::OfField>{body, directions, {directions.data(), true}, {directions.data()}, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
 }

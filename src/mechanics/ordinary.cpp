@@ -47,7 +47,7 @@ void set_views(Body& body, const MaterialBlock& block, Weight weight, Part part)
   const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
   for_each_point(begin, end, [&, weight](int k) {
     MaterialPoint& point = body.points[block.points[k]];
-    const Tensor N = bonds::gather<false>(body.domain.families, body.sites.data(), block.points[k], weight).moment;
+    const Tensor N = bonds::gather(body.domain.families, body.sites.data(), block.points[k], weight);
     point.deformation_gradient = N * to_tensor(point.shape_inverse);
     point.rotation = polar_rotation(point.deformation_gradient);
     point.stress = stress_of(moduli, point.rotation.transpose() * point.deformation_gradient);

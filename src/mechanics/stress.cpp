@@ -4,6 +4,7 @@
 
 #include "base/rotation.hpp"
 #include "mechanics/bonds.hpp"
+#include "mechanics/lattice_sums.hpp"
 
 // What is not inlined into the loop over groups passes its lanes through memory. Checking builds (debug, asan) go
 // without: it would take the compiler many minutes.
@@ -139,34 +140,38 @@ struct Update {
     }
   }
 
-  // N of the points of a group; a point that stands in for a missing one gets the first one's.
-  template <bool with_views>
-  LaneTensor gather(const Group& g, Lanes& square) const {
+  // F K of one point.
+  Tensor gather(int i) const {
+    if (block.lattice < 0) return bonds::gather(body.domain.families, body.sites.data(), i, weight);
+    return body.lattice_sums[block.lattice]->moment(i, {body.sites.data()});
+  }
+
+  // F of the points of a group; a point that stands in for a missing one gets the first one's.
+  LaneTensor deformation_gradient(const Group& g, const LaneSymmetric& shape_inverse) const {
     LaneTensor N;
     for (int l = 0; l < g.count; ++l) {
-      const bonds::Gathered sums =
-          bonds::gather<with_views>(body.domain.families, body.sites.data(), block.points[g.k[l]], weight);
+      const Tensor moment = gather(block.points[g.k[l]]);
       for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) N.c[i][j][l] = sums.moment(i, j);
+        for (int j = 0; j < 3; ++j) N.c[i][j][l] = moment(i, j);
       }
-      square[l] = sums.square;
     }
     for (int l = g.count; l < 4; ++l) {
       for (auto& row : N.c) {
         for (Lanes& entry : row) entry[l] = entry[0];
       }
     }
-    return N;
+    LaneTensor F = small::product(N, small::full(shape_inverse));
+    if (block.lattice >= 0) {
+      for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
+    }
+    return F;
   }
 
   // The largest ‖F⁻¹‖² of the points from `first` on, four at the most.
-  template <bool with_views>
   double advance_group(int first, int end) const {
     const Group g = group_of(body, block, first, end);
-    Lanes square;
-    const LaneTensor N = gather<with_views>(g, square);
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
-    const LaneTensor F = small::product(N, small::full(shape_inverse));
+    const LaneTensor F = deformation_gradient(g, shape_inverse);
     const Lanes J = small::determinant(F);
     const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
     if (dt > 0) {
@@ -186,29 +191,30 @@ struct Update {
       }
       store_point(g, l, polar, F, A);
       steepest = std::max(steepest, steepness[l]);
-      if constexpr (with_views) store_residual(g, l, N, F, square[l]);
     }
     return steepest;
   }
-
-  // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it.
-  void store_residual(const Group& g, int l, const LaneTensor& N, const LaneTensor& F, double square) const {
-    const double residual = square - lane(N, l).cwiseProduct(lane(F, l)).sum();
-    const int i = block.points[g.k[l]];
-    body.residual[i] = residual;
-    body.stabilization_work[i] = 0.5 * g.points[l]->stabilization * residual;
-  }
 };
 
-template <bool with_views, class L, class Weight>
-void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, Part part,
+// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it.
+template <class Weight>
+void view_residuals(Body& body, const MaterialBlock& block, Weight weight, int begin, int end) {
+  for_each_point(begin, end, [&, weight](int k) {
+    const int i = block.points[k];
+    const MaterialPoint& point = body.points[i];
+    body.residual[i] =
+        bonds::squared_residual(body.domain.families, body.sites.data(), i, point.deformation_gradient, weight);
+    body.stabilization_work[i] = 0.5 * point.stabilization * body.residual[i];
+  });
+}
+
+template <class L, class Weight>
+void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, int begin, int end,
                     StepReport& report) {
-  const auto [begin, end] = range(block, part);
   FirstFailure failure;
   const Update<L, Weight> update{body, block, law, weight, dt, failure};
-  const auto advance_group = [&update, begin = begin, end = end](int group) STRUT_INLINE_ALL {
-    return update.template advance_group<with_views>(begin + 4 * group, end);
-  };
+  const auto advance_group = [&update, begin, end](int group)
+                                 STRUT_INLINE_ALL { return update.advance_group(begin + 4 * group, end); };
   const double steepest = largest(0, (end - begin + 3) / 4, 0, advance_group);
   report.steepest = std::max(report.steepest, std::sqrt(steepest));
   if (!report.failure) report.failure = failure.found(block);
@@ -217,15 +223,11 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
 }  // namespace
 
 void advance_stress(Body& body, MaterialBlock& block, double dt, bool with_views, Part part, StepReport& report) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    const auto with_law = [&](const auto& law) {
-      if (with_views) {
-        advance_points<true>(body, block, law, weight, dt, part, report);
-      } else {
-        advance_points<false>(body, block, law, weight, dt, part, report);
-      }
-    };
-    std::visit(with_law, block.material.law);
+  const auto [begin, end] = range(block, part);
+  bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
+    std::visit([&](const auto& law) { advance_points(body, block, law, weight, dt, begin, end, report); },
+               block.material.law);
+    if (with_views) view_residuals(body, block, weight, begin, end);
   });
 }
 

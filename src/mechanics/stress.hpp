@@ -10,7 +10,9 @@ namespace strut {
 
 enum class Part { interior, boundary };  // the points that need no ghost; the others
 
+// Sums over lattices are of all points at once, after the exchange: their points are all in the second part.
 inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
+  if (block.lattice >= 0) return {0, part == Part::interior ? 0 : static_cast<int>(block.points.size())};
   if (part == Part::interior) return {0, block.interior};
   return {block.interior, static_cast<int>(block.points.size())};
 }

@@ -92,31 +92,78 @@ void for_each_neighbour(const CellGrid& grid, const Pool& pool, int i, double re
   });
 }
 
+// The bodies that sit on a lattice, over the pool: who owns which cell, until points have their order in memory.
+struct Stencils {
+  std::vector<LatticeFamilies> lattices;
+  std::vector<int> of;  // of pool members; −1: lists
+};
+
+Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<Vector>& positions,
+                     const std::vector<int>& bodies, int owned) {
+  Stencils stencils{{}, std::vector<int>(positions.size(), -1)};
+  for (const LatticeFrame& frame : frames) {
+    std::vector<int> members;
+    for (int i = 0; i < static_cast<int>(positions.size()); ++i) {
+      if (bodies[i] != frame.body) continue;
+      members.push_back(i);
+      stencils.of[i] = static_cast<int>(stencils.lattices.size());
+    }
+    stencils.lattices.emplace_back(frame, positions, std::move(members), owned);
+  }
+  return stencils;
+}
+
+// Calls visit(j) for the family of pool member i, by its stencil or by a search.
+template <class Visit>
+void for_each_neighbour(const Stencils& stencils, const CellGrid& grid, const Pool& pool, int i, double reach,
+                        Visit&& visit) {
+  if (stencils.of[i] >= 0) {
+    stencils.lattices[stencils.of[i]].for_each(i, visit);
+  } else {
+    for_each_neighbour(grid, pool, i, reach, visit);
+  }
+}
+
 // The order in which points and ghosts stand in memory, as places in the pool: owned points without ghosts in their
-// family first, then the others, both along the curve; then the ghosts that are in some family, ordered by id (ranks
-// that own them send runs of ids).
+// family first, then the others, both along the curve, or as they lie in their lattice; then the ghosts that are in some
+// family, ordered by id (ranks that own them send runs of ids).
 struct Order {
   std::vector<int> points, ghosts;
-  std::vector<std::size_t> family_sizes;  // of points
+  std::vector<std::size_t> list_sizes;  // of points
   int interior = 0;
 };
 
-Order order_of(const CellGrid& grid, const Pool& pool, int owned, double reach) {
+// Points on lattices by their cells, after all others.
+std::vector<int> as_in_lattices(const Stencils& stencils, int owned) {
+  std::vector<int> points(owned);
+  std::iota(points.begin(), points.end(), 0);
+  const auto place = [&](int i) {
+    const int lattice = stencils.of[i];
+    return std::pair(lattice, lattice < 0 ? i : stencils.lattices[lattice].cell(i));
+  };
+  if (!stencils.lattices.empty()) {
+    std::sort(points.begin(), points.end(), [&](int a, int b) { return place(a) < place(b); });
+  }
+  return points;
+}
+
+Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool, int owned, double reach) {
   Order order;
   std::vector<std::size_t> sizes(owned, 0);
   std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
+  const bool alone = pool.ids.size() == static_cast<std::size_t>(owned);
   for (int i = 0; i < owned; ++i) {
-    for_each_neighbour(grid, pool, i, reach, [&](int j) {
+    if (alone && stencils.of[i] >= 0) continue;
+    for_each_neighbour(stencils, grid, pool, i, reach, [&](int j) {
       ++sizes[i];
       if (j >= owned) needs_ghost[i] = used[j] = 1;
     });
   }
-  order.points.resize(owned);
-  std::iota(order.points.begin(), order.points.end(), 0);
+  order.points = as_in_lattices(stencils, owned);
   const auto boundary =
       std::stable_partition(order.points.begin(), order.points.end(), [&](int i) { return !needs_ghost[i]; });
   order.interior = static_cast<int>(boundary - order.points.begin());
-  for (const int i : order.points) order.family_sizes.push_back(sizes[i]);
+  for (const int i : order.points) order.list_sizes.push_back(stencils.of[i] < 0 ? sizes[i] : 0);
   for (int j = owned; j < static_cast<int>(pool.ids.size()); ++j) {
     if (used[j]) order.ghosts.push_back(j);
   }
@@ -124,17 +171,18 @@ Order order_of(const CellGrid& grid, const Pool& pool, int owned, double reach) 
   return order;
 }
 
-// Families of the points in their order, neighbours by local[]. Filled in a second look at the grid: growing or copying
+// Lists of the points in their order, neighbours by local[]. Filled in a second look at the grid: growing or copying
 // the lists, by far the largest of a run, would take twice their memory.
-Families families_of(const CellGrid& grid, const Pool& pool, const Order& order, const std::vector<int>& local,
-                     double reach) {
+Families lists_of(const CellGrid& grid, const Pool& pool, const Order& order, const std::vector<int>& local,
+                  double reach) {
   Families families;
   families.start.reserve(order.points.size() + 1);
-  for (const std::size_t size : order.family_sizes) families.start.push_back(families.start.back() + size);
+  for (const std::size_t size : order.list_sizes) families.start.push_back(families.start.back() + size);
   families.neighbours.reserve(families.start.back());
-  for (const int i : order.points) {
+  for (std::size_t k = 0; k < order.points.size(); ++k) {
+    if (order.list_sizes[k] == 0) continue;
     const auto begin = static_cast<std::ptrdiff_t>(families.neighbours.size());
-    for_each_neighbour(grid, pool, i, reach, [&](int j) { families.neighbours.push_back(j); });
+    for_each_neighbour(grid, pool, order.points[k], reach, [&](int j) { families.neighbours.push_back(j); });
     std::sort(families.neighbours.begin() + begin, families.neighbours.end(),
               [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
   }
@@ -157,13 +205,17 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   for (const BlockHorizons& block : blocks) reach = std::max(reach, block.largest * (1 + 1e-9));
   const int owned = static_cast<int>(cloud.size());
   const Pool pool = pool_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
-  const CellGrid grid(pool.positions, reach);
-  const Order order = order_of(grid, pool, owned, reach);
+  const std::vector<LatticeFrame> frames = lattice_frames(cloud, own_horizons, bonds, communicator);
+  const Stencils stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
+  const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
+  const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
+  const Order order = order_of(stencils, grid, pool, owned, reach);
   PointCloud mine = reordered(cloud, order.points);
   std::vector<int> local(pool.ids.size(), -1);
   std::vector<Vector> positions;
   std::vector<double> volumes, horizons;
   std::vector<std::int64_t> ghost_ids;
+  std::vector<int> bodies;
   std::vector<int> members = order.points;
   members.insert(members.end(), order.ghosts.begin(), order.ghosts.end());
   for (const int p : members) {
@@ -171,7 +223,14 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     positions.push_back(pool.positions[p]);
     volumes.push_back(pool.volumes[p]);
     horizons.push_back(pool.horizons[p]);
+    bodies.push_back(pool.bodies[p]);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
+  }
+  Families families = lists_of(grid, pool, order, local, reach);
+  if (!frames.empty()) {
+    Stencils own = stencils_of(frames, positions, bodies, owned);
+    families.lattices = std::move(own.lattices);
+    families.lattice_of = std::move(own.of);
   }
   Halo halo(communicator, mine.ids, ghost_ids);
   return {communicator,
@@ -183,17 +242,26 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
           std::move(volumes),
           std::move(horizons),
           std::move(blocks),
-          families_of(grid, pool, order, local, reach),
+          std::move(families),
           std::move(halo)};
+}
+
+std::size_t Families::bonds() const {
+  std::size_t count = listed();
+  for (const LatticeFamilies& stencil : lattices) {
+    for (const int i : stencil.members()) {
+      if (i < static_cast<int>(start.size()) - 1) count += size(i);
+    }
+  }
+  return count;
 }
 
 Tensor family_spread(const Domain& domain, int i) {
   Tensor spread = Tensor::Zero();
-  for (std::size_t b = domain.families.start[i]; b < domain.families.start[i + 1]; ++b) {
-    const int j = domain.families.neighbours[b];
+  domain.families.for_each(i, [&](int j) {
     const Vector xi = domain.positions[j] - domain.positions[i];
     spread += domain.volumes[j] * xi * xi.transpose();
-  }
+  });
   return spread;
 }
 

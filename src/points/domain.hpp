@@ -7,17 +7,37 @@
 #include "base/communicator.hpp"
 #include "points/cloud.hpp"
 #include "points/halo.hpp"
+#include "points/lattice.hpp"
 
 namespace strut {
 
-// Who is within the horizon: for owned point i, neighbours[start[i]] … neighbours[start[i + 1] − 1], local indices of
-// owned or ghost points, ordered by global id so that every sum over a family is the same on any number of ranks.
+// Who is within the horizon of an owned point: local indices of owned or ghost points. Of points on a lattice the family
+// is a stencil; all others have lists, neighbours[start[i]] … neighbours[start[i + 1] − 1] (none on a lattice). The order
+// is that of places in the lattice, or of global ids, so that every sum over a family is the same on any number of ranks.
 struct Families {
   std::vector<std::size_t> start{0};
   std::vector<int> neighbours;
+  std::vector<LatticeFamilies> lattices;
+  std::vector<int> lattice_of;  // of owned points: which of lattices, −1 for lists; empty where there is no lattice
 
-  std::size_t size(int i) const { return start[i + 1] - start[i]; }
-  std::size_t bonds() const { return neighbours.size(); }
+  const LatticeFamilies* lattice(int i) const {
+    return lattice_of.empty() || lattice_of[i] < 0 ? nullptr : &lattices[lattice_of[i]];
+  }
+
+  // Calls visit(j) over the family of point i.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    if (const LatticeFamilies* stencil = lattice(i)) return stencil->for_each(i, visit);
+    for (std::size_t b = start[i]; b < start[i + 1]; ++b) visit(neighbours[b]);
+  }
+
+  std::size_t size(int i) const {
+    std::size_t count = 0;
+    for_each(i, [&count](int) { ++count; });
+    return count;
+  }
+  std::size_t listed() const { return neighbours.size(); }  // bonds that take memory
+  std::size_t bonds() const;
 };
 
 // How the points of a block are bonded: their horizon δ, and the body they belong to. Bodies are not bonded to each
@@ -33,6 +53,7 @@ struct BlockBonds {
   double horizon;  // of all points, m; or in local spacings of each
   bool in_spacings = false;
   int body;
+  bool lists = false;  // also of points on a lattice: for those who read lists
 
   // δ of a point with this local spacing, m.
   double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }

@@ -21,12 +21,14 @@ BlockMaterial copper(std::int64_t model) {
   return {8960, law, 0.02};
 }
 
-// Arguments: points along an edge, horizon in thousandths of a spacing, model.
+// Arguments: points along an edge, horizon in thousandths of a spacing, model, whether the families are lists though the
+// points sit on a lattice.
 void step(benchmark::State& state) {
   const Communicator world;
   const int n = static_cast<int>(state.range(0));
   const LatticeSpec spec{{n, n, n}, 1e-3,           1e-3 * static_cast<double>(state.range(1)),
-                         0,         Influence::one, copper(state.range(2))};
+                         0,         Influence::one, copper(state.range(2)),
+                         state.range(3) != 0};
   Body body = lattice_body(spec, world);
   const double dt = 1e-7, rate = 1e4;  // a shear that keeps a plastic block flowing
   double shear = 0;
@@ -46,12 +48,17 @@ void step(benchmark::State& state) {
 }
 
 BENCHMARK(step)
-    ->Args({50, 3015, elastic_correspondence})
-    ->Args({50, 3015, plastic_correspondence})
-    ->Args({27, 2015, plastic_correspondence})
-    ->Args({50, 3015, ordinary})
-    ->Args({50, 3015, plastic_mean_gradient})
-    ->Args({50, 1750, plastic_mean_gradient})
+    ->Args({50, 3015, elastic_correspondence, 1})
+    ->Args({50, 3015, elastic_correspondence, 0})
+    ->Args({50, 3015, plastic_correspondence, 1})
+    ->Args({50, 3015, plastic_correspondence, 0})
+    ->Args({27, 2015, plastic_correspondence, 1})
+    ->Args({27, 2015, plastic_correspondence, 0})
+    ->Args({50, 3015, ordinary, 1})
+    ->Args({50, 3015, plastic_mean_gradient, 1})
+    ->Args({50, 3015, plastic_mean_gradient, 0})
+    ->Args({50, 1750, plastic_mean_gradient, 1})
+    ->Args({50, 1750, plastic_mean_gradient, 0})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -92,9 +92,7 @@ std::set<Pair> brute_force(const Case& c) {
 std::vector<Pair> all_bonds(const Domain& domain, const std::vector<Id>& ids, const Communicator& world) {
   std::vector<Id> mine;
   for (int i = 0; i < domain.owned; ++i) {
-    for (std::size_t b = domain.families.start[i]; b < domain.families.start[i + 1]; ++b) {
-      mine.insert(mine.end(), {ids[i], ids[domain.families.neighbours[b]]});
-    }
+    domain.families.for_each(i, [&](int j) { mine.insert(mine.end(), {ids[i], ids[j]}); });
   }
   std::vector<Id> all = world.gather(std::span<const Id>(mine));
   world.broadcast(all);
@@ -177,14 +175,13 @@ TEST_P(DomainOf, InteriorPointsNeedNoGhostAndTheOthersDo) {
   std::vector<char> used(domain.ghosts, 0);
   for (int i = 0; i < domain.owned; ++i) {
     bool has_ghost = false;
-    for (std::size_t b = domain.families.start[i]; b < domain.families.start[i + 1]; ++b) {
-      const int j = domain.families.neighbours[b];
+    domain.families.for_each(i, [&](int j) {
       ASSERT_GE(j, 0);
       ASSERT_LT(j, domain.owned + domain.ghosts);
-      if (j < domain.owned) continue;
+      if (j < domain.owned) return;
       has_ghost = true;
       used[j - domain.owned] = 1;
-    }
+    });
     EXPECT_EQ(has_ghost, i >= domain.interior) << i;
   }
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "ghosts that nobody needs";

@@ -62,12 +62,11 @@ TEST(Nodes, FamiliesAreSymmetricWhereHorizonsDiffer) {
   std::vector<double> bonds;
   int one_sided = 0;  // bonds that a rule of one end alone would not have on both sides
   for (int i = 0; i < domain.owned; ++i) {
-    for (std::size_t b = domain.families.start[i]; b < domain.families.start[i + 1]; ++b) {
-      const int j = domain.families.neighbours[b];
+    domain.families.for_each(i, [&](int j) {
       bonds.insert(bonds.end(), {ids[i], ids[j]});
       const double length = (domain.positions[j] - domain.positions[i]).norm();
       one_sided += (length <= domain.horizons[i]) != (length <= domain.horizons[j]);
-    }
+    });
   }
   EXPECT_GT(folder.world.sum(static_cast<std::int64_t>(one_sided)), 0) << "the mesh is not a test of the rule";
   bonds = folder.world.gather(std::span<const double>(bonds));

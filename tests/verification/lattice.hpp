@@ -18,6 +18,7 @@ struct LatticeSpec {
   double perturbation = 0;  // the largest shift of a point in each direction, in spacings
   Influence influence = Influence::one;
   BlockMaterial material;
+  bool lists = false;  // of bonds, though it is a lattice
 };
 
 inline materials::AnyLaw elastic(double young, double poisson) {
@@ -50,7 +51,9 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
 
 inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
   PointCloud cloud = partitioned(lattice_cloud(spec, world), world);
-  Domain domain = make_domain(std::move(cloud), {spec.horizon * spec.spacing}, world);
+  BlockBonds bonds(spec.horizon * spec.spacing);
+  bonds.lists = spec.lists || spec.material.formulation == Formulation::ordinary;
+  Domain domain = make_domain(std::move(cloud), {bonds}, world);
   return make_body(std::move(domain), spec.influence, {spec.material});
 }
 

@@ -27,12 +27,10 @@ Vector closed_form(const Lattice& l, const Body& body, int i) {
   double s = 0;
   Tensor K = Tensor::Zero();
   const auto for_each_bond = [&](auto visit) {
-    const Families& families = body.domain.families;
-    for (std::size_t b = families.start[i]; b < families.start[i + 1]; ++b) {
-      const int j = families.neighbours[b];
+    body.domain.families.for_each(i, [&](int j) {
       const Vector xi = body.domain.positions[j] - body.domain.positions[i];
       visit(xi, (1 - xi.norm() / l.spec.horizon) * body.domain.volumes[j]);
-    }
+    });
   };
   for_each_bond([&](const Vector& xi, double weight) {
     g += weight * std::sin(l.wave.dot(xi)) * xi;

@@ -1,0 +1,33 @@
+// Eight numbers side by side, of eight cells in a row along x. GCC and Clang make of the type what the machine has: one
+// register with AVX-512, two with AVX, four with SSE2.
+#pragma once
+
+#include <utility>
+
+namespace strut {
+
+using Pencil = double __attribute__((vector_size(64)));
+inline constexpr int pencil_width = 8;
+
+namespace detail {
+
+template <int first, int... lane>
+Pencil window(const Pencil& left, const Pencil& right, std::integer_sequence<int, lane...>) {
+  return __builtin_shufflevector(left, right, (first + lane)...);
+}
+
+}  // namespace detail
+
+// The numbers dx cells farther along x, −8 ≤ dx ≤ 8, of three pencils in a row.
+template <int dx>
+inline Pencil shifted(const Pencil& before, const Pencil& here, const Pencil& after) {
+  static_assert(-pencil_width <= dx && dx <= pencil_width);
+  constexpr std::make_integer_sequence<int, pencil_width> lanes;
+  if constexpr (dx >= 0) {
+    return detail::window<dx>(here, after, lanes);
+  } else {
+    return detail::window<pencil_width + dx>(before, here, lanes);
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,115 @@
+// The sums over the families of points on a lattice (points/lattice.hpp), eight points at a time, without a list of bonds:
+//   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                                      (F = I + H K⁻¹)
+//   residuals  Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ                         (the mean gradient's, as in bonds.hpp)
+//   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + (C_i + C_j)(y_j − y_i)]
+// They are those of bonds.hpp in another order of additions.
+//
+// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells. A pencil of eight cells adds up
+// its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has, and hands them, times dy and dz, to
+// the pencils of all rows near by: a row costs a point 12 additions, however long it is. Forces alike. Residuals are not
+// linear in what a point has (C_ij is the lesser of two), and go bond by bond.
+// Sums are added up in the order of the planes of the whole lattice, whoever owns them, so that results are the same on any
+// number of ranks.
+#pragma once
+
+#include <vector>
+
+#include "base/pencil.hpp"
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// u = y − X of sites, or a field that stands in the place of y.
+struct Displacements {
+  const Site* sites;
+  bool is_field = false;
+
+  Eigen::Array4d operator()(int i) const {
+    return is_field ? sites[i].current : Eigen::Array4d(sites[i].current - sites[i].reference);
+  }
+};
+
+class LatticeSums {
+ public:
+  // `springs`: C of owned points and ghosts. Keeps a pointer to the lattice.
+  LatticeSums(const Body& body, const LatticeFamilies& lattice, const std::vector<double>& springs);
+
+  // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the next
+  // one is called. Forces need what moments of the same u leave behind.
+  void add_moments(const Body& body, const Displacements& u);
+  Tensor moment(int i, const Displacements& u) const;  // H
+
+  // `gradients`: F, or δF of a field, and C̄.
+  void add_residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients);
+  Vector residual_force(int i) const { return vector(i, residual_force_); }
+  Tensor residual_moment(int i) const { return tensor(i); }  // M
+
+  void add_forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states);
+  Vector force(int i, const Displacements& u, const ForceState& state) const;
+
+  double bytes() const { return static_cast<double>(sizeof(Pencil) * (source_.size() + sums_.size())); }
+
+ private:
+  struct Row {
+    double y, z;  // m
+    int offset, reach, kind;
+  };
+  // Rows of the same weights: ω and ω dx, at dx = 0 … reach cells.
+  struct Kind {
+    int reach = 0;
+    double weight[pencil_width + 1] = {}, first[pencil_width + 1] = {};
+    bool operator==(const Kind&) const = default;
+  };
+  // Of a point, over its family and itself: Σ ω V ξ, Σ ω V, Σ ω V C.
+  struct Constants {
+    Vector first;
+    double weight, springs;
+  };
+  // A row of three pencils whose middle stands above, below or beside the one that is looked at.
+  struct Triple {
+    const Pencil *before, *here, *after;
+  };
+  struct Residuals;
+
+  void make_rows(Influence influence);
+  void set_constants(const Body& body, const std::vector<double>& springs);
+  template <class Fill>
+  void pack(int columns, const Fill& fill);
+  void clear(int columns);
+  template <class Scatter>
+  void over_slots(const Scatter& scatter);
+  template <class Add>
+  void hand_out(int place, const Add& add);
+  void scatter_moments(int slot, Pencil* room);
+  template <bool with_springs>
+  void scatter_forces(int slot, Pencil* room);
+  template <bool with_sum, bool with_first>
+  void row_sums(const Triple& row, int column, Pencil* sum, Pencil* first, int stride) const;
+  void gather_residuals(int slot);
+
+  Triple around(int place, int columns) const {
+    const auto at = [&](int p) { return &source_[static_cast<std::size_t>(lattice_->slot_at(p)) * columns]; };
+    return {at(place - 1), at(place), at(place + 1)};
+  }
+  Pencil* sums_of(int slot) { return &sums_[static_cast<std::size_t>(slot) * stride_]; }
+  double sum(int i, int column) const {
+    const int cell = lattice_->cell(i);
+    return sums_[static_cast<std::size_t>(cell / pencil_width) * stride_ + column][cell % pencil_width];
+  }
+  Vector vector(int i, int column) const { return {sum(i, column), sum(i, column + 1), sum(i, column + 2)}; }
+  Tensor tensor(int i) const {
+    Tensor t;
+    t << vector(i, 0), vector(i, 3), vector(i, 6);
+    return t;
+  }
+
+  const LatticeFamilies* lattice_;
+  std::vector<Row> rows_;
+  std::vector<Kind> kinds_;
+  std::vector<Constants> constants_;   // of owned points
+  std::vector<Pencil> source_, sums_;  // some columns a slot
+  bool has_springs_ = false;
+  int stride_ = 0, residual_force_ = 0;  // columns of sums_: a tensor, q = Σ ω V u, and the force of residuals
+};
+
+}  // namespace strut

@@ -1,0 +1,188 @@
+#include "points/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "points/domain.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths beside the horizon, as bonded() has it
+
+// The farthest cell along one axis that a family can hold.
+int cells_within(const LatticeFrame& frame, int axis) {
+  return static_cast<int>(std::floor(frame.horizon * (1 + tolerance) / frame.spacing[axis]));
+}
+
+// ---- Is it a lattice? ----------------------------------------------------------------------------------------------
+
+struct BodyPoints {
+  std::vector<Vector> positions;
+  double largest_horizon = 0, smallest_horizon = std::numeric_limits<double>::infinity();
+  bool wants_lists = false;
+};
+
+BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizons,
+                     const std::vector<BlockBonds>& bonds, int body) {
+  BodyPoints points;
+  for (const BlockBonds& block : bonds) points.wants_lists |= block.body == body && block.lists;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (bonds[cloud.blocks[i]].body != body) continue;
+    points.positions.push_back(cloud.positions[i]);
+    points.largest_horizon = std::max(points.largest_horizon, horizons[i]);
+    points.smallest_horizon = std::min(points.smallest_horizon, horizons[i]);
+  }
+  return points;
+}
+
+// The smallest step between coordinates along an axis that is more than round-off; infinite where all are alike.
+double smallest_step(const std::vector<Vector>& positions, int axis, double horizon) {
+  std::vector<double> x;
+  x.reserve(positions.size());
+  for (const Vector& X : positions) x.push_back(X[axis]);
+  std::sort(x.begin(), x.end());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < x.size(); ++k) {
+    const double step = x[k] - x[k - 1];
+    if (step > 1e-6 * horizon) smallest = std::min(smallest, step);
+  }
+  return smallest;
+}
+
+// Whether all points are at cells of the frame.
+bool fits(const LatticeFrame& frame, const std::vector<Vector>& positions) {
+  for (const Vector& X : positions) {
+    const Eigen::Array3d cell = (X - frame.origin).array() / frame.spacing.array();
+    if (!((cell - cell.round()).abs() <= tolerance).all()) return false;
+  }
+  return true;
+}
+
+// Whether a grid over the points takes less than lists would: 64 bytes a point are 16 neighbours.
+bool is_compact(const LatticeFrame& frame, const std::vector<Vector>& positions) {
+  Eigen::AlignedBox3d box;
+  for (const Vector& X : positions) box.extend(X);
+  if (positions.empty()) return true;
+  Eigen::Array3d cells = box.sizes().array() / frame.spacing.array() + 2 * frame.horizon / frame.spacing.array() + 1;
+  cells[0] = cells[0] / LatticeFamilies::width + 4;
+  return cells.prod() * sizeof(int) <= 64.0 * static_cast<double>(positions.size()) + (1 << 20);
+}
+
+// Collective.
+std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const Communicator& communicator) {
+  const double largest = communicator.max(points.largest_horizon), smallest = communicator.min(points.smallest_horizon);
+  if (communicator.max(points.wants_lists ? 1.0 : 0.0) > 0 || !(largest - smallest <= 1e-12 * largest)) return {};
+  LatticeFrame frame{.horizon = largest, .body = body};
+  for (int axis = 0; axis < 3; ++axis) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vector& X : points.positions) low = std::min(low, X[axis]), high = std::max(high, X[axis]);
+    low = communicator.min(low), high = communicator.max(high);
+    const double step = communicator.min(smallest_step(points.positions, axis, largest));
+    const double cells = std::round((high - low) / step);
+    frame.origin[axis] = low;
+    frame.spacing[axis] = cells > 0 ? (high - low) / cells : largest;  // the mean step is free of round-off
+  }
+  if (cells_within(frame, 0) > LatticeFamilies::width) return {};
+  const bool good = fits(frame, points.positions) && is_compact(frame, points.positions);
+  if (communicator.max(good ? 0.0 : 1.0) > 0) return {};
+  return frame;
+}
+
+}  // namespace
+
+Eigen::Array3i LatticeFrame::cell_of(const Vector& X) const {
+  return ((X - origin).array() / spacing.array()).round().cast<int>();
+}
+
+std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vector<double>& horizons,
+                                         const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
+  std::vector<int> bodies;
+  for (const BlockBonds& block : bonds) bodies.push_back(block.body);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  std::vector<LatticeFrame> frames;
+  for (const int body : bodies) {
+    const auto frame = frame_of(points_of(cloud, horizons, bonds, body), body, communicator);
+    if (frame) frames.push_back(*frame);
+  }
+  return frames;
+}
+
+// ---- Slots ---------------------------------------------------------------------------------------------------------
+
+// The grid: pencils along x, then y, then z; wide enough for a stencil about every slot.
+struct LatticeFamilies::Box {
+  Eigen::Array3i low, shape;  // x in pencils
+
+  int place(const Eigen::Array3i& cell) const {
+    const Eigen::Array3i p = Eigen::Array3i(cell[0] / width, cell[1], cell[2]) - low;
+    return (p[2] * shape[1] + p[1]) * shape[0] + p[0];
+  }
+};
+
+LatticeFamilies::LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions,
+                                 std::vector<int> members, int owned)
+    : frame_(frame), members_(std::move(members)), cell_(positions.size(), -1) {
+  std::vector<Eigen::Array3i> cells;
+  cells.reserve(members_.size());
+  Eigen::Array3i low = Eigen::Array3i::Constant(std::numeric_limits<int>::max() / 2), high = -low;
+  for (const int i : members_) {
+    cells.push_back(frame.cell_of(positions[i]));
+    low = low.min(cells.back()), high = high.max(cells.back());
+  }
+  if (members_.empty()) low = high = Eigen::Array3i::Zero();
+  const Eigen::Array3i margin(2, cells_within(frame, 1), cells_within(frame, 2));
+  low[0] /= width, high[0] /= width;
+  const Box box{low - margin, high - low + 2 * margin + 1};
+  make_rows(box);
+  make_slots(box, cells, owned);
+}
+
+void LatticeFamilies::make_rows(const Box& box) {
+  const Vector& h = frame_.spacing;
+  const int far_y = cells_within(frame_, 1), far_z = cells_within(frame_, 2);
+  for (int z = -far_z; z <= far_z; ++z) {
+    for (int y = -far_y; y <= far_y; ++y) {
+      int reach = -1;
+      while (bonded(frame_.horizon, frame_.horizon, Vector((reach + 1) * h[0], y * h[1], z * h[2]))) ++reach;
+      reach_ = std::max(reach_, reach);
+      if (reach >= 0) rows_.push_back({y, z, reach, (z * box.shape[1] + y) * box.shape[0]});
+    }
+  }
+}
+
+void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3i>& cells, int owned) {
+  grid_.assign(static_cast<std::size_t>(box.shape.cast<double>().prod()), 0);
+  for (const Eigen::Array3i& cell : cells) {
+    for (const int beside : {-1, 0, 1}) grid_[box.place(cell) + beside] = 1;
+  }
+  places_ = {0};
+  first_plane_ = box.low[2];
+  const int plane = box.shape[0] * box.shape[1];
+  for (int place = 0; place < static_cast<int>(grid_.size()); ++place) {
+    if (place % plane == 0) plane_begin_.push_back(slots());
+    if (grid_[place] == 0) continue;
+    grid_[place] = slots();
+    places_.push_back(place);
+  }
+  plane_begin_.push_back(slots());
+  points_.assign(static_cast<std::size_t>(slots()) * width, -1);
+  owned_.assign(slots(), 0);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    const int i = members_[m], slot = grid_[box.place(cells[m])];
+    cell_[i] = slot * width + cells[m][0] % width;
+    points_[cell_[i]] = i;
+    if (i < owned) owned_[slot] = 1;
+  }
+}
+
+double LatticeFamilies::bytes() const {
+  const std::size_t numbers = members_.size() + grid_.size() + places_.size() + points_.size() + cell_.size();
+  return static_cast<double>(sizeof(int) * numbers + owned_.size());
+}
+
+}  // namespace strut

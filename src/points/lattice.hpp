@@ -1,0 +1,95 @@
+// Bodies whose points sit on a lattice: who is near whom follows from the places in it, and no bond is written down.
+//
+// The lattice is cut into pencils of eight cells along x. Those that hold points of this rank, owned or ghosts, and the
+// next one on either side, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that is empty. A grid
+// over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z) of cells with
+// |x| ≤ the row's reach.
+#pragma once
+
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "base/tensors.hpp"
+
+namespace strut {
+
+struct BlockBonds;
+struct PointCloud;
+
+// Where the lattice of a body is, the same on all ranks.
+struct LatticeFrame {
+  Vector origin = Vector::Zero();   // m, the smallest coordinates
+  Vector spacing = Vector::Ones();  // m
+  double horizon = 0;               // m, of all points of the body
+  int body = 0;                     // BlockBonds::body
+
+  Eigen::Array3i cell_of(const Vector& X) const;
+};
+
+// Collective. The bodies that sit on a lattice. Not on one: coordinates off by more than 1e-9 spacings, horizons that
+// differ or reach over more than a pencil, blocks that want lists, and so few points in so large a box that the grid
+// would take more memory than lists.
+std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vector<double>& horizons,
+                                         const std::vector<BlockBonds>& bonds, const Communicator& communicator);
+
+class LatticeFamilies {
+ public:
+  static constexpr int width = 8;  // cells of a pencil
+
+  struct Row {
+    int y, z;    // of the neighbours, in cells from the point
+    int reach;   // their x lies in [−reach, reach]
+    int offset;  // in the grid
+  };
+
+  // The points of one body: `members` are their local indices, owned (below `owned`) and ghosts.
+  LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions, std::vector<int> members, int owned);
+
+  // Calls visit(j) over the family of point i.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+    for (const Row& row : rows_) {
+      const int* pencils = &grid_[place + row.offset];
+      for (int x = lane - row.reach; x <= lane + row.reach; ++x) {
+        const int j = points_[pencils[(x + width) / width - 1] * width + (x + width) % width];
+        if (j >= 0 && j != i) visit(j);
+      }
+    }
+  }
+
+  const LatticeFrame& frame() const { return frame_; }
+  const std::vector<int>& members() const { return members_; }
+  const std::vector<Row>& rows() const { return rows_; }
+  int reach() const { return reach_; }        // of the longest row
+  int cell(int i) const { return cell_[i]; }  // slot · width + place in the pencil; −1 of points of other bodies
+  int point(int slot, int place) const { return points_[slot * width + place]; }  // −1: none
+  int slots() const { return static_cast<int>(places_.size()); }
+  int slot_at(int place) const { return grid_[place]; }  // 0: empty
+  int place(int slot) const { return places_[slot]; }
+  bool is_owned(int slot) const { return owned_[slot] != 0; }  // holds a point of this rank's own
+
+  // Slots [plane_begin()[k], plane_begin()[k + 1]) are in the plane z = first_plane() + k of the lattice.
+  const std::vector<int>& plane_begin() const { return plane_begin_; }
+  int first_plane() const { return first_plane_; }
+
+  double bytes() const;
+
+ private:
+  struct Box;
+  void make_rows(const Box& box);
+  void make_slots(const Box& box, const std::vector<Eigen::Array3i>& cells, int owned);
+
+  LatticeFrame frame_;
+  std::vector<int> members_;
+  std::vector<Row> rows_;
+  std::vector<int> grid_;    // slots
+  std::vector<int> places_;  // of slots, in the grid
+  std::vector<char> owned_;  // of slots
+  std::vector<int> points_;  // of cells; −1: none
+  std::vector<int> cell_;    // of points
+  std::vector<int> plane_begin_;
+  int first_plane_ = 0, reach_ = 0;
+};
+
+}  // namespace strut
