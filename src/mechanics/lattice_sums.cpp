@@ -1,6 +1,7 @@
 #include "mechanics/lattice_sums.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "mechanics/bonds.hpp"
@@ -19,6 +20,7 @@ constexpr int tensor_sums = 9;  // columns of the sums: a tensor, then q
 LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const std::vector<double>& springs)
     : lattice_(&lattice) {
   make_rows(body.influence);
+  mark_places();
   has_springs_ = std::any_of(springs.begin(), springs.end(), [](double C) { return C > 0; });
   const bool has_residuals = !body.force_states.gradients.empty();
   residual_force_ = has_springs_ ? tensor_sums + 3 : tensor_sums;
@@ -41,10 +43,27 @@ void LatticeSums::make_rows(Influence influence) {
         kind.first[dx] = kind.weight[dx] * x;
       }
       const auto known = std::find(kinds_.begin(), kinds_.end(), kind);
-      rows_.push_back({y, z, row.offset, row.reach, static_cast<int>(known - kinds_.begin())});
+      rows_.push_back({y, z, row.y, row.offset, static_cast<int>(known - kinds_.begin())});
       if (known == kinds_.end()) kinds_.push_back(kind);
+      if (row.z < 0) continue;
+      above_.resize(row.z + 1);
+      above_[row.z].push_back(rows_.back());
     }
   });
+}
+
+void LatticeSums::mark_places() {
+  const Eigen::Array3i& shape = lattice_->shape();
+  words_ = (shape[0] + 63) / 64;
+  filled_.assign(static_cast<std::size_t>(shape[1]) * shape[2] * words_, 0);
+  owned_ = filled_;
+  for (int slot = 1; slot < lattice_->slots(); ++slot) {
+    const int row = lattice_->place(slot) / shape[0], x = lattice_->place(slot) % shape[0];
+    const std::size_t word = static_cast<std::size_t>(row) * words_ + x / 64;
+    const std::uint64_t bit = std::uint64_t{1} << x % 64;
+    filled_[word] |= bit;
+    if (lattice_->is_owned(slot)) owned_[word] |= bit;
+  }
 }
 
 // With V and V C in the place of V u, moments and q are what is looked for.
@@ -54,7 +73,7 @@ void LatticeSums::set_constants(const Body& body, const std::vector<double>& spr
     put(1, body.domain.volumes[i] * springs[i]);
   });
   clear(stride_);
-  over_slots([this](int slot, Pencil* room) { scatter_moments(slot, room); });
+  over_planes<MomentSweep>();
   constants_.resize(body.owned());
   for (const int i : lattice_->members()) {
     if (i < body.owned()) {
@@ -82,69 +101,157 @@ void LatticeSums::clear(int columns) {
   for_each_point(0, lattice_->slots(), [&](int slot) { std::fill_n(sums_of(slot), columns, Pencil{}); });
 }
 
-// Calls scatter(slot, room for row sums) for all slots. What a slot adds to lies within a slab's thickness of its plane, so
-// every other slab may run at a time.
-template <class Scatter>
-void LatticeSums::over_slots(const Scatter& scatter) {
-  const std::vector<int>& begin = lattice_->plane_begin();
-  const int planes = static_cast<int>(begin.size()) - 1, first = lattice_->first_plane();
-  const int thickness = std::max(1, 2 * lattice_->rows().back().z);
+// The row sums of the rows of a plane that a stencil reaches from the row at hand.
+class LatticeSums::Ring {
+ public:
+  Ring(int rows, int places, int columns)
+      : rows_(rows), places_(places), columns_(columns), room_(static_cast<std::size_t>(rows) * places * columns) {}
+  Pencil* at(int row, int x) { return &room_[(static_cast<std::size_t>(row % rows_) * places_ + x) * columns_]; }
+
+ private:
+  int rows_, places_, columns_;
+  std::vector<Pencil> room_;
+};
+
+namespace {
+
+// Calls visit(x) for the bits that are set.
+template <class Visit>
+inline void for_each_bit(std::uint64_t word, int first, const Visit& visit) {
+  for (; word != 0; word &= word - 1) visit(first + std::countr_zero(word));
+}
+
+}  // namespace
+
+// A Sweep says what is summed: its columns a row and kind, row_sums(place, to) along x, add(sums of a row, row) along y, and
+// hand(to, dz) along z. What a plane adds to lies within a slab's thickness, so every other slab may run at a time.
+template <class Sweep>
+void LatticeSums::over_planes() {
+  const int planes = lattice_->shape()[2], first = lattice_->first_plane(), far = static_cast<int>(above_.size()) - 1;
+  const int thickness = std::max(1, 2 * far);
   const auto slab_of = [&](int plane) { return static_cast<int>(std::floor(1.0 * plane / thickness)); };
   for (const int odd : {0, 1}) {
     for_each_point(slab_of(first), slab_of(first + planes - 1) + 1, [&](int slab) {
       if (std::abs(slab) % 2 != odd) return;
-      std::vector<Pencil> room(kinds_.size() * spring_columns);
-      const int from = std::max(0, slab * thickness - first), to = std::min(planes, (slab + 1) * thickness - first);
-      for (int slot = begin[from]; slot < begin[to]; ++slot) scatter(slot, room.data());
+      Ring ring(lattice_->rows_across(), lattice_->shape()[0], static_cast<int>(kinds_.size()) * Sweep::columns);
+      // Points are at least as far from the first and last plane as a stencil reaches.
+      const int begin = std::max(far, slab * thickness - first);
+      const int end = std::min(planes - far, (slab + 1) * thickness - first);
+      for (int z = begin; z < end; ++z) over_plane<Sweep>(z, ring);
     });
   }
 }
 
-// Calls add(sums of a slot, row) for the slots in whose stencils the pencil at `place` lies, its row in each of them.
-template <class Add>
-void LatticeSums::hand_out(int place, const Add& add) {
-  for (const Row& row : rows_) {
-    const int target = lattice_->slot_at(place - row.offset);
-    if (lattice_->is_owned(target)) add(sums_of(target), row);
+template <class Sweep>
+void LatticeSums::over_plane(int z, Ring& ring) {
+  const Eigen::Array3i& shape = lattice_->shape();
+  const int far_y = lattice_->rows_across() / 2, far_z = static_cast<int>(above_.size()) - 1;
+  const int plane = shape[0] * shape[1];
+  int next = 0;  // row to be summed along x
+  for (int y = far_y; y < shape[1] - far_y; ++y) {
+    for (; next <= y + far_y; ++next) {
+      const int row = z * shape[1] + next;
+      for (int w = 0; w < words_; ++w) {
+        for_each_bit(filled_[static_cast<std::size_t>(row) * words_ + w], 64 * w,
+                     [&](int x) { Sweep::row_sums(*this, row * shape[0] + x, ring.at(next, x)); });
+      }
+    }
+    const int row = z * shape[1] + y;
+    for (int w = 0; w < words_; ++w) {
+      std::uint64_t targets = 0;
+      for (int dz = -far_z; dz <= far_z; ++dz) {
+        targets |= owned_[static_cast<std::size_t>(row + dz * shape[1]) * words_ + w];
+      }
+      for_each_bit(targets, 64 * w, [&](int x) {
+        const int place = row * shape[0] + x;
+        for (int dz = 0; dz <= far_z; ++dz) {
+          const int below = lattice_->slot_at(place - dz * plane), over = lattice_->slot_at(place + dz * plane);
+          const bool to_below = lattice_->is_owned(below), to_above = dz > 0 && lattice_->is_owned(over);
+          if (!to_below && !to_above) continue;
+          Sweep sums;
+          for (const Row& r : above_[dz]) {
+            if (lattice_->slot_at(place + r.dy * shape[0]) != 0) {
+              sums.add(ring.at(y + r.dy, x) + Sweep::columns * r.kind, r.y);
+            }
+          }
+          if (to_below) sums.hand(sums_of(below), above_[dz][0].z);
+          if (to_above) sums.hand(sums_of(over), -above_[dz][0].z);
+        }
+      });
+    }
   }
 }
 
 namespace {
 
-// The sums and differences of what lies dx cells to the right and to the left, dx = 1 … reach.
-template <int dx = 1>
-inline void pairs(const Pencil& before, const Pencil& here, const Pencil& after, int reach, Pencil* plus,
-                  Pencil* minus) {
-  if constexpr (dx <= pencil_width) {
-    if (dx > reach) return;
-    const Pencil right = shifted<dx>(before, here, after), left = shifted<-dx>(before, here, after);
-    plus[dx] = right + left;
-    minus[dx] = right - left;
-    pairs<dx + 1>(before, here, after, reach, plus, minus);
+// What lies dx cells to the right and to the left in one column of a row: sums and differences, dx = 1 … reach.
+struct Pairs {
+  Pencil here, plus[pencil_width + 1], minus[pencil_width + 1];
+
+  Pairs(const Pencil& before, const Pencil& middle, const Pencil& after, int reach) : here(middle) {
+    fill(before, after, reach);
   }
-}
+
+  template <class Kind>
+  Pencil sum(const Kind& kind) const {  // Σ ω a
+    Pencil s = kind.weight[0] * here;
+    for (int dx = 1; dx <= kind.reach; ++dx) s += kind.weight[dx] * plus[dx];
+    return s;
+  }
+  template <class Kind>
+  Pencil first(const Kind& kind) const {  // Σ ω dx a
+    Pencil s{};
+    for (int dx = 1; dx <= kind.reach; ++dx) s += kind.first[dx] * minus[dx];
+    return s;
+  }
+
+ private:
+  template <int dx = 1>
+  void fill(const Pencil& before, const Pencil& after, int reach) {
+    if constexpr (dx <= pencil_width) {
+      if (dx > reach) return;
+      const Pencil right = shifted<dx>(before, here, after), left = shifted<-dx>(before, here, after);
+      plus[dx] = right + left;
+      minus[dx] = right - left;
+      fill<dx + 1>(before, after, reach);
+    }
+  }
+};
 
 }  // namespace
 
-// Σ ω a and Σ ω dx a along a row of one column, a pencil for each kind.
-template <bool with_sum, bool with_first>
-inline void LatticeSums::row_sums(const Triple& row, int column, Pencil* sum, Pencil* first, int stride) const {
-  Pencil plus[pencil_width + 1], minus[pencil_width + 1];
-  const Pencil here = row.here[column];
-  pairs(row.before[column], here, row.after[column], lattice_->reach(), plus, minus);
-  for (std::size_t k = 0; k < kinds_.size(); ++k) {
-    const Kind& kind = kinds_[k];
-    Pencil s = kind.weight[0] * here, f{};
-    for (int dx = 1; dx <= kind.reach; ++dx) {
-      if constexpr (with_sum) s += kind.weight[dx] * plus[dx];
-      if constexpr (with_first) f += kind.first[dx] * minus[dx];
-    }
-    if constexpr (with_sum) sum[k * stride] = s;
-    if constexpr (with_first) first[k * stride] = f;
-  }
-}
-
 // ---- Moments -------------------------------------------------------------------------------------------------------
+
+struct LatticeSums::MomentSweep {
+  static constexpr int columns = 6;  // Σ ω V u, Σ ω dx V u
+  Pencil sum[3] = {}, along_x[3] = {}, along_y[3] = {};
+
+  static void row_sums(const LatticeSums& all, int place, Pencil* to) {
+    const Triple row = all.around(place, moment_columns);
+    for (int c = 0; c < 3; ++c) {
+      const Pairs u(row.before[c], row.here[c], row.after[c], all.lattice_->reach());
+      for (std::size_t k = 0; k < all.kinds_.size(); ++k) {
+        to[k * columns + c] = u.sum(all.kinds_[k]);
+        to[k * columns + 3 + c] = u.first(all.kinds_[k]);
+      }
+    }
+  }
+  void add(const Pencil* row, double y) {
+    for (int c = 0; c < 3; ++c) {
+      sum[c] += row[c];
+      along_x[c] += row[3 + c];
+      along_y[c] += y * row[c];
+    }
+  }
+  void hand(Pencil* to, double z) const {
+    for (int c = 0; c < 3; ++c) {
+      to[c] += along_x[c];
+      to[3 + c] += along_y[c];
+      to[6 + c] += z * sum[c];
+      to[tensor_sums + c] += sum[c];
+    }
+  }
+};
 
 void LatticeSums::add_moments(const Body& body, const Displacements& u) {
   pack(moment_columns, [&](int i, const auto& put) {
@@ -152,22 +259,7 @@ void LatticeSums::add_moments(const Body& body, const Displacements& u) {
     for (int c = 0; c < 3; ++c) put(c, Vu[c]);
   });
   clear(tensor_sums + 3);
-  over_slots([this](int slot, Pencil* room) { scatter_moments(slot, room); });
-}
-
-void LatticeSums::scatter_moments(int slot, Pencil* room) {
-  const int place = lattice_->place(slot);
-  const Triple row = around(place, moment_columns);
-  for (int c = 0; c < 3; ++c) row_sums<true, true>(row, c, room + c, room + 3 + c, 6);
-  hand_out(place, [room](Pencil* to, const Row& row) {
-    const Pencil* from = room + 6 * row.kind;
-    for (int c = 0; c < 3; ++c) {
-      to[c] += from[3 + c];
-      to[3 + c] += row.y * from[c];
-      to[6 + c] += row.z * from[c];
-      to[tensor_sums + c] += from[c];
-    }
-  });
+  over_planes<MomentSweep>();
 }
 
 Tensor LatticeSums::moment(int i, const Displacements& u) const {
@@ -175,6 +267,41 @@ Tensor LatticeSums::moment(int i, const Displacements& u) const {
 }
 
 // ---- Forces --------------------------------------------------------------------------------------------------------
+
+template <bool with_springs>
+struct LatticeSums::ForceSweep {
+  static constexpr int columns = 9;  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z
+  Pencil sum[3] = {}, along_z[3] = {};
+
+  static void row_sums(const LatticeSums& all, int place, Pencil* to) {
+    const Triple row = all.around(place, with_springs ? spring_columns : force_columns);
+    const auto pairs = [&](int column) {
+      return Pairs(row.before[column], row.here[column], row.after[column], all.lattice_->reach());
+    };
+    for (int c = 0; c < 3; ++c) {
+      const Pairs x = pairs(c), y = pairs(3 + c), z = pairs(6 + c);
+      for (std::size_t k = 0; k < all.kinds_.size(); ++k) {
+        Pencil* of_kind = to + k * columns;
+        of_kind[c] = x.first(all.kinds_[k]);
+        of_kind[3 + c] = y.sum(all.kinds_[k]);
+        of_kind[6 + c] = z.sum(all.kinds_[k]);
+      }
+      if constexpr (with_springs) {
+        const Pairs pull = pairs(force_columns + c);
+        for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k * columns + c] += pull.sum(all.kinds_[k]);
+      }
+    }
+  }
+  void add(const Pencil* row, double y) {
+    for (int c = 0; c < 3; ++c) {
+      sum[c] += row[c] + y * row[3 + c];
+      along_z[c] += row[6 + c];
+    }
+  }
+  void hand(Pencil* to, double z) const {
+    for (int c = 0; c < 3; ++c) to[c] += sum[c] + z * along_z[c];
+  }
+};
 
 // f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω V_j,
 // q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
@@ -189,32 +316,7 @@ void LatticeSums::add_forces(const Body& body, const Displacements& u, const std
     for (int c = 0; c < 3; ++c) put(force_columns + c, pull[c]);
   });
   clear(3);
-  if (has_springs_) {
-    over_slots([this](int slot, Pencil* room) { scatter_forces<true>(slot, room); });
-  } else {
-    over_slots([this](int slot, Pencil* room) { scatter_forces<false>(slot, room); });
-  }
-}
-
-template <bool with_springs>
-void LatticeSums::scatter_forces(int slot, Pencil* room) {
-  const int place = lattice_->place(slot);
-  const Triple row = around(place, with_springs ? spring_columns : force_columns);
-  for (int c = 0; c < 3; ++c) {
-    row_sums<false, true>(row, c, nullptr, room + c, spring_columns);
-    row_sums<true, false>(row, 3 + c, room + 3 + c, nullptr, spring_columns);
-    row_sums<true, false>(row, 6 + c, room + 6 + c, nullptr, spring_columns);
-    if constexpr (with_springs) {
-      row_sums<true, false>(row, force_columns + c, room + force_columns + c, nullptr, spring_columns);
-      for (std::size_t k = 0; k < kinds_.size(); ++k) {
-        room[k * spring_columns + c] += room[k * spring_columns + force_columns + c];
-      }
-    }
-  }
-  hand_out(place, [room](Pencil* to, const Row& row) {
-    const Pencil* from = room + spring_columns * row.kind;
-    for (int c = 0; c < 3; ++c) to[c] += from[c] + row.y * from[3 + c] + row.z * from[6 + c];
-  });
+  has_springs_ ? over_planes<ForceSweep<true>>() : over_planes<ForceSweep<false>>();
 }
 
 Vector LatticeSums::force(int i, const Displacements& u, const ForceState& state) const {

@@ -4,14 +4,16 @@
 //   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + (C_i + C_j)(y_j − y_i)]
 // They are those of bonds.hpp in another order of additions.
 //
-// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells. A pencil of eight cells adds up
-// its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has, and hands them, times dy and dz, to
-// the pencils of all rows near by: a row costs a point 12 additions, however long it is. Forces alike. Residuals are not
-// linear in what a point has (C_ij is the lesser of two), and go bond by bond.
+// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis. A
+// pencil of eight cells adds up its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has (along
+// x); a plane adds up these, and dy times these, for each |dz| (along y); and hands that, and dz times that, to the planes
+// above and below (along z). Of the 122 bonds of a point at three spacings 25 additions are left. Forces alike. Residuals
+// are not linear in what a point has (C_ij is the lesser of two), and go bond by bond.
 // Sums are added up in the order of the planes of the whole lattice, whoever owns them, so that results are the same on any
 // number of ranks.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/pencil.hpp"
@@ -50,9 +52,10 @@ class LatticeSums {
   double bytes() const { return static_cast<double>(sizeof(Pencil) * (source_.size() + sums_.size())); }
 
  private:
+  // A row of the stencil.
   struct Row {
     double y, z;  // m
-    int offset, reach, kind;
+    int dy, offset, kind;
   };
   // Rows of the same weights: ω and ω dx, at dx = 0 … reach cells.
   struct Kind {
@@ -70,21 +73,21 @@ class LatticeSums {
     const Pencil *before, *here, *after;
   };
   struct Residuals;
+  class Ring;
 
   void make_rows(Influence influence);
+  void mark_places();
   void set_constants(const Body& body, const std::vector<double>& springs);
   template <class Fill>
   void pack(int columns, const Fill& fill);
   void clear(int columns);
-  template <class Scatter>
-  void over_slots(const Scatter& scatter);
-  template <class Add>
-  void hand_out(int place, const Add& add);
-  void scatter_moments(int slot, Pencil* room);
+  template <class Sweep>
+  void over_planes();
+  template <class Sweep>
+  void over_plane(int z, Ring& ring);
+  struct MomentSweep;
   template <bool with_springs>
-  void scatter_forces(int slot, Pencil* room);
-  template <bool with_sum, bool with_first>
-  void row_sums(const Triple& row, int column, Pencil* sum, Pencil* first, int stride) const;
+  struct ForceSweep;
   void gather_residuals(int slot);
 
   Triple around(int place, int columns) const {
@@ -105,7 +108,10 @@ class LatticeSums {
 
   const LatticeFamilies* lattice_;
   std::vector<Row> rows_;
+  std::vector<std::vector<Row>> above_;  // rows by dz = 0, 1, …; those below are alike
   std::vector<Kind> kinds_;
+  std::vector<std::uint64_t> filled_, owned_;  // a bit for each place of the grid: a slot; a slot with points of our own
+  int words_ = 0;                              // of these bits a row
   std::vector<Constants> constants_;   // of owned points
   std::vector<Pencil> source_, sums_;  // some columns a slot
   bool has_springs_ = false;

@@ -145,6 +145,7 @@ LatticeFamilies::LatticeFamilies(const LatticeFrame& frame, const std::vector<Ve
 void LatticeFamilies::make_rows(const Box& box) {
   const Vector& h = frame_.spacing;
   const int far_y = cells_within(frame_, 1), far_z = cells_within(frame_, 2);
+  rows_across_ = 2 * far_y + 1;
   for (int z = -far_z; z <= far_z; ++z) {
     for (int y = -far_y; y <= far_y; ++y) {
       int reach = -1;
@@ -161,15 +162,13 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3
     for (const int beside : {-1, 0, 1}) grid_[box.place(cell) + beside] = 1;
   }
   places_ = {0};
+  shape_ = box.shape;
   first_plane_ = box.low[2];
-  const int plane = box.shape[0] * box.shape[1];
   for (int place = 0; place < static_cast<int>(grid_.size()); ++place) {
-    if (place % plane == 0) plane_begin_.push_back(slots());
     if (grid_[place] == 0) continue;
     grid_[place] = slots();
     places_.push_back(place);
   }
-  plane_begin_.push_back(slots());
   points_.assign(static_cast<std::size_t>(slots()) * width, -1);
   owned_.assign(slots(), 0);
   for (std::size_t m = 0; m < members_.size(); ++m) {

@@ -61,7 +61,8 @@ class LatticeFamilies {
   const LatticeFrame& frame() const { return frame_; }
   const std::vector<int>& members() const { return members_; }
   const std::vector<Row>& rows() const { return rows_; }
-  int reach() const { return reach_; }        // of the longest row
+  int reach() const { return reach_; }  // of the longest row
+  int rows_across() const { return rows_across_; }  // the span of its rows along y
   int cell(int i) const { return cell_[i]; }  // slot · width + place in the pencil; −1 of points of other bodies
   int point(int slot, int place) const { return points_[slot * width + place]; }  // −1: none
   int slots() const { return static_cast<int>(places_.size()); }
@@ -69,8 +70,9 @@ class LatticeFamilies {
   int place(int slot) const { return places_[slot]; }
   bool is_owned(int slot) const { return owned_[slot] != 0; }  // holds a point of this rank's own
 
-  // Slots [plane_begin()[k], plane_begin()[k + 1]) are in the plane z = first_plane() + k of the lattice.
-  const std::vector<int>& plane_begin() const { return plane_begin_; }
+  // A place in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of the body.
+  // Points are farther from its faces than a stencil reaches.
+  const Eigen::Array3i& shape() const { return shape_; }
   int first_plane() const { return first_plane_; }
 
   double bytes() const;
@@ -88,8 +90,8 @@ class LatticeFamilies {
   std::vector<char> owned_;  // of slots
   std::vector<int> points_;  // of cells; −1: none
   std::vector<int> cell_;    // of points
-  std::vector<int> plane_begin_;
-  int first_plane_ = 0, reach_ = 0;
+  Eigen::Array3i shape_;
+  int first_plane_ = 0, reach_ = 0, rows_across_ = 1;
 };
 
 }  // namespace strut
