@@ -15,7 +15,6 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 
 Vector place(const Site& site) { return site.current.head<3>().matrix(); }
-Vector reference(const Site& site) { return site.reference.head<3>().matrix(); }
 
 // A point as it travels to other ranks.
 struct Candidate {

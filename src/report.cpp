@@ -73,14 +73,7 @@ void Progress::finish() {
   if (speaks_ && terminal_) std::cout << std::endl;
 }
 
-double predicted_memory(const Scene& scene) {
-  double bytes = 0;
-  for (const MaterialBlock& block : scene.body.blocks) {
-    bytes += footprint(scene.body, block).per_point * static_cast<double>(block.points.size());
-  }
-  bytes += sizeof(int) * static_cast<double>(scene.body.domain.families.listed());
-  return scene.body.domain.communicator.sum(bytes);
-}
+double predicted_memory(const Scene& scene) { return scene.body.domain.communicator.sum(footprint(scene.body)); }
 
 std::string describe_scene(const Scene& scene) {
   std::ostringstream text;

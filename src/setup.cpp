@@ -97,7 +97,8 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     const int body = section->separate_body ? place + 1 : 0;
     bonds.push_back(section->horizon_factor ? BlockBonds::per_spacing(*section->horizon_factor, body)
                                             : BlockBonds(*section->horizon, body));
-    bonds.back().lists = deck.materials[section->material].formulation == deck::Formulation::ordinary;
+    const bool ordinary = deck.materials[section->material].formulation == deck::Formulation::ordinary;
+    if (ordinary) bonds.back().families = FamilyKind::lists;
   }
   return bonds;
 }

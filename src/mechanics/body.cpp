@@ -1,6 +1,7 @@
 #include "mechanics/body.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "mechanics/bonds.hpp"
 #include "mechanics/lattice_sums.hpp"
@@ -134,13 +135,18 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.force_density.assign(owned, Vector::Zero());
   body.stabilization_work.assign(owned, 0);
   body.residual.assign(owned, 0);
-  for (MaterialBlock& block : body.blocks) set_shape(body, block);
+  for (MaterialBlock& block : body.blocks) {
+    if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
+    set_shape(body, block);
+  }
   set_what_blocks_feel(body);
   add_lattice_sums(body);
   return body;
 }
 
-Footprint footprint(const Body& body, const MaterialBlock& block) {
+namespace {
+
+double bytes_per_point(const Body& body, const MaterialBlock& block) {
   const std::size_t state =
       std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law) * sizeof(double);
   const std::size_t forces = (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
@@ -151,7 +157,18 @@ Footprint footprint(const Body& body, const MaterialBlock& block) {
       sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + 2 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int) +
                                 sizeof(std::uint64_t) + sizeof(std::size_t);
-  return {static_cast<double>(mechanics + forces + ordinary + cloud + state), sizeof(int)};
+  return static_cast<double>(mechanics + forces + ordinary + cloud + state);
+}
+
+}  // namespace
+
+double footprint(const Body& body) {
+  double bytes = body.domain.families.bytes();
+  for (const MaterialBlock& block : body.blocks) {
+    bytes += bytes_per_point(body, block) * static_cast<double>(block.points.size());
+  }
+  for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
+  return bytes;
 }
 
 }  // namespace strut

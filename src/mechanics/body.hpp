@@ -115,10 +115,7 @@ struct Body {
 // Collective. Shape tensors, stabilisation and undeformed state. `materials`: one for each block name of the cloud.
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials);
 
-// Bytes that a point of a block and a bond take, for predictions.
-struct Footprint {
-  double per_point, per_bond;
-};
-Footprint footprint(const Body& body, const MaterialBlock& block);
+// Bytes that the points and bonds of this rank take, for predictions.
+double footprint(const Body& body);
 
 }  // namespace strut

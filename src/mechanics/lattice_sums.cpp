@@ -15,6 +15,13 @@ namespace {
 constexpr int moment_columns = 3, force_columns = 9, spring_columns = 12, residual_columns = 14;
 constexpr int tensor_sums = 9;  // columns of the sums: a tensor, then q
 
+// Calls work(n) with the number as a type, 1 ≤ n ≤ a pencil's width.
+template <int n = 1, class Work>
+void with_constant(int value, const Work& work) {
+  if (value <= n || n == pencil_width) return work(std::integral_constant<int, n>{});
+  if constexpr (n < pencil_width) with_constant<n + 1>(value, work);
+}
+
 }  // namespace
 
 LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const std::vector<double>& springs)
@@ -25,8 +32,9 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const
   const bool has_residuals = !body.force_states.gradients.empty();
   residual_force_ = has_springs_ ? tensor_sums + 3 : tensor_sums;
   stride_ = has_springs_ && has_residuals ? tensor_sums + 6 : tensor_sums + 3;
-  const int columns = has_residuals ? residual_columns : has_springs_ ? spring_columns : force_columns;
-  source_.assign(static_cast<std::size_t>(lattice.slots()) * columns, Pencil{});
+  source_columns_ = has_residuals ? residual_columns : has_springs_ ? spring_columns : force_columns;
+  moved_.assign(static_cast<std::size_t>(lattice.slots()) * moment_columns, Pencil{});
+  source_.assign(static_cast<std::size_t>(lattice.slots()) * source_columns_, Pencil{});
   sums_.assign(static_cast<std::size_t>(lattice.slots()) * stride_, Pencil{});
   set_constants(body, springs);
 }
@@ -68,48 +76,50 @@ void LatticeSums::mark_places() {
 
 // With V and V C in the place of V u, moments and q are what is looked for.
 void LatticeSums::set_constants(const Body& body, const std::vector<double>& springs) {
-  pack(moment_columns, [&](int i, const auto& put) {
+  pack(moved_, moment_columns, [&](int i, const auto& put) {
     put(0, body.domain.volumes[i]);
     put(1, body.domain.volumes[i] * springs[i]);
   });
   clear(stride_);
-  over_planes<MomentSweep>();
+  with_constant(lattice_->reach(), [this](auto reach) { over_planes<MomentSweep<reach>>(); });
   constants_.resize(body.owned());
   for (const int i : lattice_->members()) {
-    if (i < body.owned()) {
-      constants_[i] = {{sum(i, 0), sum(i, 3), sum(i, 6)}, sum(i, tensor_sums), sum(i, tensor_sums + 1)};
-    }
+    if (i >= body.owned()) continue;
+    const Tensor first = tensor(sums_at(i));
+    const Vector zeroth = vector(sums_at(i), tensor_sums);
+    constants_[i] = {first.row(0), zeroth[0], zeroth[1]};
   }
 }
 
-// Fills the source, `columns` pencils a slot, by fill(point, put) with put(column, value); zero in empty cells.
+// Fills a source, `columns` pencils a slot, by fill(point, put) with put(column, value). Empty cells stay zero.
 template <class Fill>
-void LatticeSums::pack(int columns, const Fill& fill) {
+void LatticeSums::pack(std::vector<Pencil>& source, int columns, const Fill& fill) const {
   for_each_point(1, lattice_->slots(), [&](int slot) {
-    Pencil* pencils = &source_[static_cast<std::size_t>(slot) * columns];
-    std::fill_n(pencils, columns, Pencil{});
+    double* cells = reinterpret_cast<double*>(&source[static_cast<std::size_t>(slot) * columns]);
     for (int lane = 0; lane < pencil_width; ++lane) {
       const int i = lattice_->point(slot, lane);
-      if (i >= 0) fill(i, [&](int column, double value) { pencils[column][lane] = value; });
+      if (i >= 0) fill(i, [&](int column, double value) { cells[column * pencil_width + lane] = value; });
     }
   });
-  std::fill_n(source_.begin(), columns, Pencil{});
 }
 
-// The first `columns` of all sums.
+// The first `columns` of the sums.
 void LatticeSums::clear(int columns) {
-  for_each_point(0, lattice_->slots(), [&](int slot) { std::fill_n(sums_of(slot), columns, Pencil{}); });
+  for_each_point(0, lattice_->slots(), [&](int slot) {
+    if (lattice_->is_owned(slot)) std::fill_n(sums_of(slot), columns, Pencil{});
+  });
 }
 
 // The row sums of the rows of a plane that a stencil reaches from the row at hand.
 class LatticeSums::Ring {
  public:
   Ring(int rows, int places, int columns)
-      : rows_(rows), places_(places), columns_(columns), room_(static_cast<std::size_t>(rows) * places * columns) {}
-  Pencil* at(int row, int x) { return &room_[(static_cast<std::size_t>(row % rows_) * places_ + x) * columns_]; }
+      : rows_(rows), columns_(columns), stride_(places * columns), room_(static_cast<std::size_t>(rows) * stride_) {}
+  Pencil* row(int y) { return &room_[static_cast<std::size_t>(y % rows_) * stride_]; }
+  int columns() const { return columns_; }  // of a place
 
  private:
-  int rows_, places_, columns_;
+  int rows_, columns_, stride_;
   std::vector<Pencil> room_;
 };
 
@@ -127,36 +137,51 @@ inline void for_each_bit(std::uint64_t word, int first, const Visit& visit) {
 // hand(to, dz) along z. What a plane adds to lies within a slab's thickness, so every other slab may run at a time.
 template <class Sweep>
 void LatticeSums::over_planes() {
-  const int planes = lattice_->shape()[2], first = lattice_->first_plane(), far = static_cast<int>(above_.size()) - 1;
+  const Eigen::Array3i& shape = lattice_->shape();
+  const int planes = shape[2], first = lattice_->first_plane(), far = static_cast<int>(above_.size()) - 1;
+  const int far_y = lattice_->rows_across() / 2, strip = rows_at_a_time();
   const int thickness = std::max(1, 2 * far);
   const auto slab_of = [&](int plane) { return static_cast<int>(std::floor(1.0 * plane / thickness)); };
   for (const int odd : {0, 1}) {
     for_each_point(slab_of(first), slab_of(first + planes - 1) + 1, [&](int slab) {
       if (std::abs(slab) % 2 != odd) return;
-      Ring ring(lattice_->rows_across(), lattice_->shape()[0], static_cast<int>(kinds_.size()) * Sweep::columns);
+      Ring ring(lattice_->rows_across(), shape[0], static_cast<int>(kinds_.size()) * Sweep::columns);
       // Points are at least as far from the first and last plane as a stencil reaches.
       const int begin = std::max(far, slab * thickness - first);
       const int end = std::min(planes - far, (slab + 1) * thickness - first);
-      for (int z = begin; z < end; ++z) over_plane<Sweep>(z, ring);
+      for (int y = far_y; y < shape[1] - far_y; y += strip) {
+        for (int z = begin; z < end; ++z) over_plane<Sweep>(z, y, std::min(y + strip, shape[1] - far_y), ring);
+      }
     });
   }
 }
 
+// So many that the sums of all planes that a plane adds to stay in the cache between it and the next one.
+int LatticeSums::rows_at_a_time() const {
+  constexpr double cache = 1 << 20;
+  const double row = static_cast<double>(lattice_->slots()) * stride_ * sizeof(Pencil) / lattice_->shape()[1] /
+                     lattice_->shape()[2] * static_cast<double>(2 * above_.size() - 1);
+  return std::max(lattice_->rows_across(), static_cast<int>(cache / row));
+}
+
+// Rows [from, to) of what a plane adds to.
 template <class Sweep>
-void LatticeSums::over_plane(int z, Ring& ring) {
+void LatticeSums::over_plane(int z, int from, int to, Ring& ring) {
   const Eigen::Array3i& shape = lattice_->shape();
   const int far_y = lattice_->rows_across() / 2, far_z = static_cast<int>(above_.size()) - 1;
   const int plane = shape[0] * shape[1];
-  int next = 0;  // row to be summed along x
-  for (int y = far_y; y < shape[1] - far_y; ++y) {
+  int next = from - far_y;  // row to be summed along x
+  for (int y = from; y < to; ++y) {
     for (; next <= y + far_y; ++next) {
       const int row = z * shape[1] + next;
       for (int w = 0; w < words_; ++w) {
         for_each_bit(filled_[static_cast<std::size_t>(row) * words_ + w], 64 * w,
-                     [&](int x) { Sweep::row_sums(*this, row * shape[0] + x, ring.at(next, x)); });
+                     [&](int x) { Sweep::row_sums(*this, row * shape[0] + x, ring.row(next) + x * ring.columns()); });
       }
     }
     const int row = z * shape[1] + y;
+    const Pencil* rows[2 * pencil_width + 1];
+    for (int dy = -far_y; dy <= far_y; ++dy) rows[dy + far_y] = ring.row(y + dy);
     for (int w = 0; w < words_; ++w) {
       std::uint64_t targets = 0;
       for (int dz = -far_z; dz <= far_z; ++dz) {
@@ -171,7 +196,7 @@ void LatticeSums::over_plane(int z, Ring& ring) {
           Sweep sums;
           for (const Row& r : above_[dz]) {
             if (lattice_->slot_at(place + r.dy * shape[0]) != 0) {
-              sums.add(ring.at(y + r.dy, x) + Sweep::columns * r.kind, r.y);
+              sums.add(rows[r.dy + far_y] + x * ring.columns() + Sweep::columns * r.kind, r.y);
             }
           }
           if (to_below) sums.hand(sums_of(below), above_[dz][0].z);
@@ -184,36 +209,34 @@ void LatticeSums::over_plane(int z, Ring& ring) {
 
 namespace {
 
-// What lies dx cells to the right and to the left in one column of a row: sums and differences, dx = 1 … reach.
+// What lies dx = 1 … reach cells to the right and to the left in one column of a row: sums and differences.
+template <int reach>
 struct Pairs {
-  Pencil here, plus[pencil_width + 1], minus[pencil_width + 1];
+  Pencil here, plus[reach + 1], minus[reach + 1];
 
-  Pairs(const Pencil& before, const Pencil& middle, const Pencil& after, int reach) : here(middle) {
-    fill(before, after, reach);
-  }
+  Pairs(const Pencil& before, const Pencil& middle, const Pencil& after) : here(middle) { fill(before, after); }
 
   template <class Kind>
   Pencil sum(const Kind& kind) const {  // Σ ω a
     Pencil s = kind.weight[0] * here;
-    for (int dx = 1; dx <= kind.reach; ++dx) s += kind.weight[dx] * plus[dx];
+    for (int dx = 1; dx <= reach; ++dx) s += kind.weight[dx] * plus[dx];
     return s;
   }
   template <class Kind>
   Pencil first(const Kind& kind) const {  // Σ ω dx a
     Pencil s{};
-    for (int dx = 1; dx <= kind.reach; ++dx) s += kind.first[dx] * minus[dx];
+    for (int dx = 1; dx <= reach; ++dx) s += kind.first[dx] * minus[dx];
     return s;
   }
 
  private:
   template <int dx = 1>
-  void fill(const Pencil& before, const Pencil& after, int reach) {
-    if constexpr (dx <= pencil_width) {
-      if (dx > reach) return;
+  void fill(const Pencil& before, const Pencil& after) {
+    if constexpr (dx <= reach) {
       const Pencil right = shifted<dx>(before, here, after), left = shifted<-dx>(before, here, after);
       plus[dx] = right + left;
       minus[dx] = right - left;
-      fill<dx + 1>(before, after, reach);
+      fill<dx + 1>(before, after);
     }
   }
 };
@@ -222,14 +245,15 @@ struct Pairs {
 
 // ---- Moments -------------------------------------------------------------------------------------------------------
 
+template <int reach>
 struct LatticeSums::MomentSweep {
   static constexpr int columns = 6;  // Σ ω V u, Σ ω dx V u
   Pencil sum[3] = {}, along_x[3] = {}, along_y[3] = {};
 
   static void row_sums(const LatticeSums& all, int place, Pencil* to) {
-    const Triple row = all.around(place, moment_columns);
+    const Triple row = all.around(place, all.moved_, moment_columns);
     for (int c = 0; c < 3; ++c) {
-      const Pairs u(row.before[c], row.here[c], row.after[c], all.lattice_->reach());
+      const Pairs<reach> u(row.before[c], row.here[c], row.after[c]);
       for (std::size_t k = 0; k < all.kinds_.size(); ++k) {
         to[k * columns + c] = u.sum(all.kinds_[k]);
         to[k * columns + 3 + c] = u.first(all.kinds_[k]);
@@ -254,32 +278,28 @@ struct LatticeSums::MomentSweep {
 };
 
 void LatticeSums::add_moments(const Body& body, const Displacements& u) {
-  pack(moment_columns, [&](int i, const auto& put) {
+  pack(moved_, moment_columns, [&](int i, const auto& put) {
     const Eigen::Array4d Vu = body.domain.volumes[i] * u(i);
     for (int c = 0; c < 3; ++c) put(c, Vu[c]);
   });
   clear(tensor_sums + 3);
-  over_planes<MomentSweep>();
-}
-
-Tensor LatticeSums::moment(int i, const Displacements& u) const {
-  return tensor(i) - u(i).head<3>().matrix() * constants_[i].first.transpose();
+  with_constant(lattice_->reach(), [this](auto reach) { over_planes<MomentSweep<reach>>(); });
 }
 
 // ---- Forces --------------------------------------------------------------------------------------------------------
 
-template <bool with_springs>
+template <int reach, bool with_springs>
 struct LatticeSums::ForceSweep {
   static constexpr int columns = 9;  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z
   Pencil sum[3] = {}, along_z[3] = {};
 
   static void row_sums(const LatticeSums& all, int place, Pencil* to) {
-    const Triple row = all.around(place, with_springs ? spring_columns : force_columns);
+    const Triple row = all.around(place, all.source_, all.source_columns_);
     const auto pairs = [&](int column) {
-      return Pairs(row.before[column], row.here[column], row.after[column], all.lattice_->reach());
+      return Pairs<reach>(row.before[column], row.here[column], row.after[column]);
     };
     for (int c = 0; c < 3; ++c) {
-      const Pairs x = pairs(c), y = pairs(3 + c), z = pairs(6 + c);
+      const Pairs<reach> x = pairs(c), y = pairs(3 + c), z = pairs(6 + c);
       for (std::size_t k = 0; k < all.kinds_.size(); ++k) {
         Pencil* of_kind = to + k * columns;
         of_kind[c] = x.first(all.kinds_[k]);
@@ -287,7 +307,7 @@ struct LatticeSums::ForceSweep {
         of_kind[6 + c] = z.sum(all.kinds_[k]);
       }
       if constexpr (with_springs) {
-        const Pairs pull = pairs(force_columns + c);
+        const Pairs<reach> pull = pairs(force_columns + c);
         for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k * columns + c] += pull.sum(all.kinds_[k]);
       }
     }
@@ -306,7 +326,7 @@ struct LatticeSums::ForceSweep {
 // f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω V_j,
 // q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
 void LatticeSums::add_forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states) {
-  pack(has_springs_ ? spring_columns : force_columns, [&](int i, const auto& put) {
+  pack(source_, source_columns_, [&](int i, const auto& put) {
     const double V = body.domain.volumes[i], C = states[i].column[0][3], stretched = u.is_field ? 0 : C;
     for (int axis = 0; axis < 3; ++axis) {
       for (int c = 0; c < 3; ++c) put(3 * axis + c, V * (states[i].column[axis][c] + (c == axis ? stretched : 0)));
@@ -316,17 +336,20 @@ void LatticeSums::add_forces(const Body& body, const Displacements& u, const std
     for (int c = 0; c < 3; ++c) put(force_columns + c, pull[c]);
   });
   clear(3);
-  has_springs_ ? over_planes<ForceSweep<true>>() : over_planes<ForceSweep<false>>();
+  with_constant(lattice_->reach(), [this](auto reach) {
+    has_springs_ ? over_planes<ForceSweep<reach, true>>() : over_planes<ForceSweep<reach, false>>();
+  });
 }
 
 Vector LatticeSums::force(int i, const Displacements& u, const ForceState& state) const {
   const Constants& own = constants_[i];
   Tensor A;
   for (int c = 0; c < 3; ++c) A.col(c) = state.column[c].head<3>().matrix();
-  Vector f = vector(i, 0) + A * own.first;
+  const double* sums = sums_at(i);
+  Vector f = vector(sums, 0) + A * own.first;
   if (!has_springs_) return f;
   const Vector ui = u(i).head<3>().matrix();
-  Vector stretch = vector(i, tensor_sums) - own.weight * ui;
+  Vector stretch = vector(sums, tensor_sums) - own.weight * ui;
   if (!u.is_field) stretch += own.first;
   return f + state.column[0][3] * stretch - own.springs * ui;
 }
@@ -334,7 +357,7 @@ Vector LatticeSums::force(int i, const Displacements& u, const ForceState& state
 // ---- Residuals -----------------------------------------------------------------------------------------------------
 
 void LatticeSums::add_residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients) {
-  pack(residual_columns, [&](int i, const auto& put) {
+  pack(source_, source_columns_, [&](int i, const auto& put) {
     const Eigen::Array4d ui = u(i);
     for (int axis = 0; axis < 3; ++axis) {
       for (int c = 0; c < 3; ++c) {
@@ -388,10 +411,10 @@ struct LatticeSums::Residuals {
 void LatticeSums::gather_residuals(int slot) {
   if (!lattice_->is_owned(slot)) return;
   const int place = lattice_->place(slot);
-  const Pencil* own = around(place, residual_columns).here;
+  const Pencil* own = around(place, source_, source_columns_).here;
   Pencil M[9] = {}, force[3] = {};
   for (const Row& row : rows_) {
-    const Triple there = around(place + row.offset, residual_columns);
+    const Triple there = around(place + row.offset, source_, source_columns_);
     const Pencil* ends[] = {there.before, there.here, there.after};
     Pencil fitted[9], base[3];
     for (int c = 0; c < 3; ++c) {

@@ -39,17 +39,19 @@ class LatticeSums {
   // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the next
   // one is called. Forces need what moments of the same u leave behind.
   void add_moments(const Body& body, const Displacements& u);
-  Tensor moment(int i, const Displacements& u) const;  // H
+  Tensor moment(int i, const Displacements& u) const {  // H
+    return tensor(sums_at(i)) - u(i).head<3>().matrix() * constants_[i].first.transpose();
+  }
 
   // `gradients`: F, or δF of a field, and C̄.
   void add_residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients);
-  Vector residual_force(int i) const { return vector(i, residual_force_); }
-  Tensor residual_moment(int i) const { return tensor(i); }  // M
+  Vector residual_force(int i) const { return vector(sums_at(i), residual_force_); }
+  Tensor residual_moment(int i) const { return tensor(sums_at(i)); }  // M
 
   void add_forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states);
-  Vector force(int i, const Displacements& u, const ForceState& state) const;
+  Vector force(int i, const Displacements& u, const ForceState& state) const;  // N/m³
 
-  double bytes() const { return static_cast<double>(sizeof(Pencil) * (source_.size() + sums_.size())); }
+  double bytes() const { return static_cast<double>(sizeof(Pencil) * (moved_.size() + source_.size() + sums_.size())); }
 
  private:
   // A row of the stencil.
@@ -79,30 +81,37 @@ class LatticeSums {
   void mark_places();
   void set_constants(const Body& body, const std::vector<double>& springs);
   template <class Fill>
-  void pack(int columns, const Fill& fill);
+  void pack(std::vector<Pencil>& source, int columns, const Fill& fill) const;
   void clear(int columns);
   template <class Sweep>
   void over_planes();
   template <class Sweep>
-  void over_plane(int z, Ring& ring);
+  void over_plane(int z, int from, int to, Ring& ring);
+  int rows_at_a_time() const;
+  template <int reach>
   struct MomentSweep;
-  template <bool with_springs>
+  template <int reach, bool with_springs>
   struct ForceSweep;
   void gather_residuals(int slot);
 
-  Triple around(int place, int columns) const {
-    const auto at = [&](int p) { return &source_[static_cast<std::size_t>(lattice_->slot_at(p)) * columns]; };
+  Triple around(int place, const std::vector<Pencil>& source, int columns) const {
+    const auto at = [&](int p) { return &source[static_cast<std::size_t>(lattice_->slot_at(p)) * columns]; };
     return {at(place - 1), at(place), at(place + 1)};
   }
   Pencil* sums_of(int slot) { return &sums_[static_cast<std::size_t>(slot) * stride_]; }
-  double sum(int i, int column) const {
-    const int cell = lattice_->cell(i);
-    return sums_[static_cast<std::size_t>(cell / pencil_width) * stride_ + column][cell % pencil_width];
+  // The sums of a point: its column c is at [c · pencil_width].
+  const double* sums_at(int i) const {
+    const unsigned cell = lattice_->cell(i);
+    return reinterpret_cast<const double*>(&sums_[static_cast<std::size_t>(cell / pencil_width) * stride_]) +
+           cell % pencil_width;
   }
-  Vector vector(int i, int column) const { return {sum(i, column), sum(i, column + 1), sum(i, column + 2)}; }
-  Tensor tensor(int i) const {
+  static Vector vector(const double* sums, int column) {
+    const double* at = sums + column * pencil_width;
+    return {at[0], at[pencil_width], at[2 * pencil_width]};
+  }
+  static Tensor tensor(const double* sums) {
     Tensor t;
-    t << vector(i, 0), vector(i, 3), vector(i, 6);
+    for (int c = 0; c < 9; ++c) t.data()[c] = sums[c * pencil_width];
     return t;
   }
 
@@ -113,8 +122,9 @@ class LatticeSums {
   std::vector<std::uint64_t> filled_, owned_;  // a bit for each place of the grid: a slot; a slot with points of our own
   int words_ = 0;                              // of these bits a row
   std::vector<Constants> constants_;   // of owned points
-  std::vector<Pencil> source_, sums_;  // some columns a slot
+  std::vector<Pencil> moved_, source_, sums_;  // V u; what forces and residuals are made of; some columns a slot
   bool has_springs_ = false;
+  int source_columns_ = 0;
   int stride_ = 0, residual_force_ = 0;  // columns of sums_: a tensor, q = Σ ω V u, and the force of residuals
 };
 

@@ -113,6 +113,26 @@ Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<
   return stencils;
 }
 
+// Whether sums by a lattice's stencil take less time than by lists: what each takes a step, in ns a point, by tests/bench.
+// Of sums over the points of all ranks, so that all decide alike however many they are. A run of n points fills (n + 7)/8
+// pencils on average; families are counted of every 64th point.
+bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, const Communicator& communicator) {
+  double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbours
+  for (const int i : lattice.members()) {
+    if (i >= owned) continue;
+    counts[0] += 1;
+    counts[1] += lattice.begins_run(i) ? 1 : 0;
+    if (pool.ids[i] % 64 != 0) continue;
+    counts[2] += 1;
+    lattice.for_each(i, [&](int) { counts[3] += 1; });
+  }
+  communicator.sum(counts);
+  const double neighbours = counts[3] / std::max(1.0, counts[2]), pencils = (1 + 7 * counts[1] / counts[0]) / 8;
+  const double lists = 4.5 * neighbours;
+  const double stencil = 60 + (300 + 10.0 * static_cast<double>(lattice.rows().size())) * pencils;
+  return stencil <= 1.2 * lists;  // it saves the lists' memory, too
+}
+
 // Calls visit(j) for the family of pool member i, by its stencil or by a search.
 template <class Visit>
 void for_each_neighbour(const Stencils& stencils, const CellGrid& grid, const Pool& pool, int i, double reach,
@@ -205,8 +225,13 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   for (const BlockHorizons& block : blocks) reach = std::max(reach, block.largest * (1 + 1e-9));
   const int owned = static_cast<int>(cloud.size());
   const Pool pool = pool_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
-  const std::vector<LatticeFrame> frames = lattice_frames(cloud, own_horizons, bonds, communicator);
-  const Stencils stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
+  const std::vector<LatticeFrame> found = lattice_frames(cloud, own_horizons, bonds, communicator);
+  Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
+  std::vector<LatticeFrame> frames;
+  for (std::size_t l = 0; l < found.size(); ++l) {
+    if (found[l].wanted || is_faster(stencils.lattices[l], pool, owned, communicator)) frames.push_back(found[l]);
+  }
+  if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
   const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
   const Order order = order_of(stencils, grid, pool, owned, reach);
@@ -254,6 +279,12 @@ std::size_t Families::bonds() const {
     }
   }
   return count;
+}
+
+double Families::bytes() const {
+  double sum = static_cast<double>(sizeof(int) * listed());
+  for (const LatticeFamilies& stencil : lattices) sum += stencil.bytes();
+  return sum;
 }
 
 Tensor family_spread(const Domain& domain, int i) {

@@ -38,7 +38,12 @@ struct Families {
   }
   std::size_t listed() const { return neighbours.size(); }  // bonds that take memory
   std::size_t bonds() const;
+  double bytes() const;
 };
+
+// What the families of a body become: a stencil where its points sit on a lattice and that is faster; or what is asked for.
+// Lists are for those who read them; a body of blocks that want different ones has lists.
+enum class FamilyKind { fastest, stencil, lists };
 
 // How the points of a block are bonded: their horizon δ, and the body they belong to. Bodies are not bonded to each
 // other.
@@ -53,7 +58,7 @@ struct BlockBonds {
   double horizon;  // of all points, m; or in local spacings of each
   bool in_spacings = false;
   int body;
-  bool lists = false;  // also of points on a lattice: for those who read lists
+  FamilyKind families = FamilyKind::fastest;
 
   // δ of a point with this local spacing, m.
   double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }

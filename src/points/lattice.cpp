@@ -23,13 +23,16 @@ int cells_within(const LatticeFrame& frame, int axis) {
 struct BodyPoints {
   std::vector<Vector> positions;
   double largest_horizon = 0, smallest_horizon = std::numeric_limits<double>::infinity();
-  bool wants_lists = false;
+  bool wants_lists = false, wants_stencil = false;
 };
 
 BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizons,
                      const std::vector<BlockBonds>& bonds, int body) {
   BodyPoints points;
-  for (const BlockBonds& block : bonds) points.wants_lists |= block.body == body && block.lists;
+  for (const BlockBonds& block : bonds) {
+    points.wants_lists |= block.body == body && block.families == FamilyKind::lists;
+    points.wants_stencil |= block.body == body && block.families == FamilyKind::stencil;
+  }
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (bonds[cloud.blocks[i]].body != body) continue;
     points.positions.push_back(cloud.positions[i]);
@@ -62,33 +65,35 @@ bool fits(const LatticeFrame& frame, const std::vector<Vector>& positions) {
   return true;
 }
 
-// Whether a grid over the points takes less than lists would: 64 bytes a point are 16 neighbours.
-bool is_compact(const LatticeFrame& frame, const std::vector<Vector>& positions) {
-  Eigen::AlignedBox3d box;
-  for (const Vector& X : positions) box.extend(X);
-  if (positions.empty()) return true;
-  Eigen::Array3d cells = box.sizes().array() / frame.spacing.array() + 2 * frame.horizon / frame.spacing.array() + 1;
+// Whether a grid over the body takes less than lists would: 64 bytes a point are 16 neighbours.
+bool is_compact(const LatticeFrame& frame, const Eigen::Array3d& size, double points) {
+  Eigen::Array3d cells = (size + 2 * frame.horizon) / frame.spacing.array() + 1;
   cells[0] = cells[0] / LatticeFamilies::width + 4;
-  return cells.prod() * sizeof(int) <= 64.0 * static_cast<double>(positions.size()) + (1 << 20);
+  return cells.prod() * sizeof(int) <= 64 * points + (1 << 20);
 }
 
 // Collective.
 std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const Communicator& communicator) {
   const double largest = communicator.max(points.largest_horizon), smallest = communicator.min(points.smallest_horizon);
-  if (communicator.max(points.wants_lists ? 1.0 : 0.0) > 0 || !(largest - smallest <= 1e-12 * largest)) return {};
-  LatticeFrame frame{.horizon = largest, .body = body};
+  if (points.wants_lists || !(largest - smallest <= 1e-12 * largest)) return {};
+  LatticeFrame frame{.horizon = largest, .body = body, .wanted = points.wants_stencil};
+  Eigen::Array3d size;
   for (int axis = 0; axis < 3; ++axis) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Vector& X : points.positions) low = std::min(low, X[axis]), high = std::max(high, X[axis]);
     low = communicator.min(low), high = communicator.max(high);
+    size[axis] = high - low;
     const double step = communicator.min(smallest_step(points.positions, axis, largest));
     const double cells = std::round((high - low) / step);
     frame.origin[axis] = low;
     frame.spacing[axis] = cells > 0 ? (high - low) / cells : largest;  // the mean step is free of round-off
   }
-  if (cells_within(frame, 0) > LatticeFamilies::width) return {};
-  const bool good = fits(frame, points.positions) && is_compact(frame, points.positions);
-  if (communicator.max(good ? 0.0 : 1.0) > 0) return {};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cells_within(frame, axis) > LatticeFamilies::width) return {};
+  }
+  const auto count = communicator.sum(static_cast<std::int64_t>(points.positions.size()));
+  if (!is_compact(frame, size, static_cast<double>(count))) return {};
+  if (communicator.max(fits(frame, points.positions) ? 0.0 : 1.0) > 0) return {};
   return frame;
 }
 
@@ -159,7 +164,10 @@ void LatticeFamilies::make_rows(const Box& box) {
 void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3i>& cells, int owned) {
   grid_.assign(static_cast<std::size_t>(box.shape.cast<double>().prod()), 0);
   for (const Eigen::Array3i& cell : cells) {
-    for (const int beside : {-1, 0, 1}) grid_[box.place(cell) + beside] = 1;
+    const int place = box.place(cell), x = cell[0] % width;
+    grid_[place] = 1;
+    if (x < reach_) grid_[place - 1] = 1;
+    if (x >= width - reach_) grid_[place + 1] = 1;
   }
   places_ = {0};
   shape_ = box.shape;
@@ -177,6 +185,11 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3
     points_[cell_[i]] = i;
     if (i < owned) owned_[slot] = 1;
   }
+}
+
+bool LatticeFamilies::begins_run(int i) const {
+  const int slot = cell_[i] / width, lane = cell_[i] % width;
+  return lane > 0 ? points_[cell_[i] - 1] < 0 : point(grid_[places_[slot] - 1], width - 1) < 0;
 }
 
 double LatticeFamilies::bytes() const {

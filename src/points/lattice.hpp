@@ -1,8 +1,8 @@
 // Bodies whose points sit on a lattice: who is near whom follows from the places in it, and no bond is written down.
 //
 // The lattice is cut into pencils of eight cells along x. Those that hold points of this rank, owned or ghosts, and the
-// next one on either side, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that is empty. A grid
-// over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z) of cells with
+// next ones if their row reaches into them, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that is
+// empty. A grid over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z) of cells with
 // |x| ≤ the row's reach.
 #pragma once
 
@@ -22,6 +22,7 @@ struct LatticeFrame {
   Vector spacing = Vector::Ones();  // m
   double horizon = 0;               // m, of all points of the body
   int body = 0;                     // BlockBonds::body
+  bool wanted = false;              // whether or not lists were faster
 
   Eigen::Array3i cell_of(const Vector& X) const;
 };
@@ -75,6 +76,8 @@ class LatticeFamilies {
   const Eigen::Array3i& shape() const { return shape_; }
   int first_plane() const { return first_plane_; }
 
+  // The next cell in x is empty: here a run of points begins.
+  bool begins_run(int i) const;
   double bytes() const;
 
  private:

@@ -28,7 +28,7 @@ void step(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   const LatticeSpec spec{{n, n, n}, 1e-3,           1e-3 * static_cast<double>(state.range(1)),
                          0,         Influence::one, copper(state.range(2)),
-                         state.range(3) != 0};
+                         state.range(3) != 0 ? FamilyKind::lists : FamilyKind::stencil};
   Body body = lattice_body(spec, world);
   const double dt = 1e-7, rate = 1e4;  // a shear that keeps a plastic block flowing
   double shear = 0;
@@ -57,6 +57,8 @@ BENCHMARK(step)
     ->Args({50, 3015, ordinary, 1})
     ->Args({50, 3015, plastic_mean_gradient, 1})
     ->Args({50, 3015, plastic_mean_gradient, 0})
+    ->Args({40, 6015, plastic_correspondence, 1})
+    ->Args({40, 6015, plastic_correspondence, 0})
     ->Args({50, 1750, plastic_mean_gradient, 1})
     ->Args({50, 1750, plastic_mean_gradient, 0})
     ->Unit(benchmark::kMillisecond);

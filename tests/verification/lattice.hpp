@@ -18,7 +18,7 @@ struct LatticeSpec {
   double perturbation = 0;  // the largest shift of a point in each direction, in spacings
   Influence influence = Influence::one;
   BlockMaterial material;
-  bool lists = false;  // of bonds, though it is a lattice
+  FamilyKind families = FamilyKind::fastest;
 };
 
 inline materials::AnyLaw elastic(double young, double poisson) {
@@ -52,7 +52,7 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
 inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
   PointCloud cloud = partitioned(lattice_cloud(spec, world), world);
   BlockBonds bonds(spec.horizon * spec.spacing);
-  bonds.lists = spec.lists || spec.material.formulation == Formulation::ordinary;
+  bonds.families = spec.material.formulation == Formulation::ordinary ? FamilyKind::lists : spec.families;
   Domain domain = make_domain(std::move(cloud), {bonds}, world);
   return make_body(std::move(domain), spec.influence, {spec.material});
 }

@@ -44,9 +44,9 @@ PointCloud porous_cloud(const Case& c, const Communicator& world) {
   return cloud;
 }
 
-Body body_of(const Case& c, bool lists, const Communicator& world) {
+Body body_of(const Case& c, FamilyKind families, const Communicator& world) {
   BlockBonds bonds(c.horizon * 1e-3);
-  bonds.lists = lists;
+  bonds.families = families;
   const materials::Elastic soft = std::get<materials::Elastic>(elastic(1e9, 0.3));
   const BlockMaterial left{1000, soft, c.silling, {}, c.mean}, right{2000, elastic(3e9, 0.2), 2 * c.silling, {}, c.mean};
   return make_body(make_domain(partitioned(porous_cloud(c, world), world), {bonds, bonds}, world), c.influence,
@@ -86,7 +86,7 @@ Vector bent(const Vector& X) {
 }
 
 TEST_P(LatticeOf, IsFoundAndHasTheBondsOfLists) {
-  const Body stencil = body_of(GetParam(), false, world), lists = body_of(GetParam(), true, world);
+  const Body stencil = body_of(GetParam(), FamilyKind::stencil, world), lists = body_of(GetParam(), FamilyKind::lists, world);
   EXPECT_EQ(stencil.domain.families.lattices.size(), 1U);
   EXPECT_EQ(stencil.domain.families.listed(), 0U);
   EXPECT_TRUE(lists.domain.families.lattices.empty());
@@ -100,7 +100,7 @@ TEST_P(LatticeOf, IsFoundAndHasTheBondsOfLists) {
 
 // Sums of some hundred terms in another order: round-off of 1e-16 times the number of additions that a digit passes.
 TEST_P(LatticeOf, HasTheForcesOfLists) {
-  Body stencil = body_of(GetParam(), false, world), lists = body_of(GetParam(), true, world);
+  Body stencil = body_of(GetParam(), FamilyKind::stencil, world), lists = body_of(GetParam(), FamilyKind::lists, world);
   for (Body* body : {&stencil, &lists}) {
     deform(*body, bent);
     ASSERT_FALSE(advance_stress_and_force(*body, 1e-6, true).failure);
@@ -119,16 +119,16 @@ TEST_P(LatticeOf, HasTheForcesOfLists) {
 }
 
 TEST_P(LatticeOf, HasTheTangentOfLists) {
-  std::vector<double> results[2];
-  for (const bool listed : {false, true}) {
-    Body body = body_of(GetParam(), listed, world);
+  std::vector<std::vector<double>> results;
+  for (const FamilyKind families : {FamilyKind::stencil, FamilyKind::lists}) {
+    Body body = body_of(GetParam(), families, world);
     deform(body, bent);
     const auto field = [&](int i) {
       const Vector& X = body.domain.positions[i];
       return Vector(std::sin(4000 * X[0]), std::cos(5000 * X[1]), std::sin(3000 * X[2] + 1));
     };
     const std::vector<Vector> image = operator_on(body, field);
-    results[listed] = by_id(body, [&](int i) { return image[i]; });
+    results.push_back(by_id(body, [&](int i) { return image[i]; }));
   }
   EXPECT_LT(difference(results[0], results[1]), 1e-12);
 }
@@ -140,13 +140,21 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{3.015, Influence::linear_decay, 0.05, 0.01, 0.5}, Case{6.015, Influence::one, 0.01, 0, 0.5},
                     Case{3.3, Influence::linear_decay, 0.05, 0.01, 0.6, {1e-3, 1.3e-3, 0.7e-3}}));
 
-// What is no lattice has lists.
+// What is no lattice has lists, and so has one that is faster with them.
 TEST(NoLattice, HasLists) {
   const Communicator world;
   const Body moved = lattice_body({{6, 6, 6}, 1, 2.015, 1e-6, Influence::one, {1000, elastic(1e9, 0.3)}}, world);
   EXPECT_TRUE(moved.domain.families.lattices.empty());
   const Body wide = lattice_body({{12, 12, 12}, 1, 9.015, 0, Influence::one, {1000, elastic(1e9, 0.3)}}, world);
   EXPECT_TRUE(wide.domain.families.lattices.empty());
+  const Body thin = lattice_body({{2, 6, 6}, 1, 2.015, 0, Influence::one, {1000, elastic(1e9, 0.3)}}, world);
+  EXPECT_TRUE(thin.domain.families.lattices.empty());
+}
+
+TEST(Lattice, IsTakenWhereItIsFaster) {
+  const Communicator world;
+  const Body thick = lattice_body({{24, 6, 6}, 1, 3.015, 0, Influence::one, {1000, elastic(1e9, 0.3)}}, world);
+  EXPECT_EQ(thick.domain.families.lattices.size(), 1U);
 }
 
 }  // namespace
