@@ -104,27 +104,74 @@ struct Criterion {
   }
 };
 
+// Where material has hardly been deformed nothing of one body can touch: points that are not bonded were a horizon or more
+// apart, and touch when they have come closer by a tenth of that. So two cells need no look where no two displacements of
+// their points differ by as much, less the skin. In a body that falls or turns little that is almost everywhere.
+class Calm {
+ public:
+  Calm(const CellGrid& grid, const Pool& pool, const Criterion& criterion) {
+    if (!criterion.parties.one_body) return;
+    double horizon = std::numeric_limits<double>::infinity();
+    boxes_.resize(grid.cells());
+    for (int c = 0; c < grid.cells(); ++c) {
+      for (const int m : grid.members(c)) {
+        boxes_[c].extend(place(pool.members[m]) - reference(pool.members[m]));
+        horizon = std::min(horizon, pool.members[m].current[3]);
+      }
+    }
+    limit_ = (1 - reference_share) * horizon - criterion.skin;
+  }
+
+  bool between(int one, int other) const {
+    if (boxes_.empty()) return false;
+    const Vector apart = (boxes_[one].max() - boxes_[other].min()).cwiseMax(boxes_[other].max() - boxes_[one].min());
+    return apart.squaredNorm() < limit_ * std::abs(limit_);
+  }
+
+ private:
+  std::vector<Box> boxes_;  // of displacements, of cells; none between bodies
+  double limit_ = 0;        // m
+};
+
 // Partners of the pool's owned members, as places in the pool, ordered by id.
 struct Lists {
-  std::vector<std::size_t> start{0};
+  std::vector<std::size_t> start;
   std::vector<int> partners;
 };
 
 Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
   const CellGrid grid(pool.places, reach);
-  Lists lists;
-  for (std::size_t k = 0; k < pool.owned; ++k) {
-    const std::size_t begin = lists.partners.size();
-    const Vector here = pool.places[k];
-    grid.visit_near(here, [&](int other, const Vector& there) {
-      const double distance2 = (there - here).squaredNorm();
-      if (distance2 > reach * reach || other == static_cast<int>(k)) return;
-      if (may_touch(pool.members[k], pool.members[other], distance2)) lists.partners.push_back(other);
+  const Calm calm(grid, pool, may_touch);
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<int> near;
+  for (int cell = 0; cell < grid.cells(); ++cell) {
+    if (grid.members(cell).empty()) continue;
+    near.clear();
+    grid.visit_cells_near(cell, [&](int other) {
+      if (!grid.members(other).empty() && !calm.between(cell, other)) near.push_back(other);
     });
-    std::sort(lists.partners.begin() + static_cast<std::ptrdiff_t>(begin), lists.partners.end(),
-              [&](int a, int b) { return pool.members[a].id < pool.members[b].id; });
-    lists.start.push_back(lists.partners.size());
+    for (const int k : grid.members(cell)) {
+      if (k >= static_cast<int>(pool.owned)) continue;
+      for (const int there : near) {
+        const std::span<const Vector> places = grid.places(there);
+        for (std::size_t m = 0; m < places.size(); ++m) {
+          const double distance2 = (places[m] - pool.places[k]).squaredNorm();
+          const int other = grid.members(there)[m];
+          if (distance2 > reach * reach || other == k) continue;
+          if (may_touch(pool.members[k], pool.members[other], distance2)) pairs.emplace_back(k, other);
+        }
+      }
+    }
   }
+  std::sort(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) {
+    return std::pair(a.first, pool.members[a.second].id) < std::pair(b.first, pool.members[b.second].id);
+  });
+  Lists lists{std::vector<std::size_t>(pool.owned + 1, 0), {}};
+  for (const auto& [k, partner] : pairs) {
+    ++lists.start[k + 1];
+    lists.partners.push_back(partner);
+  }
+  for (std::size_t k = 0; k < pool.owned; ++k) lists.start[k + 1] += lists.start[k];
   return lists;
 }
 

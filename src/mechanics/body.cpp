@@ -59,13 +59,33 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   return states;
 }
 
-// K = Σ ω V ξ⊗ξ is what gather() finds in the undeformed state.
+// The places in a lattice as a field, from its origin: its moments are the shape tensors.
+Displacements places_in(const LatticeFamilies& lattice, const std::vector<Site>& sites) {
+  Eigen::Array4d origin = Eigen::Array4d::Zero();
+  origin.head<3>() = lattice.frame().origin.array();
+  return {sites.data(), true, origin};
+}
+
+void add_lattice_sums(Body& body) {
+  for (const LatticeFamilies& lattice : body.domain.families.lattices) {
+    body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice));
+    body.lattice_sums.back()->add_moments(body, places_in(lattice, body.sites));
+  }
+}
+
+Tensor shape_tensor(const Body& body, const MaterialBlock& block, int i, auto weight) {
+  if (block.lattice < 0) return bonds::gather(body.domain.families, body.sites.data(), i, weight);
+  const LatticeFamilies& lattice = body.domain.families.lattices[block.lattice];
+  return body.lattice_sums[block.lattice]->moment(i, places_in(lattice, body.sites));
+}
+
+// K = Σ ω V ξ⊗ξ is what moments are in the undeformed state.
 void set_shape(Body& body, MaterialBlock& block) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, static_cast<int>(block.points.size()), [&, weight](int k) {
       const int i = block.points[k];
-      const Tensor K = bonds::gather(body.domain.families, body.sites.data(), i, weight);
+      const Tensor K = shape_tensor(body, block, i, weight);
       body.points[i].shape_inverse = symmetric_part(K.inverse());
       if (block.is_ordinary()) {
         block.ordinary[k].weighted_volume = K.trace();
@@ -97,17 +117,6 @@ void set_what_blocks_feel(Body& body) {
   }
 }
 
-// After the shape tensors, and what the springs' stiffness C follows from.
-void add_lattice_sums(Body& body) {
-  if (body.domain.families.lattices.empty()) return;
-  std::vector<double> springs(body.sites.size());
-  for (int i = 0; i < body.owned(); ++i) springs[i] = body.points[i].stabilization;
-  body.domain.halo.exchange(springs.data(), 1, 1);
-  for (const LatticeFamilies& lattice : body.domain.families.lattices) {
-    body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, springs));
-  }
-}
-
 }  // namespace
 
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials) {
@@ -135,12 +144,13 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.force_density.assign(owned, Vector::Zero());
   body.stabilization_work.assign(owned, 0);
   body.residual.assign(owned, 0);
+  add_lattice_sums(body);
   for (MaterialBlock& block : body.blocks) {
     if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
     set_shape(body, block);
   }
+  for (const auto& sums : body.lattice_sums) sums->set_springs(body);
   set_what_blocks_feel(body);
-  add_lattice_sums(body);
   return body;
 }
 

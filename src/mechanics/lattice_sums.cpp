@@ -24,11 +24,12 @@ void with_constant(int value, const Work& work) {
 
 }  // namespace
 
-LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const std::vector<double>& springs)
-    : lattice_(&lattice) {
+LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice)
+    : lattice_(&lattice), constants_(body.owned()) {
   make_rows(body.influence);
   mark_places();
-  has_springs_ = std::any_of(springs.begin(), springs.end(), [](double C) { return C > 0; });
+  has_springs_ = std::any_of(body.blocks.begin(), body.blocks.end(),
+                             [](const MaterialBlock& block) { return block.material.stabilization > 0; });
   const bool has_residuals = !body.force_states.gradients.empty();
   residual_force_ = has_springs_ ? tensor_sums + 3 : tensor_sums;
   stride_ = has_springs_ && has_residuals ? tensor_sums + 6 : tensor_sums + 3;
@@ -36,7 +37,7 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const
   moved_.assign(static_cast<std::size_t>(lattice.slots()) * moment_columns, Pencil{});
   source_.assign(static_cast<std::size_t>(lattice.slots()) * source_columns_, Pencil{});
   sums_.assign(static_cast<std::size_t>(lattice.slots()) * stride_, Pencil{});
-  set_constants(body, springs);
+  set_weights(body);
 }
 
 void LatticeSums::make_rows(Influence influence) {
@@ -74,20 +75,27 @@ void LatticeSums::mark_places() {
   }
 }
 
-// With V and V C in the place of V u, moments and q are what is looked for.
-void LatticeSums::set_constants(const Body& body, const std::vector<double>& springs) {
-  pack(moved_, moment_columns, [&](int i, const auto& put) {
-    put(0, body.domain.volumes[i]);
-    put(1, body.domain.volumes[i] * springs[i]);
-  });
-  clear(stride_);
-  with_constant(lattice_->reach(), [this](auto reach) { over_planes<MomentSweep<reach>>(); });
-  constants_.resize(body.owned());
+// With V or V C in the place of V u, moments and q are what is looked for.
+void LatticeSums::set_weights(const Body& body) {
+  pack(moved_, moment_columns, [&](int i, const auto& put) { put(0, body.domain.volumes[i]); });
+  add_packed_moments();
   for (const int i : lattice_->members()) {
     if (i >= body.owned()) continue;
-    const Tensor first = tensor(sums_at(i));
-    const Vector zeroth = vector(sums_at(i), tensor_sums);
-    constants_[i] = {first.row(0), zeroth[0], zeroth[1]};
+    const double* sums = sums_at(i);
+    constants_[i].first = tensor(sums).row(0);
+    constants_[i].weight = vector(sums, tensor_sums)[0];
+  }
+}
+
+void LatticeSums::set_springs(Body& body) {
+  if (!has_springs_) return;
+  std::vector<double> springs(body.sites.size());
+  for (int i = 0; i < body.owned(); ++i) springs[i] = body.points[i].stabilization;
+  body.domain.halo.exchange(springs.data(), 1, 1);
+  pack(moved_, moment_columns, [&](int i, const auto& put) { put(0, body.domain.volumes[i] * springs[i]); });
+  add_packed_moments();
+  for (const int i : lattice_->members()) {
+    if (i < body.owned()) constants_[i].springs = vector(sums_at(i), tensor_sums)[0];
   }
 }
 
@@ -282,8 +290,45 @@ void LatticeSums::add_moments(const Body& body, const Displacements& u) {
     const Eigen::Array4d Vu = body.domain.volumes[i] * u(i);
     for (int c = 0; c < 3; ++c) put(c, Vu[c]);
   });
+  add_packed_moments();
+}
+
+void LatticeSums::add_packed_moments() {
   clear(tensor_sums + 3);
   with_constant(lattice_->reach(), [this](auto reach) { over_planes<MomentSweep<reach>>(); });
+}
+
+// ---- Squares -------------------------------------------------------------------------------------------------------
+
+template <int reach>
+struct LatticeSums::SquareSweep {
+  static constexpr int columns = 1;  // Σ ω V |u|²
+  Pencil sum = {};
+
+  static void row_sums(const LatticeSums& all, int place, Pencil* to) {
+    const Triple row = all.around(place, all.moved_, moment_columns);
+    const Pairs<reach> square(row.before[0], row.here[0], row.after[0]);
+    for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k] = square.sum(all.kinds_[k]);
+  }
+  void add(const Pencil* row, double) { sum += *row; }
+  void hand(Pencil* to, double) const { *to += sum; }
+};
+
+void LatticeSums::add_squares(const Body& body, const Displacements& u) {
+  pack(moved_, moment_columns,
+       [&](int i, const auto& put) { put(0, body.domain.volumes[i] * u(i).head<3>().square().sum()); });
+  clear(1);
+  with_constant(lattice_->reach(), [this](auto reach) { over_planes<SquareSweep<reach>>(); });
+}
+
+// Σ ω V |u_j − u_i|² − H : (F − I), H = (F − I) K being the moments; the first sum is Σ ω V |u_j|² − 2 u_i·q + W |u_i|².
+double LatticeSums::squared_residual(int i, const Displacements& u, const MaterialPoint& point) const {
+  const double* sums = sums_at(i);
+  const Vector ui = u(i).head<3>().matrix();
+  const double squares = sums[0] - 2 * ui.dot(vector(sums, tensor_sums)) + constants_[i].weight * ui.squaredNorm();
+  const Tensor gradient = point.deformation_gradient - Tensor::Identity();
+  const Tensor shape = to_tensor(point.shape_inverse).inverse();
+  return std::max(0.0, squares - (gradient * shape).cwiseProduct(gradient).sum());
 }
 
 // ---- Forces --------------------------------------------------------------------------------------------------------

@@ -21,20 +21,24 @@
 
 namespace strut {
 
-// u = y − X of sites, or a field that stands in the place of y.
+// What is summed: u = y − X of sites, or a field that stands in the place of y, less `origin`.
 struct Displacements {
   const Site* sites;
   bool is_field = false;
+  Eigen::Array4d origin = Eigen::Array4d::Zero();
 
   Eigen::Array4d operator()(int i) const {
-    return is_field ? sites[i].current : Eigen::Array4d(sites[i].current - sites[i].reference);
+    return is_field ? Eigen::Array4d(sites[i].current - origin) : Eigen::Array4d(sites[i].current - sites[i].reference);
   }
 };
 
 class LatticeSums {
  public:
-  // `springs`: C of owned points and ghosts. Keeps a pointer to the lattice.
-  LatticeSums(const Body& body, const LatticeFamilies& lattice, const std::vector<double>& springs);
+  // Keeps a pointer to the lattice.
+  LatticeSums(const Body& body, const LatticeFamilies& lattice);
+
+  // Collective, before the first forces: what the stiffness C of the points' springs adds up to.
+  void set_springs(Body& body);
 
   // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the next
   // one is called. Forces need what moments of the same u leave behind.
@@ -42,6 +46,10 @@ class LatticeSums {
   Tensor moment(int i, const Displacements& u) const {  // H
     return tensor(sums_at(i)) - u(i).head<3>().matrix() * constants_[i].first.transpose();
   }
+
+  // Squares follow upon the moments of the same u.
+  void add_squares(const Body& body, const Displacements& u);
+  double squared_residual(int i, const Displacements& u, const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
 
   // `gradients`: F, or δF of a field, and C̄.
   void add_residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients);
@@ -67,8 +75,8 @@ class LatticeSums {
   };
   // Of a point, over its family and itself: Σ ω V ξ, Σ ω V, Σ ω V C.
   struct Constants {
-    Vector first;
-    double weight, springs;
+    Vector first = Vector::Zero();
+    double weight = 0, springs = 0;
   };
   // A row of three pencils whose middle stands above, below or beside the one that is looked at.
   struct Triple {
@@ -79,7 +87,8 @@ class LatticeSums {
 
   void make_rows(Influence influence);
   void mark_places();
-  void set_constants(const Body& body, const std::vector<double>& springs);
+  void set_weights(const Body& body);
+  void add_packed_moments();
   template <class Fill>
   void pack(std::vector<Pencil>& source, int columns, const Fill& fill) const;
   void clear(int columns);
@@ -90,6 +99,8 @@ class LatticeSums {
   int rows_at_a_time() const;
   template <int reach>
   struct MomentSweep;
+  template <int reach>
+  struct SquareSweep;
   template <int reach, bool with_springs>
   struct ForceSweep;
   void gather_residuals(int slot);

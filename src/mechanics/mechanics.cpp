@@ -201,8 +201,13 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
       if (block.is_ordinary()) {
         advance_ordinary(body, block, with_views, part, report);
       } else {
-        advance_stress(body, block, dt, with_views, part, report);
+        advance_stress(body, block, dt, part, report);
       }
+    }
+    if (!with_views) return;
+    over_lattices(body, part, [&](LatticeSums& sums) { sums.add_squares(body, u); });
+    for (const MaterialBlock& block : body.blocks) {
+      if (!block.is_ordinary()) view_residuals(body, block, part);
     }
   };
   behind_exchange(

@@ -196,18 +196,6 @@ struct Update {
   }
 };
 
-// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it.
-template <class Weight>
-void view_residuals(Body& body, const MaterialBlock& block, Weight weight, int begin, int end) {
-  for_each_point(begin, end, [&, weight](int k) {
-    const int i = block.points[k];
-    const MaterialPoint& point = body.points[i];
-    body.residual[i] =
-        bonds::squared_residual(body.domain.families, body.sites.data(), i, point.deformation_gradient, weight);
-    body.stabilization_work[i] = 0.5 * point.stabilization * body.residual[i];
-  });
-}
-
 template <class L, class Weight>
 void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, int begin, int end,
                     StepReport& report) {
@@ -222,12 +210,26 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
 
 }  // namespace
 
-void advance_stress(Body& body, MaterialBlock& block, double dt, bool with_views, Part part, StepReport& report) {
+void advance_stress(Body& body, MaterialBlock& block, double dt, Part part, StepReport& report) {
   const auto [begin, end] = range(block, part);
   bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
     std::visit([&](const auto& law) { advance_points(body, block, law, weight, dt, begin, end, report); },
                block.material.law);
-    if (with_views) view_residuals(body, block, weight, begin, end);
+  });
+}
+
+void view_residuals(Body& body, const MaterialBlock& block, Part part) {
+  const auto [begin, end] = range(block, part);
+  bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
+    for_each_point(begin, end, [&, weight](int k) {
+      const int i = block.points[k];
+      const MaterialPoint& point = body.points[i];
+      body.residual[i] =
+          block.lattice < 0
+              ? bonds::squared_residual(body.domain.families, body.sites.data(), i, point.deformation_gradient, weight)
+              : body.lattice_sums[block.lattice]->squared_residual(i, {body.sites.data()}, point);
+      body.stabilization_work[i] = 0.5 * point.stabilization * body.residual[i];
+    });
   });
 }
 

@@ -32,8 +32,12 @@ class FirstFailure {
 };
 
 // Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
-void advance_stress(Body& body, MaterialBlock& block, double dt, bool with_views, Part part, StepReport& report);
+void advance_stress(Body& body, MaterialBlock& block, double dt, Part part, StepReport& report);
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report);
+
+// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it; on a
+// lattice after add_squares.
+void view_residuals(Body& body, const MaterialBlock& block, Part part);
 
 // The state of the bonds of an ordinary point of dilatation θ and weighted volume m.
 inline ScalarState scalar_state(const materials::Moduli& moduli, double dilatation, double weighted_volume) {

@@ -124,7 +124,7 @@ bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, cons
     counts[1] += lattice.begins_run(i) ? 1 : 0;
     if (pool.ids[i] % 64 != 0) continue;
     counts[2] += 1;
-    lattice.for_each(i, [&](int) { counts[3] += 1; });
+    counts[3] += static_cast<double>(lattice.family_size(i));
   }
   communicator.sum(counts);
   const double neighbours = counts[3] / std::max(1.0, counts[2]), pencils = (1 + 7 * counts[1] / counts[0]) / 8;

@@ -32,9 +32,8 @@ struct Families {
   }
 
   std::size_t size(int i) const {
-    std::size_t count = 0;
-    for_each(i, [&count](int) { ++count; });
-    return count;
+    const LatticeFamilies* stencil = lattice(i);
+    return stencil ? stencil->family_size(i) : start[i + 1] - start[i];
   }
   std::size_t listed() const { return neighbours.size(); }  // bonds that take memory
   std::size_t bonds() const;

@@ -178,23 +178,44 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3
     places_.push_back(place);
   }
   points_.assign(static_cast<std::size_t>(slots()) * width, -1);
+  filled_.assign(slots(), 0);
   owned_.assign(slots(), 0);
   for (std::size_t m = 0; m < members_.size(); ++m) {
     const int i = members_[m], slot = grid_[box.place(cells[m])];
     cell_[i] = slot * width + cells[m][0] % width;
     points_[cell_[i]] = i;
+    filled_[slot] |= 1u << cells[m][0] % width;
     if (i < owned) owned_[slot] = 1;
   }
 }
 
 bool LatticeFamilies::begins_run(int i) const {
-  const int slot = cell_[i] / width, lane = cell_[i] % width;
-  return lane > 0 ? points_[cell_[i] - 1] < 0 : point(grid_[places_[slot] - 1], width - 1) < 0;
+  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  return lane > 0 ? !has_point(place, lane - 1) : !has_point(place - 1, width - 1);
+}
+
+std::size_t LatticeFamilies::family_size(int i) const {
+  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  std::size_t count = 0;
+  for (const Row& row : rows_) count += std::popcount(neighbours_in(row, &grid_[place + row.offset], lane));
+  return count - 1;  // without the point itself
+}
+
+bool LatticeFamilies::spans_space(int i) const {
+  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  const auto beside = [&](int dx, int dy, int dz) {
+    const int x = lane + dx, row = place + (dz * shape_[1] + dy) * shape_[0];
+    return has_point(row + (x + width) / width - 1, (x + width) % width) ? 1 : 0;
+  };
+  const int along_x = beside(-1, 0, 0) + beside(1, 0, 0), along_y = beside(0, -1, 0) + beside(0, 1, 0);
+  const int along_z = beside(0, 0, -1) + beside(0, 0, 1);
+  const bool reached = (frame_.spacing.array() <= frame_.horizon).all();
+  return reached && along_x > 0 && along_y > 0 && along_z > 0 && along_x + along_y + along_z > 3;
 }
 
 double LatticeFamilies::bytes() const {
   const std::size_t numbers = members_.size() + grid_.size() + places_.size() + points_.size() + cell_.size();
-  return static_cast<double>(sizeof(int) * numbers + owned_.size());
+  return static_cast<double>(sizeof(int) * numbers + owned_.size() + filled_.size());
 }
 
 }  // namespace strut

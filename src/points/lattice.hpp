@@ -6,6 +6,8 @@
 // |x| ≤ the row's reach.
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -51,13 +53,18 @@ class LatticeFamilies {
   void for_each(int i, Visit&& visit) const {
     const int place = places_[cell_[i] / width], lane = cell_[i] % width;
     for (const Row& row : rows_) {
-      const int* pencils = &grid_[place + row.offset];
-      for (int x = lane - row.reach; x <= lane + row.reach; ++x) {
-        const int j = points_[pencils[(x + width) / width - 1] * width + (x + width) % width];
-        if (j >= 0 && j != i) visit(j);
+      const int* slots = &grid_[place + row.offset];
+      for (unsigned near = neighbours_in(row, slots, lane); near != 0; near &= near - 1) {
+        const int x = std::countr_zero(near);  // from the first cell of the pencil before
+        const int j = points_[slots[x / width - 1] * width + x % width];
+        if (j != i) visit(j);
       }
     }
   }
+
+  std::size_t family_size(int i) const;
+  // Whether the family has a point beside i along each axis and another one, so that it spans space.
+  bool spans_space(int i) const;
 
   const LatticeFrame& frame() const { return frame_; }
   const std::vector<int>& members() const { return members_; }
@@ -81,6 +88,14 @@ class LatticeFamilies {
   double bytes() const;
 
  private:
+  // The cells of a row within its reach of the one at `lane` that hold points: a bit each, from the first of the pencil
+  // before. `slots`: of the pencil at the row, those beside it before and after.
+  unsigned neighbours_in(const Row& row, const int* slots, int lane) const {
+    const unsigned filled = filled_[slots[-1]] | filled_[slots[0]] << width | filled_[slots[1]] << 2 * width;
+    return filled & ((2u << 2 * row.reach) - 1) << (width + lane - row.reach);
+  }
+  bool has_point(int place, int lane) const { return (filled_[grid_[place]] >> lane & 1) != 0; }
+
   struct Box;
   void make_rows(const Box& box);
   void make_slots(const Box& box, const std::vector<Eigen::Array3i>& cells, int owned);
@@ -92,6 +107,7 @@ class LatticeFamilies {
   std::vector<int> places_;  // of slots, in the grid
   std::vector<char> owned_;  // of slots
   std::vector<int> points_;  // of cells; −1: none
+  std::vector<std::uint8_t> filled_;  // of slots: a bit for each cell with a point
   std::vector<int> cell_;    // of points
   Eigen::Array3i shape_;
   int first_plane_ = 0, reach_ = 0, rows_across_ = 1;
