@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -131,20 +130,15 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
   }
 }
 
-// What a step of a point of each block takes, in ns, roughly (tests/bench): its bonds, as many as in bulk, and its
-// update.
-std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings) {
-  constexpr double bond = 5, update = 60, state = 200;
-  std::vector<double> costs;
-  for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
+// Collective. What a step of a point of each block takes, in ns, roughly (tests/bench): its bonds and its update.
+std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator) {
+  constexpr double update = 80, state = 150;
+  std::vector<double> costs = bond_costs(cloud, block_bonds(deck, cloud), communicator);
+  for (std::size_t b = 0; b < costs.size(); ++b) {
     const deck::Block& section = *section_of(deck, cloud.block_names[b]);
     const auto has_state = []<class L>(const L&) { return materials::state_size<L> > 0; };
-    const double ratio = section.horizon_factor ? *section.horizon_factor
-                         : spacings[b] > 0      ? *section.horizon / spacings[b]
-                                                : 0;
-    const double neighbours = 4.0 / 3 * std::numbers::pi * std::pow(ratio, 3);
     const bool flows = std::visit(has_state, deck.materials[section.material].law);
-    costs.push_back(neighbours * bond + update + (flows ? state : 0));
+    costs[b] += update + (flows ? state : 0);
   }
   return costs;
 }
@@ -349,7 +343,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   raise_together(communicator, problems.text(deck.file.string()));
   {
     const Timed timed(phase("Partition"));
-    cloud = partitioned(cloud, communicator, step_costs(deck, cloud, spacing));
+    cloud = partitioned(cloud, communicator, step_costs(deck, cloud, communicator));
   }
   std::int64_t dropped = 0;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);

@@ -113,6 +113,7 @@ void set_what_blocks_feel(Body& body) {
       (is_ordinary ? block.feels_ordinary : block.feels_correspondence) = true;
     };
     feel(block.is_ordinary());
+    if (block.lattice >= 0) continue;  // all of its body is by correspondence
     for (const int i : block.points) families.for_each(i, [&](int j) { feel(ordinary[j] > 0); });
   }
 }

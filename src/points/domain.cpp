@@ -1,7 +1,9 @@
 #include "points/domain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "points/cell_grid.hpp"
@@ -113,9 +115,14 @@ Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<
   return stencils;
 }
 
-// Whether sums by a lattice's stencil take less time than by lists: what each takes a step, in ns a point, by tests/bench.
-// Of sums over the points of all ranks, so that all decide alike however many they are. A run of n points fills (n + 7)/8
-// pencils on average; families are counted of every 64th point.
+// What a step takes of a point, in ns, by tests/bench. `pencils`: of the lattice a point.
+double cost_of_list(double neighbours) { return 4.5 * neighbours; }
+double cost_of_stencil(double rows, double pencils) { return 60 + (300 + 10 * rows) * pencils; }
+bool is_worth(double stencil, double list) { return stencil <= 1.2 * list; }  // it saves the lists' memory, too
+
+// Whether sums by a lattice's stencil take less time than by lists. Of sums over the points of all ranks, so that all decide
+// alike however many they are. A run of n points fills (n + 7)/8 pencils on average; families are counted of every 64th
+// point.
 bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, const Communicator& communicator) {
   double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbours
   for (const int i : lattice.members()) {
@@ -127,10 +134,9 @@ bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, cons
     counts[3] += static_cast<double>(lattice.family_size(i));
   }
   communicator.sum(counts);
-  const double neighbours = counts[3] / std::max(1.0, counts[2]), pencils = (1 + 7 * counts[1] / counts[0]) / 8;
-  const double lists = 4.5 * neighbours;
-  const double stencil = 60 + (300 + 10.0 * static_cast<double>(lattice.rows().size())) * pencils;
-  return stencil <= 1.2 * lists;  // it saves the lists' memory, too
+  const double pencils = (1 + 7 * counts[1] / counts[0]) / 8;
+  return is_worth(cost_of_stencil(static_cast<double>(lattice.rows().size()), pencils),
+                  cost_of_list(counts[3] / std::max(1.0, counts[2])));
 }
 
 // Calls visit(j) for the family of pool member i, by its stencil or by a search.
@@ -171,9 +177,10 @@ Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool,
   Order order;
   std::vector<std::size_t> sizes(owned, 0);
   std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
-  const bool alone = pool.ids.size() == static_cast<std::size_t>(owned);
+  Eigen::AlignedBox3d others;
+  for (std::size_t j = owned; j < pool.ids.size(); ++j) others.extend(pool.positions[j]);
   for (int i = 0; i < owned; ++i) {
-    if (alone && stencils.of[i] >= 0) continue;
+    if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= reach * reach)) continue;
     for_each_neighbour(stencils, grid, pool, i, reach, [&](int j) {
       ++sizes[i];
       if (j >= owned) needs_ghost[i] = used[j] = 1;
@@ -216,6 +223,29 @@ bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
   constexpr double tolerance = 1 + 1e-9;  // a neighbour at exactly the horizon stays in despite round-off
   const double horizon = 0.5 * (one_horizon + other_horizon) * tolerance;
   return xi.squaredNorm() <= horizon * horizon;
+}
+
+std::vector<double> bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
+                               const Communicator& communicator) {
+  constexpr double pencils = 1.0 / 6;  // of a lattice a point: between a full block's eighth and a foam's fifth
+  std::vector<double> sums(2 * bonds.size(), 0);  // spacings and number of points of each block
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    sums[2 * cloud.blocks[i]] += cloud.spacings[i];
+    sums[2 * cloud.blocks[i] + 1] += 1;
+  }
+  communicator.sum(sums);
+  const std::vector<LatticeFrame> frames = lattice_frames(cloud, horizons_of(cloud, bonds), bonds, communicator);
+  std::vector<double> costs;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const double spacing = sums[2 * b] / std::max(1.0, sums[2 * b + 1]);
+    const double reach = spacing > 0 ? bonds[b].horizon_at(spacing) / spacing : 0;
+    costs.push_back(cost_of_list(4.0 / 3 * std::numbers::pi * std::pow(reach, 3)));
+    const double stencil = cost_of_stencil(std::numbers::pi * reach * reach, pencils);
+    const auto here = [&](const LatticeFrame& frame) { return frame.body == bonds[b].body; };
+    const bool on_lattice = std::any_of(frames.begin(), frames.end(), here);
+    if (on_lattice && is_worth(stencil, costs[b])) costs[b] = stencil;
+  }
+  return costs;
 }
 
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator) {

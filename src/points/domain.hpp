@@ -93,6 +93,10 @@ struct Domain {
 // Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud.
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator);
 
+// Collective. What a step takes of a point of each block for its bonds, in ns, roughly: for a partition.
+std::vector<double> bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
+                               const Communicator& communicator);
+
 // What is wrong with a family, or nullptr: a shape tensor needs at least four neighbours that span space.
 // `spread`: Σ V ξ⊗ξ of the family.
 const char* degeneracy(std::size_t neighbours, const Tensor& spread);
