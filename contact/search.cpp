@@ -80,7 +80,10 @@ struct Pool {
 
 Pool pool_of(const Crowd& crowd, const Parties& parties, double reach) {
   Pool pool;
-  for (const int i : possible_points(crowd, parties, reach)) pool.members.push_back(candidate(crowd, i));
+  const std::vector<int> points = possible_points(crowd, parties, reach);
+  pool.members.reserve(points.size());
+  pool.places.reserve(points.size());
+  for (const int i : points) pool.members.push_back(candidate(crowd, i));
   for (const Candidate& c : pool.members) pool.places.push_back(place(c));
   pool.owned = pool.members.size();
   const auto others = from_near_ranks<Candidate>(pool.places, pool.members, reach, crowd.domain.communicator);
@@ -104,33 +107,48 @@ struct Criterion {
   }
 };
 
+// Where a body was in its reference state, sorted into the cells of where it is now.
+//
 // Where material has hardly been deformed nothing of one body can touch: points that are not bonded were a horizon or more
 // apart, and touch when they have come closer by a tenth of that. So two cells need no look where no two displacements of
-// their points differ by as much, less the skin. In a body that falls or turns little that is almost everywhere.
-class Calm {
+// their points differ by as much, less the skin. In a body that falls or turns little that is almost everywhere. Elsewhere
+// most of what is near has been near: two points that were within the smallest horizon are bonded.
+class Memory {
  public:
-  Calm(const CellGrid& grid, const Pool& pool, const Criterion& criterion) {
+  Memory(const CellGrid& grid, const Pool& pool, const Criterion& criterion) : begin_(grid.cells()) {
     if (!criterion.parties.one_body) return;
-    double horizon = std::numeric_limits<double>::infinity();
     boxes_.resize(grid.cells());
+    references_.reserve(pool.members.size());
+    double horizon = std::numeric_limits<double>::infinity();
     for (int c = 0; c < grid.cells(); ++c) {
+      begin_[c] = references_.size();
       for (const int m : grid.members(c)) {
-        boxes_[c].extend(place(pool.members[m]) - reference(pool.members[m]));
-        horizon = std::min(horizon, pool.members[m].current[3]);
+        const Candidate& member = pool.members[m];
+        references_.push_back(reference(member));
+        boxes_[c].extend(place(member) - references_.back());
+        horizon = std::min(horizon, member.current[3]);
       }
     }
+    horizon2_ = horizon * horizon;
     limit_ = (1 - reference_share) * horizon - criterion.skin;
   }
 
-  bool between(int one, int other) const {
+  bool is_calm_between(int one, int other) const {
     if (boxes_.empty()) return false;
     const Vector apart = (boxes_[one].max() - boxes_[other].min()).cwiseMax(boxes_[other].max() - boxes_[one].min());
     return apart.squaredNorm() < limit_ * std::abs(limit_);
   }
 
+  // Whether a point that was at `reference` is certainly bonded to the k-th of a cell.
+  bool bonded(const Vector& reference, int cell, std::size_t k) const {
+    return !boxes_.empty() && (references_[begin_[cell] + k] - reference).squaredNorm() <= horizon2_;
+  }
+
  private:
-  std::vector<Box> boxes_;  // of displacements, of cells; none between bodies
-  double limit_ = 0;        // m
+  std::vector<std::size_t> begin_;  // of cells, in references_
+  std::vector<Vector> references_;  // in the order of the cells' members; none between bodies
+  std::vector<Box> boxes_;          // of displacements, of cells
+  double horizon2_ = 0, limit_ = 0;  // the smallest horizon, squared, m²; m
 };
 
 // Partners of the pool's owned members, as places in the pool, ordered by id.
@@ -141,24 +159,25 @@ struct Lists {
 
 Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
   const CellGrid grid(pool.places, reach);
-  const Calm calm(grid, pool, may_touch);
+  const Memory memory(grid, pool, may_touch);
   std::vector<std::pair<int, int>> pairs;
   std::vector<int> near;
   for (int cell = 0; cell < grid.cells(); ++cell) {
     if (grid.members(cell).empty()) continue;
     near.clear();
     grid.visit_cells_near(cell, [&](int other) {
-      if (!grid.members(other).empty() && !calm.between(cell, other)) near.push_back(other);
+      if (!grid.members(other).empty() && !memory.is_calm_between(cell, other)) near.push_back(other);
     });
     for (const int k : grid.members(cell)) {
       if (k >= static_cast<int>(pool.owned)) continue;
+      const Vector here = pool.places[k], was = reference(pool.members[k]);
       for (const int there : near) {
         const std::span<const Vector> places = grid.places(there);
         for (std::size_t m = 0; m < places.size(); ++m) {
-          const double distance2 = (places[m] - pool.places[k]).squaredNorm();
+          const double distance2 = (places[m] - here).squaredNorm();
+          if (distance2 > reach * reach || memory.bonded(was, there, m)) continue;
           const int other = grid.members(there)[m];
-          if (distance2 > reach * reach || other == k) continue;
-          if (may_touch(pool.members[k], pool.members[other], distance2)) pairs.emplace_back(k, other);
+          if (other != k && may_touch(pool.members[k], pool.members[other], distance2)) pairs.emplace_back(k, other);
         }
       }
     }

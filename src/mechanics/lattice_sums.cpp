@@ -147,7 +147,6 @@ template <class Sweep>
 void LatticeSums::over_planes() {
   const Eigen::Array3i& shape = lattice_->shape();
   const int planes = shape[2], first = lattice_->first_plane(), far = static_cast<int>(above_.size()) - 1;
-  const int far_y = lattice_->rows_across() / 2, strip = rows_at_a_time();
   const int thickness = std::max(1, 2 * far);
   const auto slab_of = [&](int plane) { return static_cast<int>(std::floor(1.0 * plane / thickness)); };
   for (const int odd : {0, 1}) {
@@ -157,29 +156,18 @@ void LatticeSums::over_planes() {
       // Points are at least as far from the first and last plane as a stencil reaches.
       const int begin = std::max(far, slab * thickness - first);
       const int end = std::min(planes - far, (slab + 1) * thickness - first);
-      for (int y = far_y; y < shape[1] - far_y; y += strip) {
-        for (int z = begin; z < end; ++z) over_plane<Sweep>(z, y, std::min(y + strip, shape[1] - far_y), ring);
-      }
+      for (int z = begin; z < end; ++z) over_plane<Sweep>(z, ring);
     });
   }
 }
 
-// So many that the sums of all planes that a plane adds to stay in the cache between it and the next one.
-int LatticeSums::rows_at_a_time() const {
-  constexpr double cache = 1 << 20;
-  const double row = static_cast<double>(lattice_->slots()) * stride_ * sizeof(Pencil) / lattice_->shape()[1] /
-                     lattice_->shape()[2] * static_cast<double>(2 * above_.size() - 1);
-  return std::max(lattice_->rows_across(), static_cast<int>(cache / row));
-}
-
-// Rows [from, to) of what a plane adds to.
 template <class Sweep>
-void LatticeSums::over_plane(int z, int from, int to, Ring& ring) {
+void LatticeSums::over_plane(int z, Ring& ring) {
   const Eigen::Array3i& shape = lattice_->shape();
   const int far_y = lattice_->rows_across() / 2, far_z = static_cast<int>(above_.size()) - 1;
   const int plane = shape[0] * shape[1];
-  int next = from - far_y;  // row to be summed along x
-  for (int y = from; y < to; ++y) {
+  int next = 0;  // row to be summed along x
+  for (int y = far_y; y < shape[1] - far_y; ++y) {
     for (; next <= y + far_y; ++next) {
       const int row = z * shape[1] + next;
       for (int w = 0; w < words_; ++w) {

@@ -95,8 +95,7 @@ class LatticeSums {
   template <class Sweep>
   void over_planes();
   template <class Sweep>
-  void over_plane(int z, int from, int to, Ring& ring);
-  int rows_at_a_time() const;
+  void over_plane(int z, Ring& ring);
   template <int reach>
   struct MomentSweep;
   template <int reach>
