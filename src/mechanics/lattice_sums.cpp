@@ -166,6 +166,12 @@ void LatticeSums::over_plane(int z, Ring& ring) {
   const Eigen::Array3i& shape = lattice_->shape();
   const int far_y = lattice_->rows_across() / 2, far_z = static_cast<int>(above_.size()) - 1;
   const int plane = shape[0] * shape[1];
+  struct RowOfSums {
+    const Pencil* sums;
+    int offset;  // in the grid
+    double y;    // m
+  };
+  std::vector<std::vector<RowOfSums>> near(above_.size());
   int next = 0;  // row to be summed along x
   for (int y = far_y; y < shape[1] - far_y; ++y) {
     for (; next <= y + far_y; ++next) {
@@ -176,8 +182,13 @@ void LatticeSums::over_plane(int z, Ring& ring) {
       }
     }
     const int row = z * shape[1] + y;
-    const Pencil* rows[2 * pencil_width + 1];
-    for (int dy = -far_y; dy <= far_y; ++dy) rows[dy + far_y] = ring.row(y + dy);
+    // The rows of sums that a stencil in this row reads, from x = 0, by |dz|.
+    for (std::size_t dz = 0; dz < above_.size(); ++dz) {
+      near[dz].clear();
+      for (const Row& r : above_[dz]) {
+        near[dz].push_back({ring.row(y + r.dy) + Sweep::columns * r.kind, r.dy * shape[0], r.y});
+      }
+    }
     for (int w = 0; w < words_; ++w) {
       std::uint64_t targets = 0;
       for (int dz = -far_z; dz <= far_z; ++dz) {
@@ -190,10 +201,8 @@ void LatticeSums::over_plane(int z, Ring& ring) {
           const bool to_below = lattice_->is_owned(below), to_above = dz > 0 && lattice_->is_owned(over);
           if (!to_below && !to_above) continue;
           Sweep sums;
-          for (const Row& r : above_[dz]) {
-            if (lattice_->slot_at(place + r.dy * shape[0]) != 0) {
-              sums.add(rows[r.dy + far_y] + x * ring.columns() + Sweep::columns * r.kind, r.y);
-            }
+          for (const RowOfSums& r : near[dz]) {
+            if (lattice_->slot_at(place + r.offset) != 0) sums.add(r.sums + x * ring.columns(), r.y);
           }
           if (to_below) sums.hand(sums_of(below), above_[dz][0].z);
           if (to_above) sums.hand(sums_of(over), -above_[dz][0].z);

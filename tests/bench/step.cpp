@@ -4,6 +4,9 @@
 #include <benchmark/benchmark.h>
 
 #include "../verification/lattice.hpp"
+#include "mechanics/bonds.hpp"
+#include "mechanics/lattice_sums.hpp"
+#include "textbook.hpp"
 
 namespace strut {
 namespace {
@@ -47,6 +50,88 @@ void step(benchmark::State& state) {
   state.counters["per_point"] = time_per(steps * body.owned());
 }
 
+// The two passes over bonds alone, Silling's stabilisation included: moments of all families, then forces. Arguments: points
+// along an edge, horizon in thousandths of a spacing, lists or not.
+void passes(benchmark::State& state) {
+  const Communicator world;
+  const int n = static_cast<int>(state.range(0));
+  const FamilyKind kind = state.range(2) != 0 ? FamilyKind::lists : FamilyKind::stencil;
+  Body body = lattice_body({{n, n, n}, 1e-3, 1e-3 * static_cast<double>(state.range(1)), 0, Influence::one,
+                            copper(elastic_correspondence), kind},
+                           world);
+  advance_stress_and_force(body, 1e-7, false);
+  const Site* sites = body.sites.data();
+  const auto& states = body.force_states.tensors;
+  std::vector<Tensor> moments(body.owned());
+  std::vector<Vector> forces(body.owned());
+  for (auto _ : state) {
+    if (kind == FamilyKind::lists) {
+      for (int i = 0; i < body.owned(); ++i) moments[i] = bonds::gather(body.domain.families, sites, i, bonds::One{});
+      for (int i = 0; i < body.owned(); ++i) {
+        forces[i] = bonds::force(body.domain.families, sites, states.data(), i, bonds::One{});
+      }
+    } else {
+      LatticeSums& sums = *body.lattice_sums[0];
+      sums.add_moments(body, {sites});
+      for (int i = 0; i < body.owned(); ++i) moments[i] = sums.moment(i, {sites});
+      sums.add_forces(body, {sites}, states);
+      for (int i = 0; i < body.owned(); ++i) forces[i] = sums.force(i, {sites}, states[i]);
+    }
+    benchmark::ClobberMemory();
+  }
+  const auto bonds = static_cast<double>(body.domain.families.bonds());
+  state.counters["per_bond"] = benchmark::Counter(static_cast<double>(state.iterations()) * bonds,
+                                                  benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(passes)
+    ->Args({50, 3015, 1})
+    ->Args({50, 3015, 0})
+    ->Args({40, 6015, 1})
+    ->Args({40, 6015, 0})
+    ->Unit(benchmark::kMillisecond);
+
+// A whole step by the textbook, and whether both agree. Arguments as of a step, but for the last one.
+void textbook(benchmark::State& state) {
+  const Communicator world;
+  const int n = static_cast<int>(state.range(0));
+  const LatticeSpec spec{{n, n, n}, 1e-3, 1e-3 * static_cast<double>(state.range(1)), 0, Influence::one,
+                         copper(state.range(2))};
+  Body body = lattice_body(spec, world);
+  Textbook oracle(body);
+  const double dt = 1e-7, rate = 1e4;
+  double shear = 0, off = 0, largest = 0;
+  std::visit(
+      [&](const auto& law) {
+        std::vector<typename std::decay_t<decltype(law)>::State> states(body.owned());
+        for (auto _ : state) {
+          state.PauseTiming();
+          shear += rate * dt;
+          deform(body, [&](const Vector& X) -> Vector { return {X[0] + shear * X[1], X[1], X[2]}; });
+          advance_stress_and_force(body, dt, false);
+          state.ResumeTiming();
+          const std::vector<Vector> forces = oracle.forces(law, states, dt);
+          state.PauseTiming();
+          for (int i = 0; i < body.owned(); ++i) {
+            off = std::max(off, (forces[i] - body.force_density[i]).norm());
+            largest = std::max(largest, forces[i].norm());
+          }
+          state.ResumeTiming();
+        }
+      },
+      spec.material.law);
+  // The rotation is an update here and a decomposition there: 1e-12 of it, times the moduli over the flow stress.
+  if (!(off < 1e-8 * largest)) state.SkipWithError("results differ from the textbook's");
+  state.counters["per_bond"] =
+      benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(body.domain.families.bonds()),
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["difference"] = off / largest;
+}
+
+BENCHMARK(textbook)
+    ->Args({50, 3015, elastic_correspondence})
+    ->Args({50, 3015, plastic_correspondence})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(step)
     ->Args({50, 3015, elastic_correspondence, 1})
     ->Args({50, 3015, elastic_correspondence, 0})
