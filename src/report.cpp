@@ -73,14 +73,16 @@ void Progress::finish() {
   if (speaks_ && terminal_) std::cout << std::endl;
 }
 
-double predicted_memory(const Scene& scene) { return scene.body.domain.communicator.sum(footprint(scene.body)); }
+double predicted_memory(const Scene& scene) {
+  return scene.body.domain.communicator.sum(footprint(scene.body) + StableStep::bytes(scene.body));
+}
 
 std::string describe_scene(const Scene& scene) {
   std::ostringstream text;
   const double neighbours = static_cast<double>(scene.bonds) / static_cast<double>(scene.points);
   const double memory = predicted_memory(scene);
   const int ranks = scene.body.domain.communicator.size();
-  text << formatted("%lld points, %lld bonds (%.1f a point), %s for points and bonds, %d rank%s\n",
+  text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s\n",
                     static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbours,
                     as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s");
   if (scene.dropped > 0) {

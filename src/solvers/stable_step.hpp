@@ -13,6 +13,9 @@ class StableStep {
   // Later calls start from the mode found last, which makes them cheaper.
   double estimate(Body& body);
 
+  // Bytes that an estimate takes on this rank while it runs.
+  static double bytes(const Body& body);
+
   static constexpr int basis_size = 8;      // vectors kept: 24 bytes a point each while the estimate runs
   static constexpr int most_cycles = 8;     // of basis_size products each
   static constexpr double accuracy = 0.02;  // of ω²_max: 1 % of the step
