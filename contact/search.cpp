@@ -109,10 +109,11 @@ struct Criterion {
 
 // Where a body was in its reference state, sorted into the cells of where it is now.
 //
-// Where material has hardly been deformed nothing of one body can touch: points that are not bonded were a horizon or more
-// apart, and touch when they have come closer by a tenth of that. So two cells need no look where no two displacements of
-// their points differ by as much, less the skin. In a body that falls or turns little that is almost everywhere. Elsewhere
-// most of what is near has been near: two points that were within the smallest horizon are bonded.
+// Where material has hardly been deformed nothing of one body can touch: points that are not bonded were a horizon or
+// more apart, and touch when they have come closer by a tenth of that. So two cells need no look where no two
+// displacements of their points differ by as much, less the skin. In a body that falls or turns little that is almost
+// everywhere. Elsewhere most of what is near has been near: two points that were within the smallest horizon are
+// bonded.
 class Memory {
  public:
   Memory(const CellGrid& grid, const Pool& pool, const Criterion& criterion) : begin_(grid.cells()) {
@@ -145,9 +146,9 @@ class Memory {
   }
 
  private:
-  std::vector<std::size_t> begin_;  // of cells, in references_
-  std::vector<Vector> references_;  // in the order of the cells' members; none between bodies
-  std::vector<Box> boxes_;          // of displacements, of cells
+  std::vector<std::size_t> begin_;   // of cells, in references_
+  std::vector<Vector> references_;   // in the order of the cells' members; none between bodies
+  std::vector<Box> boxes_;           // of displacements, of cells
   double horizon2_ = 0, limit_ = 0;  // the smallest horizon, squared, m²; m
 };
 

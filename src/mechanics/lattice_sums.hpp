@@ -1,16 +1,17 @@
-// The sums over the families of points on a lattice (points/lattice.hpp), eight points at a time, without a list of bonds:
+// The sums over the families of points on a lattice (points/lattice.hpp), eight points at a time, without a list of
+// bonds:
 //   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                                      (F = I + H K⁻¹)
 //   residuals  Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ                         (the mean gradient's, as in bonds.hpp)
 //   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + (C_i + C_j)(y_j − y_i)]
 // They are those of bonds.hpp in another order of additions.
 //
 // Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis. A
-// pencil of eight cells adds up its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has (along
-// x); a plane adds up these, and dy times these, for each |dz| (along y); and hands that, and dz times that, to the planes
-// above and below (along z). Of the 122 bonds of a point at three spacings 25 additions are left. Forces alike. Residuals
-// are not linear in what a point has (C_ij is the lesser of two), and go bond by bond.
-// Sums are added up in the order of the planes of the whole lattice, whoever owns them, so that results are the same on any
-// number of ranks.
+// pencil of eight cells adds up its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has
+// (along x); a plane adds up these, and dy times these, for each |dz| (along y); and hands that, and dz times that, to
+// the planes above and below (along z). Of the 122 bonds of a point at three spacings 25 additions are left. Forces
+// alike. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by bond. Sums are added
+// up in the order of the planes of the whole lattice, whoever owns them, so that results are the same on any number of
+// ranks.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +41,8 @@ class LatticeSums {
   // Collective, before the first forces: what the stiffness C of the points' springs adds up to.
   void set_springs(Body& body);
 
-  // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the next
-  // one is called. Forces need what moments of the same u leave behind.
+  // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the
+  // next one is called. Forces need what moments of the same u leave behind.
   void add_moments(const Body& body, const Displacements& u);
   Tensor moment(int i, const Displacements& u) const {  // H
     return tensor(sums_at(i)) - u(i).head<3>().matrix() * constants_[i].first.transpose();
@@ -82,6 +83,12 @@ class LatticeSums {
   struct Triple {
     const Pencil *before, *here, *after;
   };
+  // The sums of a row for one kind of rows, from x = 0; how far it is in the grid, and in m.
+  struct RowOfSums {
+    const Pencil* sums;
+    int offset;
+    double y;
+  };
   struct Residuals;
   class Ring;
 
@@ -96,6 +103,10 @@ class LatticeSums {
   void over_planes();
   template <class Sweep>
   void over_plane(int z, Ring& ring);
+  template <class Sweep>
+  void over_row(int z, int y, Ring& ring);
+  template <class Sweep>
+  void hand_over(int place, int dz, const std::vector<RowOfSums>& near, int first);
   template <int reach>
   struct MomentSweep;
   template <int reach>
@@ -129,10 +140,11 @@ class LatticeSums {
   std::vector<Row> rows_;
   std::vector<std::vector<Row>> above_;  // rows by dz = 0, 1, …; those below are alike
   std::vector<Kind> kinds_;
-  std::vector<std::uint64_t> filled_, owned_;  // a bit for each place of the grid: a slot; a slot with points of our own
+  // A bit for each place of the grid: whether there is a slot; one with points of this rank's own.
+  std::vector<std::uint64_t> filled_, owned_;
   int words_ = 0;                              // of these bits a row
-  std::vector<Constants> constants_;   // of owned points
-  std::vector<Pencil> moved_, source_, sums_;  // V u; what forces and residuals are made of; some columns a slot
+  std::vector<Constants> constants_;           // of owned points
+  std::vector<Pencil> moved_, source_, sums_;  // V u; what forces and residuals are made of; some columns a slot each
   bool has_springs_ = false;
   int source_columns_ = 0;
   int stride_ = 0, residual_force_ = 0;  // columns of sums_: a tensor, q = Σ ω V u, and the force of residuals

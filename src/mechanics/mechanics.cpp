@@ -91,9 +91,9 @@ struct ForceSum {
   void correspondence(Part part) const {
     over_lattices(body, part, [this](LatticeSums& sums) { sums.add_forces(body, u, states.tensors); });
     over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock& block, int i, auto weight) {
-      const Vector force =
-          block.lattice < 0 ? bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight)
-                            : body.lattice_sums[block.lattice]->force(i, u, states.tensors[i]);
+      const Vector force = block.lattice < 0
+                               ? bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight)
+                               : body.lattice_sums[block.lattice]->force(i, u, states.tensors[i]);
       result[i] = block.material.mean_stabilization > 0 ? result[i] + force : force;
     });
   }
@@ -231,10 +231,12 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, 
       halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
       [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
   if (!scratch.gradients.empty()) {
-    behind_exchange(halo, scratch.gradients,
-                    [&](Part part) { add_residual(body, directions, {directions.data(), true}, part, scratch, result, {}); });
+    behind_exchange(halo, scratch.gradients, [&](Part part) {
+      add_residual(body, directions, {directions.data(), true}, part, scratch, result, {});
+    });
   }
-  add_up(halo, ForceSum<bonds::OfField>{body, directions, {directions.data(), true}, {directions.data()}, scratch, result},
+  add_up(halo,
+         ForceSum<bonds::OfField>{body, directions, {directions.data(), true}, {directions.data()}, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
 }

@@ -35,8 +35,8 @@ class FirstFailure {
 void advance_stress(Body& body, MaterialBlock& block, double dt, Part part, StepReport& report);
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report);
 
-// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it; on a
-// lattice after add_squares.
+// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it;
+// on a lattice after add_squares.
 void view_residuals(Body& body, const MaterialBlock& block, Part part);
 
 // The state of the bonds of an ordinary point of dilatation θ and weighted volume m.

@@ -120,9 +120,9 @@ double cost_of_list(double neighbours) { return 4.5 * neighbours; }
 double cost_of_stencil(double rows, double pencils) { return 60 + (300 + 10 * rows) * pencils; }
 bool is_worth(double stencil, double list) { return stencil <= 1.2 * list; }  // it saves the lists' memory, too
 
-// Whether sums by a lattice's stencil take less time than by lists. Of sums over the points of all ranks, so that all decide
-// alike however many they are. A run of n points fills (n + 7)/8 pencils on average; families are counted of every 64th
-// point.
+// Whether sums by a lattice's stencil take less time than by lists. Of sums over the points of all ranks, so that all
+// decide alike however many they are. A run of n points fills (n + 7)/8 pencils on average; families are counted of
+// every 64th point.
 bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, const Communicator& communicator) {
   double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbours
   for (const int i : lattice.members()) {
@@ -151,8 +151,8 @@ void for_each_neighbour(const Stencils& stencils, const CellGrid& grid, const Po
 }
 
 // The order in which points and ghosts stand in memory, as places in the pool: owned points without ghosts in their
-// family first, then the others, both along the curve, or as they lie in their lattice; then the ghosts that are in some
-// family, ordered by id (ranks that own them send runs of ids).
+// family first, then the others, both along the curve, or as they lie in their lattice; then the ghosts that are in
+// some family, ordered by id (ranks that own them send runs of ids).
 struct Order {
   std::vector<int> points, ghosts;
   std::vector<std::size_t> list_sizes;  // of points

@@ -11,9 +11,10 @@
 
 namespace strut {
 
-// Who is within the horizon of an owned point: local indices of owned or ghost points. Of points on a lattice the family
-// is a stencil; all others have lists, neighbours[start[i]] … neighbours[start[i + 1] − 1] (none on a lattice). The order
-// is that of places in the lattice, or of global ids, so that every sum over a family is the same on any number of ranks.
+// Who is within the horizon of an owned point: local indices of owned or ghost points. Of points on a lattice the
+// family is a stencil; all others have lists, neighbours[start[i]] … neighbours[start[i + 1] − 1] (none on a lattice).
+// The order is that of places in the lattice, or of global ids, so that every sum over a family is the same on any
+// number of ranks.
 struct Families {
   std::vector<std::size_t> start{0};
   std::vector<int> neighbours;
@@ -40,8 +41,8 @@ struct Families {
   double bytes() const;
 };
 
-// What the families of a body become: a stencil where its points sit on a lattice and that is faster; or what is asked for.
-// Lists are for those who read them; a body of blocks that want different ones has lists.
+// What the families of a body become: a stencil where its points sit on a lattice and that is faster; or what is asked
+// for. Lists are for those who read them; a body of blocks that want different ones has lists.
 enum class FamilyKind { fastest, stencil, lists };
 
 // How the points of a block are bonded: their horizon δ, and the body they belong to. Bodies are not bonded to each

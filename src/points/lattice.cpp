@@ -26,8 +26,8 @@ struct BodyPoints {
   bool wants_lists = false, wants_stencil = false;
 };
 
-BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizons,
-                     const std::vector<BlockBonds>& bonds, int body) {
+BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
+                     int body) {
   BodyPoints points;
   for (const BlockBonds& block : bonds) {
     points.wants_lists |= block.body == body && block.families == FamilyKind::lists;
@@ -75,7 +75,8 @@ bool is_compact(const LatticeFrame& frame, const Eigen::Array3d& size, double po
 // Collective.
 std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const Communicator& communicator) {
   const double largest = communicator.max(points.largest_horizon), smallest = communicator.min(points.smallest_horizon);
-  if (points.wants_lists || !(largest - smallest <= 1e-12 * largest)) return {};
+  const auto count = communicator.sum(static_cast<std::int64_t>(points.positions.size()));
+  if (count == 0 || points.wants_lists || !(largest - smallest <= 1e-12 * largest)) return {};
   LatticeFrame frame{.horizon = largest, .body = body, .wanted = points.wants_stencil};
   Eigen::Array3d size;
   for (int axis = 0; axis < 3; ++axis) {
@@ -91,7 +92,6 @@ std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const C
   for (int axis = 0; axis < 3; ++axis) {
     if (cells_within(frame, axis) > LatticeFamilies::width) return {};
   }
-  const auto count = communicator.sum(static_cast<std::int64_t>(points.positions.size()));
   if (!is_compact(frame, size, static_cast<double>(count))) return {};
   if (communicator.max(fits(frame, points.positions) ? 0.0 : 1.0) > 0) return {};
   return frame;

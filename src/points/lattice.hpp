@@ -1,9 +1,9 @@
 // Bodies whose points sit on a lattice: who is near whom follows from the places in it, and no bond is written down.
 //
 // The lattice is cut into pencils of eight cells along x. Those that hold points of this rank, owned or ghosts, and the
-// next ones if their row reaches into them, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that is
-// empty. A grid over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z) of cells with
-// |x| ≤ the row's reach.
+// next ones if their row reaches into them, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that
+// is empty. A grid over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z)
+// of cells with |x| ≤ the row's reach.
 #pragma once
 
 #include <bit>
@@ -69,7 +69,7 @@ class LatticeFamilies {
   const LatticeFrame& frame() const { return frame_; }
   const std::vector<int>& members() const { return members_; }
   const std::vector<Row>& rows() const { return rows_; }
-  int reach() const { return reach_; }  // of the longest row
+  int reach() const { return reach_; }              // of the longest row
   int rows_across() const { return rows_across_; }  // the span of its rows along y
   int cell(int i) const { return cell_[i]; }  // slot · width + place in the pencil; −1 of points of other bodies
   int point(int slot, int place) const { return points_[slot * width + place]; }  // −1: none
@@ -78,8 +78,8 @@ class LatticeFamilies {
   int place(int slot) const { return places_[slot]; }
   bool is_owned(int slot) const { return owned_[slot] != 0; }  // holds a point of this rank's own
 
-  // A place in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of the body.
-  // Points are farther from its faces than a stencil reaches.
+  // A place in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of the
+  // body. Points are farther from its faces than a stencil reaches.
   const Eigen::Array3i& shape() const { return shape_; }
   int first_plane() const { return first_plane_; }
 
@@ -103,12 +103,12 @@ class LatticeFamilies {
   LatticeFrame frame_;
   std::vector<int> members_;
   std::vector<Row> rows_;
-  std::vector<int> grid_;    // slots
-  std::vector<int> places_;  // of slots, in the grid
-  std::vector<char> owned_;  // of slots
-  std::vector<int> points_;  // of cells; −1: none
+  std::vector<int> grid_;             // slots
+  std::vector<int> places_;           // of slots, in the grid
+  std::vector<char> owned_;           // of slots
+  std::vector<int> points_;           // of cells; −1: none
   std::vector<std::uint8_t> filled_;  // of slots: a bit for each cell with a point
-  std::vector<int> cell_;    // of points
+  std::vector<int> cell_;             // of points
   Eigen::Array3i shape_;
   int first_plane_ = 0, reach_ = 0, rows_across_ = 1;
 };

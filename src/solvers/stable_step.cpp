@@ -87,8 +87,8 @@ void combine(const std::vector<Field>& basis, const Eigen::VectorXd& weights, Fi
 
 }  // namespace
 
-// Of the basis, the start, its image, the mode and the next vector, and the terms of a product; of the copies of places and
-// force states of owned points and ghosts.
+// Of the basis, the start, its image, the mode and the next vector, and the terms of a product; of the copies of places
+// and force states of owned points and ghosts.
 double StableStep::bytes(const Body& body) {
   const ForceStates& states = body.force_states;
   const double fields = (basis_size + 4.0) * sizeof(Vector) + sizeof(double);

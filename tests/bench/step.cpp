@@ -24,13 +24,17 @@ BlockMaterial copper(std::int64_t model) {
   return {8960, law, 0.02};
 }
 
-// Arguments: points along an edge, horizon in thousandths of a spacing, model, whether the families are lists though the
-// points sit on a lattice.
+// Arguments: points along an edge, horizon in thousandths of a spacing, model, whether the families are lists though
+// the points sit on a lattice.
 void step(benchmark::State& state) {
   const Communicator world;
   const int n = static_cast<int>(state.range(0));
-  const LatticeSpec spec{{n, n, n}, 1e-3,           1e-3 * static_cast<double>(state.range(1)),
-                         0,         Influence::one, copper(state.range(2)),
+  const LatticeSpec spec{{n, n, n},
+                         1e-3,
+                         1e-3 * static_cast<double>(state.range(1)),
+                         0,
+                         Influence::one,
+                         copper(state.range(2)),
                          state.range(3) != 0 ? FamilyKind::lists : FamilyKind::stencil};
   Body body = lattice_body(spec, world);
   const double dt = 1e-7, rate = 1e4;  // a shear that keeps a plastic block flowing
@@ -50,14 +54,19 @@ void step(benchmark::State& state) {
   state.counters["per_point"] = time_per(steps * body.owned());
 }
 
-// The two passes over bonds alone, Silling's stabilisation included: moments of all families, then forces. Arguments: points
-// along an edge, horizon in thousandths of a spacing, lists or not.
+// The two passes over bonds alone, Silling's stabilisation included: moments of all families, then forces. Arguments:
+// points along an edge, horizon in thousandths of a spacing, lists or not.
 void passes(benchmark::State& state) {
   const Communicator world;
   const int n = static_cast<int>(state.range(0));
   const FamilyKind kind = state.range(2) != 0 ? FamilyKind::lists : FamilyKind::stencil;
-  Body body = lattice_body({{n, n, n}, 1e-3, 1e-3 * static_cast<double>(state.range(1)), 0, Influence::one,
-                            copper(elastic_correspondence), kind},
+  Body body = lattice_body({{n, n, n},
+                            1e-3,
+                            1e-3 * static_cast<double>(state.range(1)),
+                            0,
+                            Influence::one,
+                            copper(elastic_correspondence),
+                            kind},
                            world);
   advance_stress_and_force(body, 1e-7, false);
   const Site* sites = body.sites.data();
@@ -95,8 +104,8 @@ BENCHMARK(passes)
 void textbook(benchmark::State& state) {
   const Communicator world;
   const int n = static_cast<int>(state.range(0));
-  const LatticeSpec spec{{n, n, n}, 1e-3, 1e-3 * static_cast<double>(state.range(1)), 0, Influence::one,
-                         copper(state.range(2))};
+  const LatticeSpec spec{{n, n, n}, 1e-3,           1e-3 * static_cast<double>(state.range(1)),
+                         0,         Influence::one, copper(state.range(2))};
   Body body = lattice_body(spec, world);
   Textbook oracle(body);
   const double dt = 1e-7, rate = 1e4;

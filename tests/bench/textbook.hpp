@@ -1,6 +1,6 @@
-// Correspondence as a textbook has it: the oracle of the bench, for speed and for results. Families are vectors of vectors, each
-// field is a vector, K is summed anew in each evaluation (Silling et al. 2007), R comes from a singular value decomposition, and
-// every bond sees both force states. Elastic and J2 laws of materials/.
+// Correspondence as a textbook has it: the oracle of the bench, for speed and for results. Families are vectors of
+// vectors, each field is a vector, K is summed anew in each evaluation (Silling et al. 2007), R comes from a singular
+// value decomposition, and every bond sees both force states. Elastic and J2 laws of materials/.
 #pragma once
 
 #include <functional>

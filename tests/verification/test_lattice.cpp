@@ -13,7 +13,7 @@ struct Case {
   double horizon;
   Influence influence;
   double silling, mean;
-  double full;         // the part of the cells that holds a point
+  double full;  // the part of the cells that holds a point
   Vector spacing{1e-3, 1e-3, 1e-3};
 };
 
@@ -48,7 +48,8 @@ Body body_of(const Case& c, FamilyKind families, const Communicator& world) {
   BlockBonds bonds(c.horizon * 1e-3);
   bonds.families = families;
   const materials::Elastic soft = std::get<materials::Elastic>(elastic(1e9, 0.3));
-  const BlockMaterial left{1000, soft, c.silling, {}, c.mean}, right{2000, elastic(3e9, 0.2), 2 * c.silling, {}, c.mean};
+  const BlockMaterial left{1000, soft, c.silling, {}, c.mean},
+      right{2000, elastic(3e9, 0.2), 2 * c.silling, {}, c.mean};
   return make_body(make_domain(partitioned(porous_cloud(c, world), world), {bonds, bonds}, world), c.influence,
                    {left, right});
 }
@@ -82,11 +83,13 @@ class LatticeOf : public testing::TestWithParam<Case> {
 
 Vector bent(const Vector& X) {
   const Vector x = X - Vector(0.3, -0.2, 1.7);
-  return X + Vector(0.02 * std::sin(90 * x[1]) + 0.05 * x[0], 0.001 * std::cos(110 * x[2]), 2e-4 * std::sin(300 * x[0]));
+  return X +
+         Vector(0.02 * std::sin(90 * x[1]) + 0.05 * x[0], 0.001 * std::cos(110 * x[2]), 2e-4 * std::sin(300 * x[0]));
 }
 
 TEST_P(LatticeOf, IsFoundAndHasTheBondsOfLists) {
-  const Body stencil = body_of(GetParam(), FamilyKind::stencil, world), lists = body_of(GetParam(), FamilyKind::lists, world);
+  const Body stencil = body_of(GetParam(), FamilyKind::stencil, world),
+             lists = body_of(GetParam(), FamilyKind::lists, world);
   EXPECT_EQ(stencil.domain.families.lattices.size(), 1U);
   EXPECT_EQ(stencil.domain.families.listed(), 0U);
   EXPECT_TRUE(lists.domain.families.lattices.empty());
