@@ -131,9 +131,10 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 }
 
 // Collective. What a step of a point of each block takes, in ns, roughly (tests/bench): its bonds and its update.
-std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator) {
+std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                               const Communicator& communicator) {
   constexpr double update = 80, state = 150;
-  std::vector<double> costs = bond_costs(cloud, block_bonds(deck, cloud), communicator);
+  std::vector<double> costs = bond_costs(cloud, block_bonds(deck, cloud), spacings, communicator);
   for (std::size_t b = 0; b < costs.size(); ++b) {
     const deck::Block& section = *section_of(deck, cloud.block_names[b]);
     const auto has_state = []<class L>(const L&) { return materials::state_size<L> > 0; };
@@ -343,7 +344,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   raise_together(communicator, problems.text(deck.file.string()));
   {
     const Timed timed(phase("Partition"));
-    cloud = partitioned(cloud, communicator, step_costs(deck, cloud, communicator));
+    cloud = partitioned(cloud, communicator, step_costs(deck, cloud, spacing, communicator));
   }
   std::int64_t dropped = 0;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);

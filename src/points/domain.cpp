@@ -226,19 +226,12 @@ bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
 }
 
 std::vector<double> bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
-                               const Communicator& communicator) {
+                               const std::vector<double>& spacings, const Communicator& communicator) {
   constexpr double pencils = 1.0 / 6;  // of a lattice a point: between a full block's eighth and a foam's fifth
-  std::vector<double> sums(2 * bonds.size(), 0);  // spacings and number of points of each block
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    sums[2 * cloud.blocks[i]] += cloud.spacings[i];
-    sums[2 * cloud.blocks[i] + 1] += 1;
-  }
-  communicator.sum(sums);
   const std::vector<LatticeFrame> frames = lattice_frames(cloud, horizons_of(cloud, bonds), bonds, communicator);
   std::vector<double> costs;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const double spacing = sums[2 * b] / std::max(1.0, sums[2 * b + 1]);
-    const double reach = spacing > 0 ? bonds[b].horizon_at(spacing) / spacing : 0;
+    const double reach = spacings[b] > 0 ? bonds[b].horizon_at(spacings[b]) / spacings[b] : 0;
     costs.push_back(cost_of_list(4.0 / 3 * std::numbers::pi * std::pow(reach, 3)));
     const double stencil = cost_of_stencil(std::numbers::pi * reach * reach, pencils);
     const auto here = [&](const LatticeFrame& frame) { return frame.body == bonds[b].body; };

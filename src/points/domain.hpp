@@ -95,8 +95,9 @@ struct Domain {
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator);
 
 // Collective. What a step takes of a point of each block for its bonds, in ns, roughly: for a partition.
+// `spacings`: the mean one of each block, m; 0 where it has no points.
 std::vector<double> bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
-                               const Communicator& communicator);
+                               const std::vector<double>& spacings, const Communicator& communicator);
 
 // What is wrong with a family, or nullptr: a shape tensor needs at least four neighbours that span space.
 // `spread`: Σ V ξ⊗ξ of the family.

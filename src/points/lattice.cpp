@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "points/common_box.hpp"
 #include "points/domain.hpp"
 
 namespace strut {
@@ -78,21 +79,20 @@ std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const C
   const auto count = communicator.sum(static_cast<std::int64_t>(points.positions.size()));
   if (count == 0 || points.wants_lists || !(largest - smallest <= 1e-12 * largest)) return {};
   LatticeFrame frame{.horizon = largest, .body = body, .wanted = points.wants_stencil};
-  Eigen::Array3d size;
+  Eigen::AlignedBox3d mine;
+  for (const Vector& X : points.positions) mine.extend(X);
+  const Eigen::AlignedBox3d box = common_box(mine, communicator);
+  frame.origin = box.min();
   for (int axis = 0; axis < 3; ++axis) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vector& X : points.positions) low = std::min(low, X[axis]), high = std::max(high, X[axis]);
-    low = communicator.min(low), high = communicator.max(high);
-    size[axis] = high - low;
+    const double size = box.sizes()[axis];
     const double step = communicator.min(smallest_step(points.positions, axis, largest));
-    const double cells = std::round((high - low) / step);
-    frame.origin[axis] = low;
-    frame.spacing[axis] = cells > 0 ? (high - low) / cells : largest;  // the mean step is free of round-off
+    const double cells = std::round(size / step);
+    frame.spacing[axis] = cells > 0 ? size / cells : largest;  // the mean step is free of round-off
   }
   for (int axis = 0; axis < 3; ++axis) {
     if (cells_within(frame, axis) > LatticeFamilies::width) return {};
   }
-  if (!is_compact(frame, size, static_cast<double>(count))) return {};
+  if (!is_compact(frame, box.sizes().array(), static_cast<double>(count))) return {};
   if (communicator.max(fits(frame, points.positions) ? 0.0 : 1.0) > 0) return {};
   return frame;
 }

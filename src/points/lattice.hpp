@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/pencil.hpp"
 #include "base/tensors.hpp"
 
 namespace strut {
@@ -37,7 +38,7 @@ std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vec
 
 class LatticeFamilies {
  public:
-  static constexpr int width = 8;  // cells of a pencil
+  static constexpr int width = pencil_width;  // cells of a pencil
 
   struct Row {
     int y, z;    // of the neighbours, in cells from the point
@@ -83,7 +84,7 @@ class LatticeFamilies {
   const Eigen::Array3i& shape() const { return shape_; }
   int first_plane() const { return first_plane_; }
 
-  // The next cell in x is empty: here a run of points begins.
+  // The cell before it in x is empty: here a run of points begins.
   bool begins_run(int i) const;
   double bytes() const;
 
