@@ -120,6 +120,10 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
   if (solver.contact().any()) text << solver.contact().searches() << " searches for contact\n";
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
                     point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
+  if (solver.most_substeps() > 1) {
+    text << formatted("the stiffest points were stepped alone, up to %d times a step: %.2f updates a point and step\n",
+                      solver.most_substeps(), solver.updates() / solver.steps());
+  }
   text << formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n",
                     ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization);
   text << formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",

@@ -352,7 +352,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   Scene scene{make_body(std::move(domain), influence_of(deck.discretization.influence), materials),
               {},
               {},
-              {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor},
+              {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling},
               0,
               0,
               dropped};

@@ -236,7 +236,8 @@ Solver solver(const Values& values, Problems& problems) {
   const Values& verlet = values.section("Verlet");
   Solver solver{.initial_time = values.real("Initial Time"),
                 .final_time = values.real("Final Time"),
-                .safety_factor = verlet.real("Safety Factor")};
+                .safety_factor = verlet.real("Safety Factor"),
+                .subcycling = verlet.flag("Subcycling")};
   solver.fixed_dt = real_if_given(verlet, "Fixed dt");
   check_one_of(verlet, "Fixed dt", "Safety Factor", problems);
   if (values.has("Initial Time") && values.has("Final Time") && solver.final_time <= solver.initial_time) {

@@ -96,6 +96,7 @@ struct Solver {
   double initial_time = 0, final_time = 0;  // s
   std::optional<double> fixed_dt;           // s; else from the stable step
   double safety_factor = 0.8;
+  bool subcycling = true;
 };
 
 struct Output {

@@ -237,12 +237,17 @@ Section solver() {
            {.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."},
            {.name = "Final Time", .unit = "s", .required = true, .meaning = "When it ends: after the initial time."}},
       .sections = {{.name = "Verlet",
-                    .meaning = "Explicit steps by central differences. Either of the keys, not both.",
+                    .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",
                     .keys = {{.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "The same step always."},
                              {.name = "Safety Factor",
                               .range = {.low = 0, .high = 1, .with_low = false},
                               .fallback = "0.8",
-                              .meaning = "The step as a part of the stable one, which follows the deformation."}}}},
+                              .meaning = "The step as a part of the stable one, which follows the deformation."},
+                             {.name = "Subcycling",
+                              .kind = Kind::boolean,
+                              .fallback = "true",
+                              .meaning = "Few points that would limit the step of all are stepped alone, more often. "
+                                         "None are with a fixed step."}}}},
       .hints = {{"QuasiStatic", "unknown section; this version has 'Verlet' only"},
                 {"Implicit", "unknown section; this version has 'Verlet' only"}}};
 }

@@ -134,6 +134,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .previous_velocity = {},
             .force_density = {},
             .stabilization_work = {},
+            .halvings = {},
             .residual = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
@@ -150,7 +151,6 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
     if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
     set_shape(body, block);
   }
-  for (const auto& sums : body.lattice_sums) sums->set_springs(body);
   set_what_blocks_feel(body);
   return body;
 }

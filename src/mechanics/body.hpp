@@ -1,6 +1,8 @@
 // All that mechanics knows of the points of one rank: the dictionary of fields.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,8 +39,8 @@ struct alignas(16) ScalarState {
 struct ForceStates {
   std::vector<ForceState> tensors;
   std::vector<ScalarState> scalars;
-  // F (columns), and C̄ in the fourth lane of the first column: what the stabilisation by the mean gradient reads of an
-  // end. Empty where no block of the scene has it.
+  // F (columns), in the fourth lane of the first column C̄ and in that of the second the share of the step: what the
+  // stabilisation by the mean gradient reads of an end. Empty where no block of the scene has it.
   std::vector<ForceState> gradients;
 };
 
@@ -101,12 +103,17 @@ struct Body {
   std::vector<Vector> previous_velocity;   // at the mid-step before, m/s
   std::vector<Vector> force_density;       // N/m³ of reference volume
   std::vector<double> stabilization_work;  // energy of the stabilisation, J/m³; current after a step with views
+  // Where some points are stepped alone (subcycles.hpp), ghosts too: how often the step of a point's stress is halved.
+  // Empty: no point's.
+  std::vector<std::uint8_t> halvings;
   std::vector<double> residual;  // Σ ω V |η − F ξ|², m⁵, by correspondence; current after a step with views
 
   // Workspaces of the sums over the families on lattices, as domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
+  // The step of a point's stress as a part of the one that is halved `order` times.
+  double share(int i, int order = 0) const { return halvings.empty() ? 1 : std::ldexp(1.0, order - halvings[i]); }
   double mass(int i) const { return density[i] * domain.volumes[i]; }
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }
   Vector displacement(int i) const { return current(i) - domain.positions[i]; }

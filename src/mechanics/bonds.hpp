@@ -7,6 +7,8 @@
 // The sums of ordinary points: ordinary_bonds.hpp.
 #pragma once
 
+#include <span>
+
 #include "mechanics/body.hpp"
 
 namespace strut::bonds {
@@ -76,16 +78,32 @@ inline void over_family(const Families& families, const Site* sites, int i, Weig
   if (paired < end) bond(std::integral_constant<int, 0>{}, paired);
 }
 
+// Some points of a family, in the place of families.
+struct Listed {
+  std::span<const int> points;
+};
+
+template <class Weight, class Visit>
+inline void over_family(const Listed& family, const Site* sites, int i, Weight weight, Visit&& visit) {
+  const Site here = sites[i];
+  for (const int j : family.points) {
+    const Eigen::Array4d xi = sites[j].reference - here.reference;
+    visit(std::integral_constant<int, 0>{}, j, xi,
+          sites[j].reference[3] * weight(xi, here.current[3] + sites[j].current[3]));
+  }
+}
+
 inline Tensor tensor_of(const Eigen::Array4d& a, const Eigen::Array4d& b, const Eigen::Array4d& c) {
   Tensor t;
   t << a.head<3>().matrix(), b.head<3>().matrix(), c.head<3>().matrix();
   return t;
 }
 
-inline ForceState packed(const Tensor& A, double stabilization) {
+inline ForceState packed(const Tensor& A, double stabilization, double share = 0) {
   ForceState state;
   for (int c = 0; c < 3; ++c) state.column[c] << A.col(c).array(), 0;
   state.column[0][3] = stabilization;
+  state.column[1][3] = share;
   return state;
 }
 
@@ -139,13 +157,14 @@ struct Residual {
 };
 
 // What the mean gradient of both ends does not see of their bond: z = (y_j − y_i) − ½ (F_i + F_j) ξ. A bond is as stiff
-// as its softer end: C_ij = 2 min(C̄_i, C̄_j), none to a point that has none.
-template <class Weight>
-inline Residual residual(const Families& families, const Site* places, const ForceState* gradients, int i,
+// as its softer end: C_ij = 2 min(C̄_i, C̄_j), none to a point that has none. It acts at the steps of the end whose step
+// is halved less often, so with the greater share of a step.
+template <class Family, class Weight>
+inline Residual residual(const Family& families, const Site* places, const ForceState* gradients, int i,
                          Weight weight) {
   const Eigen::Array4d y = places[i].current;
   const ForceState here = gradients[i];
-  const double own = here.column[0][3];
+  const double own = here.column[0][3], own_share = here.column[1][3];
   struct Sums {
     Eigen::Array4d force = Eigen::Array4d::Zero(), x = force, y = force, z = force, square = force;
   } sums[2];
@@ -155,12 +174,13 @@ inline Residual residual(const Families& families, const Site* places, const For
     fitted += (here.column[1] + there.column[1]) * xi[1];
     fitted += (here.column[2] + there.column[2]) * xi[2];
     const Eigen::Array4d z = (places[j].current - y) - 0.5 * fitted;
-    const Eigen::Array4d t = (2 * w * std::min(own, there.column[0][3])) * z;
+    const Eigen::Array4d whole = (2 * w * std::min(own, there.column[0][3])) * z;
+    const Eigen::Array4d t = std::max(own_share, there.column[1][3]) * whole;
     sums[lane].force += t;
     sums[lane].x += t * xi[0];
     sums[lane].y += t * xi[1];
     sums[lane].z += t * xi[2];
-    sums[lane].square += t * z;
+    sums[lane].square += whole * z;
   });
   const Eigen::Array4d force = sums[0].force + sums[1].force, square = sums[0].square + sums[1].square;
   return {force.head<3>().matrix(), tensor_of(sums[0].x + sums[1].x, sums[0].y + sums[1].y, sums[0].z + sums[1].z),

@@ -18,11 +18,11 @@ double motion_velocity(const PrescribedMotion& motion, const Body& body, int i, 
   return (target - body.sites[i].current[motion.component]) / dt;
 }
 
-void constrain_motion(const PrescribedMotion& motion, double t, double dt, Body& body, KickWork& work) {
+void constrain_motion(const PrescribedMotion& motion, double t, const PointSteps& steps, Body& body, KickWork& work) {
   const int c = motion.component;
   for (const int i : motion.points) {
     double& v = body.velocity[i][c];
-    const double imposed = motion_velocity(motion, body, i, t, dt);
+    const double imposed = motion_velocity(motion, body, i, t, steps.of(i));
     const double half_impulse = 0.5 * body.mass(i) * (imposed - v);
     work.before.external += half_impulse * body.previous_velocity[i][c];
     work.after.external += half_impulse * imposed;
@@ -46,11 +46,11 @@ Vector correction(const Plane& plane, double gap, const Vector& velocity, double
   return grip < length ? push - grip / length * sliding : Vector(push - sliding);
 }
 
-void constrain_plane(const Plane& plane, double dt, Body& body, KickWork& work) {
+void constrain_plane(const Plane& plane, const PointSteps& steps, Body& body, KickWork& work) {
   const auto share = plane.one_sided ? &Work::contact : &Work::external;
   for (const int i : plane.points) {
     const double gap = plane.normal.dot(body.current(i) - plane.point);
-    const Vector change = correction(plane, gap, body.velocity[i], dt);
+    const Vector change = correction(plane, gap, body.velocity[i], steps.of(i));
     body.velocity[i] += change;
     const Vector half_impulse = 0.5 * body.mass(i) * change;
     work.before.*share += half_impulse.dot(body.previous_velocity[i]);
@@ -68,15 +68,26 @@ void add_body_forces(const Conditions& conditions, double t, Body& body) {
 
 void start_motions(const Conditions& conditions, double t, double dt, Body& body) {
   KickWork none;
-  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, dt, body, none);
+  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, {dt}, body, none);
   for (const Plane& plane : conditions.planes) {
-    if (!plane.one_sided) constrain_plane(plane, dt, body, none);
+    if (!plane.one_sided) constrain_plane(plane, {dt}, body, none);
   }
 }
 
-void constrain(const Conditions& conditions, double t, double dt, Body& body, KickWork& work) {
-  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, dt, body, work);
-  for (const Plane& plane : conditions.planes) constrain_plane(plane, dt, body, work);
+void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work) {
+  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, steps, body, work);
+  for (const Plane& plane : conditions.planes) constrain_plane(plane, steps, body, work);
+}
+
+Conditions restricted_to(const Conditions& conditions, const std::vector<std::uint8_t>& halvings, int order) {
+  const auto restrict = [&](auto all) {
+    std::erase_if(all.points, [&](int i) { return halvings[i] < order; });
+    return all;
+  };
+  Conditions some;
+  for (const PrescribedMotion& motion : conditions.motions) some.motions.push_back(restrict(motion));
+  for (const Plane& plane : conditions.planes) some.planes.push_back(restrict(plane));
+  return some;
 }
 
 void add_work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body, KickWork& work) {

@@ -1,6 +1,8 @@
 // What acts on points from outside: loads, prescribed motion, planes; and the work that each does.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "base/function.hpp"
@@ -52,14 +54,27 @@ struct KickWork {
   Work before, after;
 };
 
+// How long a point moves on before it is kicked again: the whole step, or a part of it where it is halved.
+struct PointSteps {
+  double whole;                                         // s
+  const std::vector<std::uint8_t>* halvings = nullptr;  // of owned points; none if null or empty
+
+  double of(int i) const { return !halvings || halvings->empty() ? whole : std::ldexp(whole, -(*halvings)[i]); }
+};
+
 // Adds the body forces at time t (s) to the force density.
 void add_body_forces(const Conditions& conditions, double t, Body& body);
 
 // Puts the prescribed velocities at time t into the initial velocities, so that the first step needs no impulse.
 void start_motions(const Conditions& conditions, double t, double dt, Body& body);
 
-// Changes the velocities after the kick at time t, which carry the points to t + dt, to what the conditions allow.
-void constrain(const Conditions& conditions, double t, double dt, Body& body, KickWork& work);
+// Changes the velocities after the kick at time t, which carry each point on for its step, to what the conditions
+// allow.
+void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work);
+
+// Of the points that are stepped alone, and halve their step `order` times or more. Without body forces: they act once
+// a whole step.
+Conditions restricted_to(const Conditions& conditions, const std::vector<std::uint8_t>& halvings, int order);
 
 // Adds the work of the body forces over a kick of length `kick`, once velocities are final.
 void add_work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body, KickWork& work);

@@ -12,7 +12,7 @@ namespace strut {
 namespace {
 
 // Columns of a source: V u; V A and V C u; F − I, u, C̄ and V.
-constexpr int moment_columns = 3, force_columns = 9, spring_columns = 12, residual_columns = 14;
+constexpr int moment_columns = 3, force_columns = 9, spring_columns = 13, residual_columns = 15;
 constexpr int tensor_sums = 9;  // columns of the sums: a tensor, then q
 
 // Calls work(n) with the number as a type, 1 ≤ n ≤ a pencil's width.
@@ -84,18 +84,6 @@ void LatticeSums::set_weights(const Body& body) {
     const double* sums = sums_at(i);
     constants_[i].first = tensor(sums).row(0);
     constants_[i].weight = vector(sums, tensor_sums)[0];
-  }
-}
-
-void LatticeSums::set_springs(Body& body) {
-  if (!has_springs_) return;
-  std::vector<double> springs(body.sites.size());
-  for (int i = 0; i < body.owned(); ++i) springs[i] = body.points[i].stabilization;
-  body.domain.halo.exchange(springs.data(), 1, 1);
-  pack(moved_, moment_columns, [&](int i, const auto& put) { put(0, body.domain.volumes[i] * springs[i]); });
-  add_packed_moments();
-  for (const int i : lattice_->members()) {
-    if (i < body.owned()) constants_[i].springs = vector(sums_at(i), tensor_sums)[0];
   }
 }
 
@@ -337,8 +325,9 @@ double LatticeSums::squared_residual(int i, const Displacements& u, const Materi
 
 template <int reach, bool with_springs>
 struct LatticeSums::ForceSweep {
-  static constexpr int columns = 9;  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z
-  Pencil sum[3] = {}, along_z[3] = {};
+  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z; Σ ω V C
+  static constexpr int columns = with_springs ? 10 : 9;
+  Pencil sum[3] = {}, along_z[3] = {}, springs = {};
 
   static void row_sums(const LatticeSums& all, int place, Pencil* to) {
     const Triple row = all.around(place, all.source_, all.source_columns_);
@@ -358,15 +347,21 @@ struct LatticeSums::ForceSweep {
         for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k * columns + c] += pull.sum(all.kinds_[k]);
       }
     }
+    if constexpr (with_springs) {
+      const Pairs<reach> C = pairs(force_columns + 3);
+      for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k * columns + 9] = C.sum(all.kinds_[k]);
+    }
   }
   void add(const Pencil* row, double y) {
     for (int c = 0; c < 3; ++c) {
       sum[c] += row[c] + y * row[3 + c];
       along_z[c] += row[6 + c];
     }
+    if constexpr (with_springs) springs += row[9];
   }
   void hand(Pencil* to, double z) const {
     for (int c = 0; c < 3; ++c) to[c] += sum[c] + z * along_z[c];
+    if constexpr (with_springs) to[3] += springs;
   }
 };
 
@@ -381,8 +376,9 @@ void LatticeSums::add_forces(const Body& body, const Displacements& u, const std
     if (!has_springs_) return;
     const Eigen::Array4d pull = V * C * u(i);
     for (int c = 0; c < 3; ++c) put(force_columns + c, pull[c]);
+    put(force_columns + 3, V * C);
   });
-  clear(3);
+  clear(4);
   with_constant(lattice_->reach(), [this](auto reach) {
     has_springs_ ? over_planes<ForceSweep<reach, true>>() : over_planes<ForceSweep<reach, false>>();
   });
@@ -398,7 +394,8 @@ Vector LatticeSums::force(int i, const Displacements& u, const ForceState& state
   const Vector ui = u(i).head<3>().matrix();
   Vector stretch = vector(sums, tensor_sums) - own.weight * ui;
   if (!u.is_field) stretch += own.first;
-  return f + state.column[0][3] * stretch - own.springs * ui;
+  const double springs = sums[3 * pencil_width];
+  return f + state.column[0][3] * stretch - springs * ui;
 }
 
 // ---- Residuals -----------------------------------------------------------------------------------------------------
@@ -414,6 +411,7 @@ void LatticeSums::add_residuals(const Body& body, const Displacements& u, const 
     }
     put(12, gradients[i].column[0][3]);
     put(13, body.domain.volumes[i]);
+    put(14, gradients[i].column[1][3]);
   });
   for_each_point(1, lattice_->slots(), [this](int slot) { gather_residuals(slot); });
 }
@@ -434,8 +432,9 @@ struct LatticeSums::Residuals {
     const auto far = [this](int column) {
       return shifted<dx>(there.before[column], there.here[column], there.after[column]);
     };
-    const Pencil C = far(12);
-    const Pencil weight = (2 * kind.weight[dx < 0 ? -dx : dx]) * far(13) * (own[12] < C ? own[12] : C);
+    const Pencil C = far(12), share = far(14);
+    const Pencil stiffness = (own[12] < C ? own[12] : C) * (own[14] < share ? share : own[14]);
+    const Pencil weight = (2 * kind.weight[dx < 0 ? -dx : dx]) * far(13) * stiffness;
     for (int c = 0; c < 3; ++c) {
       const Pencil u = shifted<dx>(fitted[c], fitted[3 + c], fitted[6 + c]);
       const Pencil t = weight * (u - base[c] - (0.5 * x) * (own[c] + far(c)));

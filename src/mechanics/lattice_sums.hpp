@@ -38,9 +38,6 @@ class LatticeSums {
   // Keeps a pointer to the lattice.
   LatticeSums(const Body& body, const LatticeFamilies& lattice);
 
-  // Collective, before the first forces: what the stiffness C of the points' springs adds up to.
-  void set_springs(Body& body);
-
   // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the
   // next one is called. Forces need what moments of the same u leave behind.
   void add_moments(const Body& body, const Displacements& u);
@@ -74,10 +71,10 @@ class LatticeSums {
     double weight[pencil_width + 1] = {}, first[pencil_width + 1] = {};
     bool operator==(const Kind&) const = default;
   };
-  // Of a point, over its family and itself: Σ ω V ξ, Σ ω V, Σ ω V C.
+  // Of a point, over its family and itself: Σ ω V ξ, Σ ω V.
   struct Constants {
     Vector first = Vector::Zero();
-    double weight = 0, springs = 0;
+    double weight = 0;
   };
   // A row of three pencils whose middle stands above, below or beside the one that is looked at.
   struct Triple {

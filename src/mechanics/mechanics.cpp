@@ -134,15 +134,16 @@ void add_up(Halo& halo, const ForceSum<Extension>& sum, const Timed& timed) {
   behind(sum.states.scalars, &ForceSum<Extension>::ordinary);
 }
 
-// The force state of the tangent at one point, for δF: δP = J C:sym(δF F⁻¹) F⁻ᵀ.
-ForceState tangent_state(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF) {
+// The force state of the tangent at one point, for δF: δP = J C:sym(δF F⁻¹) F⁻ᵀ. A point that is stepped alone by a
+// `share` of the step is as stiff to it as one of share² the stiffness is to the whole.
+ForceState tangent_state(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF, double share) {
   const Tensor inverse_F = point.deformation_gradient.inverse();
   const double J = point.deformation_gradient.determinant();
   const Symmetric D = symmetric_part(dF * inverse_F);
   const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
   const Tensor A =
       J * to_tensor(stress) * inverse_F.transpose() * to_tensor(point.shape_inverse) - point.stabilization * dF;
-  return bonds::packed(A, point.stabilization);
+  return bonds::packed(share * share * A, share * share * point.stabilization);
 }
 
 // δt of an ordinary point: t is linear in the extensions, so it is the law itself of their changes.
@@ -179,8 +180,11 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
         }
         const MaterialPoint& point = body.points[i];
         const Tensor dF = change_of_gradient(body, block, directions, i, weight);
-        result.tensors[i] = tangent_state(point, moduli, dF);
-        if (point.mean_stabilization > 0) result.gradients[i] = bonds::packed(dF, point.mean_stabilization);
+        const double share = body.share(i);
+        result.tensors[i] = tangent_state(point, moduli, dF, share);
+        if (point.mean_stabilization > 0) {
+          result.gradients[i] = bonds::packed(dF, point.mean_stabilization, share * share);
+        }
       });
     });
   }
@@ -188,10 +192,8 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
 
 }  // namespace
 
-StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
+StepReport advance_stress(Body& body, double dt, bool with_views) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
-  static Teuchos::Time& stabilizing = phase("Stabilisation");
-  static Teuchos::Time& summing = phase("Force");
   StepReport report;
   const Displacements u{body.sites.data()};
   const auto over = [&](Part part) {
@@ -201,7 +203,7 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
       if (block.is_ordinary()) {
         advance_ordinary(body, block, with_views, part, report);
       } else {
-        advance_stress(body, block, dt, part, report);
+        advance_stress(body, block, {dt}, part, report);
       }
     }
     if (!with_views) return;
@@ -213,6 +215,13 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   behind_exchange(
       body.domain.halo, places(body.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
+  return report;
+}
+
+void sum_forces(Body& body, bool with_views) {
+  static Teuchos::Time& stabilizing = phase("Stabilisation");
+  static Teuchos::Time& summing = phase("Force");
+  const Displacements u{body.sites.data()};
   if (!body.force_states.gradients.empty()) {
     const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
@@ -222,7 +231,20 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   }
   add_up(body.domain.halo, ForceSum<bonds::OfPlaces>{body, body.sites, u, {}, body.force_states, body.force_density},
          [] { return Timed(summing); });
+}
+
+StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
+  const StepReport report = advance_stress(body, dt, with_views);
+  sum_forces(body, with_views);
   return report;
+}
+
+double pace(const Body& body, const MaterialBlock& block, int i) {
+  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+  const MaterialPoint& point = body.points[i];
+  const Tensor& F = point.deformation_gradient;
+  const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
+  return std::sqrt(modulus / body.density[i] * body.domain.volumes[i] * trace(point.shape_inverse) / 3 * steepness);
 }
 
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,

@@ -15,16 +15,25 @@ struct Failure {
 };
 
 struct StepReport {
-  double steepest = 0;  // the largest ‖F⁻¹‖ (Frobenius; √3 undeformed, and always of ordinary points): the stable step
-                        // shrinks with it
+  double pace = 0;  // 1/s, the largest of any point, as a part of its step: the stable step shrinks with it
   std::optional<Failure> failure;  // the first on this rank; its stress is the old one
 };
 
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
-// dt, and computes force_density, f = Σ {T − T'} V (internal force, N/m³). Halo exchanges run behind interior points.
-// dt = 0 leaves stress and state alone. `with_views`: also what forces do not need but a look at the body does, the
-// energy of the stabilisation, and F, R and stress of ordinary points, which are a view of their families only.
+// dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_views`: also what forces
+// do not need but a look at the body does, the energy of the stabilisation, and F, R and stress of ordinary points,
+// which are a view of their families only.
+StepReport advance_stress(Body& body, double dt, bool with_views);
+
+// Collective; after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is stepped
+// alone, the part of its stress that acts at the end of a whole step.
+void sum_forces(Body& body, bool with_views);
+
+// Both.
 StepReport advance_stress_and_force(Body& body, double dt, bool with_views);
+
+// A bound of what the stress of a point adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
+double pace(const Body& body, const MaterialBlock& block, int i);
 
 // Collective. The linearised operator with the elastic moduli in the current state, applied to a field:
 // result = −f(v)/ρ (1/s² times v's unit). `directions` holds v in the place of y: a scratch copy of body.sites.

@@ -45,10 +45,11 @@ struct Group {
   int count;
 };
 
-Group group_of(Body& body, const MaterialBlock& block, int first, int end) {
+Group group_of(Body& body, const MaterialBlock& block, const std::vector<int>* chosen, int first, int end) {
   Group group{{}, {}, std::min(4, end - first)};
   for (int l = 0; l < 4; ++l) {
-    group.k[l] = first + std::min(l, group.count - 1);
+    const int place = first + std::min(l, group.count - 1);
+    group.k[l] = chosen ? (*chosen)[place] : place;
     group.points[l] = &body.points[block.points[group.k[l]]];
   }
   return group;
@@ -84,7 +85,7 @@ Tensor lane(const LaneTensor& t, int l) {
 
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
 // linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
-LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, double dt) {
+LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, const Lanes& dt) {
   const LaneTensor R = tensors(g, &MaterialPoint::rotation), F = tensors(g, &MaterialPoint::deformation_gradient);
   const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
   LaneSymmetric difference, middle;
@@ -95,15 +96,15 @@ LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, double d
   return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
 }
 
-// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹
+// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹; times the share of the step.
 LaneTensor force_states(const Group& g, const Polar<Lanes>& polar, const LaneSymmetric& inverse_stretch,
-                        const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J) {
+                        const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J, const Lanes& share) {
   const LaneSymmetric stress = symmetrics(g, &MaterialPoint::stress);
   LaneTensor A = small::product(small::full(stress), small::full(inverse_stretch));
   A = small::product(small::product(polar.rotation, A), small::full(shape_inverse));
   const Lanes C = lanes(g, [](const MaterialPoint& p) { return p.stabilization; });
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) A.c[i][j] = J * A.c[i][j] - C * F.c[i][j];
+    for (int j = 0; j < 3; ++j) A.c[i][j] = share * (J * A.c[i][j] - C * F.c[i][j]);
   }
   return A;
 }
@@ -115,11 +116,12 @@ struct Update {
   MaterialBlock& block;
   const L& law;
   Weight weight;
-  double dt;
+  StressPass pass;
   FirstFailure& failure;
+  double stiffness = law.moduli().longitudinal() / (3 * block.material.density);  // m²/s²
 
   // Stress and state of one point.
-  void advance(const Group& g, int l, const LaneSymmetric& rates, double J) const {
+  void advance(const Group& g, int l, const LaneSymmetric& rates, double dt, double J) const {
     Symmetric rate;
     for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l];
     typename L::State state = load<L>(block, g.k[l]);
@@ -134,15 +136,18 @@ struct Update {
     point.rotation = lane(polar.rotation, l);
     point.deformation_gradient = lane(F, l);
     const int i = block.points[g.k[l]];
-    body.force_states.tensors[i] = bonds::packed(lane(A, l), point.stabilization);
+    const double share = body.share(i, pass.order);
+    body.force_states.tensors[i] = bonds::packed(lane(A, l), share * point.stabilization);
     if (point.mean_stabilization > 0) {
-      body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.mean_stabilization);
+      body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.mean_stabilization, share);
     }
   }
 
-  // F K of one point.
+  bool by_lattice_sums() const { return block.lattice >= 0 && !pass.chosen; }
+
+  // F K of one point; by sums over a lattice (F − I) K.
   Tensor gather(int i) const {
-    if (block.lattice < 0) return bonds::gather(body.domain.families, body.sites.data(), i, weight);
+    if (!by_lattice_sums()) return bonds::gather(body.domain.families, body.sites.data(), i, weight);
     return body.lattice_sums[block.lattice]->moment(i, {body.sites.data()});
   }
 
@@ -161,59 +166,71 @@ struct Update {
       }
     }
     LaneTensor F = small::product(N, small::full(shape_inverse));
-    if (block.lattice >= 0) {
+    if (by_lattice_sums()) {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
     }
     return F;
   }
 
-  // The largest ‖F⁻¹‖² of the points from `first` on, four at the most.
+  // Of each point of a group.
+  template <class Of>
+  Lanes of_points(const Group& g, Of of) const {
+    Lanes result;
+    for (int l = 0; l < 4; ++l) result[l] = of(block.points[g.k[l]]);
+    return result;
+  }
+
+  // The largest pace² of the points from `first` on, four at the most.
   double advance_group(int first, int end) const {
-    const Group g = group_of(body, block, first, end);
+    const Group g = group_of(body, block, pass.chosen, first, end);
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
     const LaneTensor F = deformation_gradient(g, shape_inverse);
     const Lanes J = small::determinant(F);
     const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
-    if (dt > 0) {
-      const LaneSymmetric rates = strain_rate(g, polar.stretch, dt);
+    const Lanes share = of_points(g, [this](int i) { return body.share(i, pass.order); });
+    if (pass.dt > 0) {
+      const LaneSymmetric rates = strain_rate(g, polar.stretch, pass.dt * share);
       for (int l = 0; l < g.count; ++l) {
-        if (J[l] > 0) advance(g, l, rates, J[l]);
+        if (J[l] > 0) advance(g, l, rates, pass.dt * share[l], J[l]);
       }
     }
     const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
-    const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J);
-    const Lanes steepness = small::square(inverse_stretch);
-    double steepest = 0;
+    const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share);
+    const Lanes volume = of_points(g, [this](int i) { return body.sites[i].reference[3]; });
+    const Lanes pace2 = stiffness * share * share * J * volume * small::square(inverse_stretch) *
+                        (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
+    double fastest = 0;
     for (int l = 0; l < g.count; ++l) {
       if (!(J[l] > 0)) {  // NaN too
         failure.report(g.k[l], Failure::Kind::inverted);
         continue;
       }
       store_point(g, l, polar, F, A);
-      steepest = std::max(steepest, steepness[l]);
+      fastest = std::max(fastest, pace2[l]);
     }
-    return steepest;
+    return fastest;
   }
 };
 
 template <class L, class Weight>
-void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, double dt, int begin, int end,
-                    StepReport& report) {
+void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, const StressPass& pass, int begin,
+                    int end, StepReport& report) {
   FirstFailure failure;
-  const Update<L, Weight> update{body, block, law, weight, dt, failure};
+  const Update<L, Weight> update{body, block, law, weight, pass, failure};
   const auto advance_group = [&update, begin, end](int group)
                                  STRUT_INLINE_ALL { return update.advance_group(begin + 4 * group, end); };
-  const double steepest = largest(0, (end - begin + 3) / 4, 0, advance_group);
-  report.steepest = std::max(report.steepest, std::sqrt(steepest));
+  const double fastest = largest(0, (end - begin + 3) / 4, 0, advance_group);
+  report.pace = std::max(report.pace, std::sqrt(fastest));
   if (!report.failure) report.failure = failure.found(block);
 }
 
 }  // namespace
 
-void advance_stress(Body& body, MaterialBlock& block, double dt, Part part, StepReport& report) {
-  const auto [begin, end] = range(block, part);
+void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report) {
+  auto [begin, end] = range(block, part);
+  if (pass.chosen) begin = 0, end = static_cast<int>(pass.chosen->size());
   bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
-    std::visit([&](const auto& law) { advance_points(body, block, law, weight, dt, begin, end, report); },
+    std::visit([&](const auto& law) { advance_points(body, block, law, weight, pass, begin, end, report); },
                block.material.law);
   });
 }

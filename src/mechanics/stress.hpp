@@ -32,7 +32,14 @@ class FirstFailure {
 };
 
 // Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
-void advance_stress(Body& body, MaterialBlock& block, double dt, Part part, StepReport& report);
+//   dt: of a step that is halved `order` times
+//   chosen: places in block.points, of those to advance; all points if null
+struct StressPass {
+  double dt;
+  int order = 0;
+  const std::vector<int>* chosen = nullptr;
+};
+void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report);
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report);
 
 // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it;

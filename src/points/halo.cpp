@@ -25,8 +25,8 @@ Teuchos::RCP<const Map> map_of(const Communicator& communicator, const std::vect
 }  // namespace
 
 struct Halo::Plan {
-  Teuchos::RCP<Tpetra::Import<>> import;  // null where there is one rank
-  std::vector<int> sent, received;        // local indices
+  Teuchos::RCP<Tpetra::Distributor> distributor;  // null where there is one rank
+  std::vector<int> sent, receivers, received;  // local indices, the ranks that `sent` go to; as ranks follow each other
   Buffer outgoing, incoming;
 };
 
@@ -38,11 +38,32 @@ Halo::Halo(const Communicator& communicator, const std::vector<std::int64_t>& ow
   const auto source = map_of(communicator, ids);
   ids.insert(ids.end(), ghosts.begin(), ghosts.end());
   const auto target = map_of(communicator, ids);
-  plan_->import = Teuchos::rcp(new Tpetra::Import<>(source, target));
-  const auto sent = plan_->import->getExportLIDs();
-  const auto received = plan_->import->getRemoteLIDs();
+  const Tpetra::Import<> import(source, target);
+  plan_->distributor = Teuchos::rcp(new Tpetra::Distributor(import.getDistributor()));
+  const auto sent = import.getExportLIDs(), receivers = import.getExportPIDs();
+  const auto received = import.getRemoteLIDs();
   plan_->sent.assign(sent.begin(), sent.end());
+  plan_->receivers.assign(receivers.begin(), receivers.end());
   plan_->received.assign(received.begin(), received.end());
+}
+
+Halo::Halo(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
+
+// Of each pair of ranks, what one sends is in the order in which the other receives it; so is a part of it.
+Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const {
+  auto part = std::make_unique<Plan>();
+  if (plan_->distributor.is_null()) return Halo(std::move(part));
+  for (std::size_t k = 0; k < plan_->sent.size(); ++k) {
+    if (wanted[plan_->sent[k]] == 0) continue;
+    part->sent.push_back(plan_->sent[k]);
+    part->receivers.push_back(plan_->receivers[k]);
+  }
+  for (const int i : plan_->received) {
+    if (wanted[i] != 0) part->received.push_back(i);
+  }
+  part->distributor = Teuchos::rcp(new Tpetra::Distributor(communicator.teuchos()));
+  part->distributor->createFromSends(Teuchos::ArrayView<const int>(part->receivers.data(), part->receivers.size()));
+  return Halo(std::move(part));
 }
 
 Halo::~Halo() = default;
@@ -50,21 +71,20 @@ Halo::Halo(Halo&&) noexcept = default;
 Halo& Halo::operator=(Halo&&) noexcept = default;
 
 void Halo::start(const double* data, int stride, int width) {
-  if (plan_->import.is_null()) return;
+  if (plan_->distributor.is_null()) return;
   Plan& plan = *plan_;
   const std::size_t outgoing = plan.sent.size() * width, incoming = plan.received.size() * width;
   if (plan.outgoing.size() != outgoing) Kokkos::resize(plan.outgoing, outgoing);
   if (plan.incoming.size() != incoming) Kokkos::resize(plan.incoming, incoming);
   double* to = plan.outgoing.data();
   for (const int i : plan.sent) to = std::copy_n(data + static_cast<std::size_t>(i) * stride, width, to);
-  plan.import->getDistributor().doPosts(Kokkos::View<const double*, Kokkos::HostSpace>(plan.outgoing), width,
-                                        plan.incoming);
+  plan.distributor->doPosts(Kokkos::View<const double*, Kokkos::HostSpace>(plan.outgoing), width, plan.incoming);
   bytes_sent_ += static_cast<std::int64_t>(outgoing * sizeof(double));
 }
 
 void Halo::finish(double* data, int stride, int width) {
-  if (plan_->import.is_null()) return;
-  plan_->import->getDistributor().doWaits();
+  if (plan_->distributor.is_null()) return;
+  plan_->distributor->doWaits();
   const double* from = plan_->incoming.data();
   for (const int i : plan_->received) {
     std::copy_n(from, width, data + static_cast<std::size_t>(i) * stride);

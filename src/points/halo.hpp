@@ -16,6 +16,8 @@ class Halo {
   // Collective. `owned`, `ghosts`: global ids in the order of local indices (ghosts follow the owned points).
   Halo(const Communicator& communicator, const std::vector<std::int64_t>& owned,
        const std::vector<std::int64_t>& ghosts);
+  // Collective. The same for some of the points: `wanted` of owned points and ghosts, as their owners have it.
+  Halo restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const;
   ~Halo();
   Halo(Halo&&) noexcept;
   Halo& operator=(Halo&&) noexcept;
@@ -34,6 +36,7 @@ class Halo {
 
  private:
   struct Plan;
+  explicit Halo(std::unique_ptr<Plan> plan);
   std::unique_ptr<Plan> plan_;
   std::int64_t bytes_sent_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "solvers/central_difference.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <sstream>
 
@@ -12,7 +13,7 @@ namespace strut {
 
 namespace {
 
-// The estimate is renewed when the steepest ‖F⁻¹‖ has grown by this factor since the last one (until then the step
+// The estimate is renewed when the largest pace has grown by this factor since the last one (until then the step
 // shrinks in proportion), and after so many steps in any case, when it may also grow again.
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
@@ -28,7 +29,10 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
       contact_(std::move(contact)),
       control_(control),
       time_(initial_time) {
-  const StepReport report = advance_stress_and_force(body_, 0, true);
+  body_.halvings.clear();
+  StepReport report = advance_stress(body_, 0, true);
+  regroup(report);
+  sum_forces(body_, true);
   contact_.add_forces(crowd(), 0, body_.force_density);
   check(report);
   estimate_step();
@@ -38,8 +42,21 @@ contact::Crowd CentralDifference::crowd() const { return {body_.domain, body_.si
 
 void CentralDifference::estimate_step() {
   limit_ = stable_.estimate(body_);
-  steepest_at_estimate_ = steepest_;
+  pace_at_estimate_ = pace_;
+  estimate_due_ = false;
   steps_since_estimate_ = 0;
+}
+
+// The points that limit the step are chosen anew.
+void CentralDifference::regroup(StepReport& report) {
+  regroup_due_ = false;
+  estimate_due_ = true;
+  if (!control_.subcycling || control_.fixed_dt > 0) return;
+  report.pace = subcycles_.choose(body_, control_.safety_factor);
+  conditions_of_order_.clear();
+  for (int m = 1; m <= subcycles_.orders(); ++m) {
+    conditions_of_order_.push_back(restricted_to(conditions_, subcycles_.motions(), m));
+  }
 }
 
 void CentralDifference::choose_step(double final_time) {
@@ -48,7 +65,8 @@ void CentralDifference::choose_step(double final_time) {
   if (left <= 0 && steps_ > 0) return;  // no step follows: velocities at the end are the mean about equal ones
   // A fixed step is watched, too, more closely where it may have become too large: a warning should be true.
   const double growth = control_.fixed_dt > stable_step() ? 1.01 : renewal_growth;
-  if (steepest_ > growth * steepest_at_estimate_ || steps_since_estimate_ >= renewal_steps) estimate_step();
+  if (estimate_due_) estimate_step();
+  regroup_due_ = pace_ > growth * pace_at_estimate_ || steps_since_estimate_ >= renewal_steps;
   if (control_.fixed_dt > 0) {
     // What round-off leaves after the last full step is no step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
@@ -72,7 +90,7 @@ void CentralDifference::kick(double final_time) {
     body_.previous_velocity[i] = body_.velocity[i];
     body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
   });
-  constrain(conditions_, time_, dt_, body_, kick_work_);
+  constrain(conditions_, time_, point_steps(), body_, kick_work_);
   add_work_of_body_forces(conditions_, time_, kick, body_, kick_work_);
   add_work_of_friction(kick);
   if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
@@ -80,7 +98,7 @@ void CentralDifference::kick(double final_time) {
 
 // ω² of a sum of operators is at most the sum of theirs.
 double CentralDifference::stable_step() const {
-  const double alone = limit_ * std::min(1.0, steepest_at_estimate_ / steepest_);
+  const double alone = limit_ * std::min(1.0, pace_at_estimate_ / pace_);
   return alone / std::sqrt(1 + 0.25 * alone * alone * contact_.stiffness());
 }
 
@@ -98,17 +116,61 @@ void CentralDifference::start() {
                  [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
+// Between time() and the next: the kicks of the points that are stepped alone. Times of order m come every dt/2^m.
+StepReport CentralDifference::substeps() {
+  StepReport first;
+  const int orders = subcycles_.orders();
+  if (orders == 0) return first;
+  static Teuchos::Time& timer = phase("Substeps");
+  const Timed timed(timer);
+  const int count = 1 << orders;
+  for (int n = 1; n < count; ++n) {
+    const int order = orders - std::countr_zero(static_cast<unsigned>(n));
+    const StepReport report = substep(order, time_ + n * (dt_ / count));
+    if (!first.failure) first.failure = report.failure;
+  }
+  return first;
+}
+
+StepReport CentralDifference::substep(int order, double t) {
+  const PointSteps steps = point_steps();
+  const std::vector<int>& moved = subcycles_.moved(order);
+  const int count = static_cast<int>(moved.size());
+  for_each_point(0, count, [&](int n) {
+    const int i = moved[n];
+    body_.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
+  });
+  const double kick = std::ldexp(dt_, -order);
+  const StepReport report = subcycles_.forces(body_, order, kick);
+  for_each_point(0, count, [&](int n) {
+    const int i = moved[n];
+    body_.previous_velocity[i] = body_.velocity[i];
+    body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
+  });
+  KickWork work;
+  constrain(conditions_of_order_[order - 1], t, steps, body_, work);
+  work_ = work_ + work.before + work.after;
+  return report;
+}
+
 void CentralDifference::move(bool with_views) {
   static Teuchos::Time& timer = phase("Motion and conditions");
+  const StepReport between = substeps();
   {
     const Timed timed(timer);
+    const PointSteps steps = point_steps();
     for_each_point(0, body_.owned(),
-                   [&](int i) { body_.sites[i].current.head<3>() += dt_ * body_.velocity[i].array(); });
+                   [&](int i) { body_.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array(); });
   }
   time_ = next_time_;
   ++steps_;
   ++steps_since_estimate_;
-  const StepReport report = advance_stress_and_force(body_, dt_, with_views);
+  updates_ += subcycles_.updates_a_point();
+  most_substeps_ = std::max(most_substeps_, 1 << subcycles_.orders());
+  StepReport report = advance_stress(body_, dt_, with_views);
+  if (between.failure) report.failure = between.failure;
+  if (regroup_due_) regroup(report);
+  sum_forces(body_, with_views);
   contact_.add_forces(crowd(), dt_, body_.force_density);
   check(report);
 }
@@ -116,7 +178,7 @@ void CentralDifference::move(bool with_views) {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.steepest};
+  std::vector<double> agreed{report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.pace};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(crowd(), agreed);
   {
@@ -125,7 +187,7 @@ void CentralDifference::check(const StepReport& report) {
     body_.domain.communicator.max(agreed);
   }
   stop_agreed_ = agreed[1] > 0;
-  steepest_ = agreed[2];
+  pace_ = agreed[2];
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
   if (agreed[0] == 0) return;
   std::ostringstream text;

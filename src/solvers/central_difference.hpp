@@ -4,6 +4,7 @@
 #include "contact/contact.hpp"
 #include "mechanics/conditions.hpp"
 #include "mechanics/mechanics.hpp"
+#include "mechanics/subcycles.hpp"
 #include "solvers/stable_step.hpp"
 
 namespace strut {
@@ -22,6 +23,7 @@ struct Ledger {
 struct StepControl {
   double fixed_dt = 0;  // s; 0: from the stable step
   double safety_factor = 0.8;
+  bool subcycling = true;  // of the points that limit the step; none with a fixed one
 };
 
 class CentralDifference {
@@ -32,6 +34,10 @@ class CentralDifference {
 
   double time() const { return time_; }
   int steps() const { return steps_; }
+  // So often the stress of a point was brought up to date, in the mean of all points, and of the one that was stepped
+  // most often in a step.
+  double updates() const { return updates_; }
+  int most_substeps() const { return most_substeps_; }
   double dt() const { return dt_; }
   // 2/ω_max now, s: the last estimate, less where the deformation has gone on and where points touch.
   double stable_step() const;
@@ -55,6 +61,10 @@ class CentralDifference {
   void add_work_of_friction(double kick);
   void choose_step(double final_time);
   void estimate_step();
+  void regroup(StepReport& report);
+  StepReport substeps();
+  StepReport substep(int order, double t);
+  PointSteps point_steps() const { return {dt_, &subcycles_.motions()}; }
   void start();
   void check(const StepReport& report);
   double imbalance(const Ledger& now) const;
@@ -64,12 +74,16 @@ class CentralDifference {
   contact::Contact contact_;
   StepControl control_;
   StableStep stable_;
-  Work work_;           // up to the mid-step before time()
-  KickWork kick_work_;  // of the impulses at time()
+  Subcycles subcycles_;
+  std::vector<Conditions> conditions_of_order_;  // of the points that move at times between steps
+  Work work_;                                    // up to the mid-step before time()
+  KickWork kick_work_;                           // of the impulses at time()
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
-  double limit_ = 0, steepest_ = 1, steepest_at_estimate_ = 0;
+  double limit_ = 0, pace_ = 0, pace_at_estimate_ = 0;
   double put_in_ = 0, largest_energy_ = 0;
-  int steps_ = 0, steps_since_estimate_ = 0;
+  int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
+  double updates_ = 0;
+  bool regroup_due_ = true, estimate_due_ = true;
   bool stop_requested_ = false, stop_agreed_ = false;
 };
 

@@ -301,6 +301,7 @@ Parts taylor_parts() {
   parts.conditions =
       along("flight", "Initial Velocity", "all", "z", "-227") + plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
   parts.times = key("Final Time", "10e-6");
+  parts.verlet = key("Subcycling", "false");  // Wall sees velocities once a step
   return parts;
 }
 

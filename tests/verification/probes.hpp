@@ -24,7 +24,7 @@ inline void throw_apart(Body& body, double speed) {
 
 // Whether noise stays bounded over a thousand steps of `factor` times the estimated limit.
 inline bool stays_bounded(Body body, double factor) {
-  const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
+  const double limit = CentralDifference(body, {}, {}, {0, 1, false}, 0).stable_step();
   throw_apart(body, 1e-3);
   CentralDifference solver(body, {}, {}, {factor * limit, 0}, 0);
   try {

@@ -65,8 +65,8 @@ TEST(Conservation, ElasticBlockAtItsOwnStep) {
 }
 
 TEST(Conservation, PlasticBlock) {
-  const Outcome coarse = run_free_block(copper(true), 50, {0, 0.8}, 3),
-                fine = run_free_block(copper(true), 50, {0, 0.4}, 3);
+  const Outcome coarse = run_free_block(copper(true), 50, {0, 0.8, false}, 3),
+                fine = run_free_block(copper(true), 50, {0, 0.4, false}, 3);
   EXPECT_LT(coarse.momentum_drift, 1e-12);
   EXPECT_LT(coarse.balance_error, 1e-2);
   EXPECT_LT(fine.balance_error, 0.7 * coarse.balance_error);  // first order at least, where yielding starts and stops

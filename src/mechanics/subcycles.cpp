@@ -1,0 +1,283 @@
+#include "mechanics/subcycles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "mechanics/bonds.hpp"
+#include "mechanics/stress.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr int most_halvings = 6;
+
+// The fastest motion of a point whose stress is stepped by Δt/2^h turns by no more than twice this angle in its step,
+// and by four times in the step before the last halving: less than half a period (README).
+constexpr double most_turn = 0.6;
+
+// A substep of a point, with its share of the points that it moves, beside a whole step of a point.
+constexpr double cost_of_substep = 1.5;
+
+// Families between points that are halved h times and those that are halved h − 2 times or less (README).
+constexpr int buffer = 2;
+
+constexpr double worth_while = 0.75;  // of the cost of a run without
+
+// How many points have which pace, in classes that are an eighth of an octave wide.
+class Census {
+ public:
+  static constexpr int classes_per_octave = 8, octaves = 32, classes = classes_per_octave * octaves;
+
+  Census(double fastest, double margin) : fastest_(fastest), margin_(margin) {}
+  void add(double pace) { counts_[class_of(pace)] += 1; }
+  void agree(const Communicator& communicator) { communicator.sum(counts_); }
+
+  // Paces of points that are not halved are below this, where the run costs least; the fastest one where nothing is
+  // worth while.
+  double best() const {
+    int best = 0;
+    const int last = static_cast<int>(classes_per_octave * (most_halvings + std::log2(margin_)));
+    for (int c = 1; c <= last; ++c) {
+      if (cost(c) < cost(best)) best = c;
+    }
+    return cost(best) < worth_while * cost(0) ? bound(best) : fastest_;
+  }
+
+ private:
+  double bound(int c) const { return fastest_ * std::exp2(-static_cast<double>(c) / classes_per_octave); }
+  int class_of(double pace) const {
+    const double c = std::floor(classes_per_octave * std::log2(fastest_ / pace));
+    return static_cast<int>(std::clamp(c, 0.0, classes - 1.0));
+  }
+  // Of the same time, with steps for points of the pace bound(c) and below.
+  double cost(int c) const;
+
+  double fastest_, margin_;
+  std::array<double, classes> counts_{};
+};
+
+// A point that is halved is at most `margin` times as fast in its own steps as one that is not.
+int halvings_of(double pace, double bound, double margin) {
+  if (!(pace > bound)) return 0;
+  return std::clamp(static_cast<int>(std::ceil(std::log2(pace / (margin * bound)))), 1, most_halvings);
+}
+
+double Census::cost(int c) const {
+  double points = 0;
+  for (int k = 0; k < classes; ++k) {
+    const int h = k < c ? halvings_of(bound(k), bound(c), margin_) : 0;
+    points += counts_[k] * (1 + cost_of_substep * ((1 << h) - 1));
+  }
+  return points * bound(c);
+}
+
+template <class Visit>
+void over_correspondence(const Body& body, Visit&& visit) {
+  for (const MaterialBlock& block : body.blocks) {
+    if (block.is_ordinary()) continue;
+    for (const int i : block.points) visit(block, i);
+  }
+}
+
+// The halvings of owned points, or none at all.
+std::vector<std::uint8_t> chosen_halvings(const Body& body, double margin) {
+  std::vector<double> paces(body.owned(), 0);
+  double slowest_bound = 0;  // ordinary points are never stepped alone
+  for (const MaterialBlock& block : body.blocks) {
+    for (const int i : block.points) paces[i] = pace(body, block, i);
+    if (!block.is_ordinary()) continue;
+    for (const int i : block.points) slowest_bound = std::max(slowest_bound, paces[i]);
+  }
+  double agreed[] = {slowest_bound, 0};
+  for (const double p : paces) agreed[1] = std::max(agreed[1], p);
+  body.domain.communicator.max(agreed);
+  Census census(agreed[1], margin);
+  for (const double p : paces) census.add(p);
+  census.agree(body.domain.communicator);
+  const double bound = std::max(census.best(), agreed[0]);
+  if (!(bound < agreed[1])) return {};
+  std::vector<std::uint8_t> halvings(body.owned(), 0);
+  over_correspondence(body, [&](const MaterialBlock&, int i) { halvings[i] = halvings_of(paces[i], bound, margin); });
+  return halvings;
+}
+
+// The ghosts' too.
+void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) {
+  std::vector<double> values(numbers.begin(), numbers.end());
+  values.resize(body.sites.size());
+  halo.exchange(values.data(), 1, 1);
+  numbers.assign(values.begin(), values.end());
+}
+
+// Points near those that are halved h times are halved h − 1 times at least.
+void grade(const Body& body, Halo& halo, std::vector<std::uint8_t>& halvings) {
+  for (int n = 0; n < buffer; ++n) {
+    const std::vector<std::uint8_t> before = halvings;
+    over_correspondence(body, [&](const MaterialBlock&, int i) {
+      body.domain.families.for_each(i, [&](int j) {
+        if (before[j] > halvings[i] + 1) halvings[i] = before[j] - 1;
+      });
+    });
+    halvings.resize(body.owned());
+    exchange(body, halo, halvings);
+  }
+}
+
+// How often the motion of each point is halved: as the stress of any point that moves it.
+std::vector<std::uint8_t> motions_of(const Body& body, const std::vector<std::uint8_t>& halvings) {
+  std::vector<std::uint8_t> motions(halvings.begin(), halvings.begin() + body.owned());
+  for_each_point(0, body.owned(), [&](int i) {
+    body.domain.families.for_each(i, [&](int j) { motions[i] = std::max(motions[i], halvings[j]); });
+  });
+  return motions;
+}
+
+// Half of the impulse belongs to the interval before, half to the one after.
+void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
+  over_correspondence(body, [&](const MaterialBlock&, int i) {
+    const double old_share = before.empty() ? 1 : std::ldexp(1.0, -before[i]), share = body.share(i);
+    if (share == old_share) return;
+    const double mean = 0.5 * (old_share + share);
+    for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
+    if (body.points[i].mean_stabilization > 0) body.force_states.gradients[i].column[1][3] = mean;
+  });
+}
+
+void exchange_states(Halo& halo, std::vector<ForceState>& states) {
+  constexpr int width = sizeof(ForceState) / sizeof(double);
+  halo.exchange(states.data()->column[0].data(), width, width);
+}
+
+// Σ ω V (y_j − y_i) over the family, where its springs need it.
+template <class Weight>
+Eigen::Array4d own_stretch(const Body& body, const ForceState& state, int i, Weight weight) {
+  Eigen::Array4d sum = Eigen::Array4d::Zero();
+  if (state.column[0][3] == 0) return sum;
+  bonds::over_family(body.domain.families, body.sites.data(), i, weight,
+                     [&](auto, int j, const Eigen::Array4d&, double w) {
+                       sum += w * (body.sites[j].current - body.sites[i].current);
+                     });
+  return sum;
+}
+
+}  // namespace
+
+double Subcycles::choose(Body& body, double safety_factor) {
+  std::vector<std::uint8_t> halvings = chosen_halvings(body, std::min(1.0, most_turn / safety_factor));
+  orders_.clear();
+  motions_.clear();
+  updates_ = 1;
+  const std::vector<std::uint8_t> before = std::exchange(body.halvings, {});
+  if (!halvings.empty()) {
+    exchange(body, body.domain.halo, halvings);
+    grade(body, body.domain.halo, halvings);
+    body.halvings = std::move(halvings);
+    motions_ = motions_of(body, body.halvings);
+    std::vector<std::uint8_t> everywhere = motions_;
+    exchange(body, body.domain.halo, everywhere);
+    double most[] = {0.0};
+    for (const std::uint8_t h : body.halvings) most[0] = std::max<double>(most[0], h);
+    body.domain.communicator.max(most);
+    for (int m = 1; m <= static_cast<int>(most[0]); ++m) orders_.push_back(order_of(body, everywhere, m));
+    double counts[] = {0, static_cast<double>(body.owned())};
+    for (int i = 0; i < body.owned(); ++i) counts[0] += 1 << body.halvings[i];
+    body.domain.communicator.sum(counts);
+    updates_ = counts[0] / counts[1];
+  }
+  spread_impulses(body, before);
+  double fastest = 0;
+  for (const MaterialBlock& block : body.blocks) {
+    for (const int i : block.points) fastest = std::max(fastest, pace(body, block, i) * body.share(i));
+  }
+  return fastest;
+}
+
+Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const {
+  std::vector<std::uint8_t> wanted(motions.size());
+  for (std::size_t i = 0; i < motions.size(); ++i) wanted[i] = motions[i] >= order;
+  Order result{.halo = body.domain.halo.restricted_to(body.domain.communicator, wanted)};
+  for (const MaterialBlock& block : body.blocks) {
+    std::vector<int>& stressed = result.stressed.emplace_back();
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      if (body.halvings[block.points[k]] >= order) stressed.push_back(static_cast<int>(k));
+    }
+  }
+  for (int i = 0; i < body.owned(); ++i) {
+    if (motions[i] < order) continue;
+    result.moved.push_back(i);
+    Eigen::Array4d moment = Eigen::Array4d::Zero();
+    bonds::with_influence(body.influence, [&](auto weight) {
+      bonds::over_family(body.domain.families, body.sites.data(), i, weight,
+                         [&](auto, int j, const Eigen::Array4d& xi, double w) {
+                           moment += w * xi;
+                           if (body.halvings[j] >= order) result.sources.push_back(j);
+                         });
+    });
+    result.first_moments.push_back(moment.head<3>().matrix());
+    result.start.push_back(result.sources.size());
+  }
+  return result;
+}
+
+StepReport Subcycles::forces(Body& body, int order, double dt) {
+  Order& now = orders_[order - 1];
+  StepReport report;
+  now.halo.exchange(body.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (!now.stressed[b].empty()) {
+      advance_stress(body, body.blocks[b], {dt, order, &now.stressed[b]}, Part::boundary, report);
+    }
+  }
+  add_residuals(body, now, order);
+  std::vector<ForceState>& states = body.force_states.tensors;
+  exchange_states(now.halo, states);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, static_cast<int>(now.moved.size()), [&, weight](int n) {
+      const int i = now.moved[n];
+      const Site& here = body.sites[i];
+      Eigen::Array4d sum = Eigen::Array4d::Zero();
+      const auto add = [&sum](const ForceState& state, const auto& moment, const Eigen::Array4d& stretch) {
+        for (int c = 0; c < 3; ++c) sum += state.column[c] * moment[c];
+        sum += state.column[0][3] * stretch;
+      };
+      for (std::size_t b = now.start[n]; b < now.start[n + 1]; ++b) {
+        const Site& there = body.sites[now.sources[b]];
+        const Eigen::Array4d xi = there.reference - here.reference;
+        const double w = there.reference[3] * weight(xi, here.current[3] + there.current[3]);
+        add(states[now.sources[b]], Eigen::Array4d(w * xi), w * (there.current - here.current));
+      }
+      if (body.halvings[i] >= order) {
+        add(states[i], now.first_moments[n], own_stretch(body, states[i], i, weight));
+        if (body.points[i].mean_stabilization > 0) sum.head<3>() += body.force_density[i].array();
+      }
+      body.force_density[i] = sum.head<3>().matrix();
+    });
+  });
+  return report;
+}
+
+// The stabilisation by the mean gradient, of the bonds between points that are due: its force begins the sum in
+// force_density, and the rest is in A (mechanics.cpp).
+void Subcycles::add_residuals(Body& body, Order& now, int order) const {
+  ForceStates& states = body.force_states;
+  if (states.gradients.empty()) return;
+  exchange_states(now.halo, states.gradients);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, static_cast<int>(now.moved.size()), [&, weight](int n) {
+      const int i = now.moved[n];
+      if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0)) return;
+      const std::span family(now.sources.data() + now.start[n], now.sources.data() + now.start[n + 1]);
+      const bonds::Residual sums =
+          bonds::residual(bonds::Listed{family}, body.sites.data(), states.gradients.data(), i, weight);
+      const Tensor share = 0.5 * sums.moment * to_tensor(body.points[i].shape_inverse);
+      for (int c = 0; c < 3; ++c) states.tensors[i].column[c].head<3>() -= share.col(c).array();
+      body.force_density[i] = sums.force;
+    });
+  });
+}
+
+}  // namespace strut
