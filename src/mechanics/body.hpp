@@ -80,6 +80,10 @@ struct MaterialBlock {
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
   bool feels_correspondence = false, feels_ordinary = false;
 
+  // Its body moves as a whole, without strain (undisturbed.hpp): there is nothing to compute.
+  bool undisturbed = false;
+  double resting_pace = 0;  // 1/s, the largest of its points, as a part of their steps, undisturbed
+
   int lattice = -1;  // in domain.families.lattices, where its points sit on one
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }

@@ -1,5 +1,6 @@
 #include "mechanics/mechanics.hpp"
 
+#include <algorithm>
 #include <span>
 #include <sstream>
 
@@ -41,21 +42,35 @@ void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
       [&] { work(Part::boundary); });
 }
 
+// Which bodies a pass is over: forces need only those that are strained, a tangent is of all.
+enum class Bodies { all, disturbed };
+
+bool is_due(const MaterialBlock& block, Bodies bodies) { return bodies == Bodies::all || !block.undisturbed; }
+
 // What the points of lattices gain from the sums over them, in the part that comes after an exchange.
 template <class Add>
-void over_lattices(const Body& body, Part part, const Add& add) {
+void over_lattices(const Body& body, Bodies bodies, Part part, const Add& add) {
   if (part == Part::interior) return;
-  for (const auto& sums : body.lattice_sums) add(*sums);
+  for (std::size_t l = 0; l < body.lattice_sums.size(); ++l) {
+    const auto is_due_on_it = [&](const MaterialBlock& b) {
+      return b.lattice == static_cast<int>(l) && is_due(b, bodies);
+    };
+    if (std::any_of(body.blocks.begin(), body.blocks.end(), is_due_on_it)) add(*body.lattice_sums[l]);
+  }
+}
+
+bool all_undisturbed(const Body& body) {
+  return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.undisturbed; });
 }
 
 // The stabilisation by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
 // is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `places`: y, or
 // the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
-void add_residual(const Body& body, const std::vector<Site>& places, const Displacements& u, Part part,
+void add_residual(const Body& body, Bodies bodies, const std::vector<Site>& places, const Displacements& u, Part part,
                   ForceStates& states, std::vector<Vector>& result, std::span<double> energy) {
-  over_lattices(body, part, [&](LatticeSums& sums) { sums.add_residuals(body, u, states.gradients); });
+  over_lattices(body, bodies, part, [&](LatticeSums& sums) { sums.add_residuals(body, u, states.gradients); });
   for (const MaterialBlock& block : body.blocks) {
-    if (!(block.material.mean_stabilization > 0)) continue;
+    if (!is_due(block, bodies) || !(block.material.mean_stabilization > 0)) continue;
     const auto [begin, end] = range(block, part);
     bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
       for_each_point(begin, end, [&, weight](int k) {
@@ -82,6 +97,7 @@ void add_residual(const Body& body, const std::vector<Site>& places, const Displ
 template <class Extension>
 struct ForceSum {
   const Body& body;
+  Bodies bodies;
   const std::vector<Site>& places;
   Displacements u;
   Extension extension;
@@ -89,7 +105,7 @@ struct ForceSum {
   std::vector<Vector>& result;
 
   void correspondence(Part part) const {
-    over_lattices(body, part, [this](LatticeSums& sums) { sums.add_forces(body, u, states.tensors); });
+    over_lattices(body, bodies, part, [this](LatticeSums& sums) { sums.add_forces(body, u, states.tensors); });
     over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock& block, int i, auto weight) {
       const Vector force = block.lattice < 0
                                ? bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight)
@@ -110,7 +126,7 @@ struct ForceSum {
   template <class Work>
   void over_points(Part part, bool MaterialBlock::*feels, const Work& work) const {
     for (const MaterialBlock& block : body.blocks) {
-      if (!(block.*feels)) continue;
+      if (!is_due(block, bodies) || !(block.*feels)) continue;
       const auto [begin, end] = range(block, part);
       bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
         for_each_point(begin, end, [&, weight](int k) { work(block, block.points[k], weight); });
@@ -167,7 +183,7 @@ Tensor change_of_gradient(const Body& body, const MaterialBlock& block, const st
 }
 
 void set_tangent_states(const Body& body, const std::vector<Site>& directions, Part part, ForceStates& result) {
-  over_lattices(body, part, [&](LatticeSums& sums) { sums.add_moments(body, {directions.data(), true}); });
+  over_lattices(body, Bodies::all, part, [&](LatticeSums& sums) { sums.add_moments(body, {directions.data(), true}); });
   for (const MaterialBlock& block : body.blocks) {
     const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
     const auto [begin, end] = range(block, part);
@@ -198,20 +214,26 @@ StepReport advance_stress(Body& body, double dt, bool with_views) {
   const Displacements u{body.sites.data()};
   const auto over = [&](Part part) {
     const Timed timed(deforming);
-    over_lattices(body, part, [&](LatticeSums& sums) { sums.add_moments(body, u); });
+    over_lattices(body, Bodies::disturbed, part, [&](LatticeSums& sums) { sums.add_moments(body, u); });
     for (MaterialBlock& block : body.blocks) {
-      if (block.is_ordinary()) {
+      if (block.undisturbed) {
+        report.pace = std::max(report.pace, block.resting_pace);
+      } else if (block.is_ordinary()) {
         advance_ordinary(body, block, with_views, part, report);
       } else {
         advance_stress(body, block, {dt}, part, report);
       }
     }
     if (!with_views) return;
-    over_lattices(body, part, [&](LatticeSums& sums) { sums.add_squares(body, u); });
+    over_lattices(body, Bodies::disturbed, part, [&](LatticeSums& sums) { sums.add_squares(body, u); });
     for (const MaterialBlock& block : body.blocks) {
-      if (!block.is_ordinary()) view_residuals(body, block, part);
+      if (!block.undisturbed && !block.is_ordinary()) view_residuals(body, block, part);
     }
   };
+  if (all_undisturbed(body)) {
+    over(Part::interior);
+    return report;
+  }
   behind_exchange(
       body.domain.halo, places(body.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
@@ -221,15 +243,21 @@ StepReport advance_stress(Body& body, double dt, bool with_views) {
 void sum_forces(Body& body, bool with_views) {
   static Teuchos::Time& stabilizing = phase("Stabilisation");
   static Teuchos::Time& summing = phase("Force");
+  for (const MaterialBlock& block : body.blocks) {
+    if (!block.undisturbed) continue;
+    for (const int i : block.points) body.force_density[i].setZero();
+  }
+  if (all_undisturbed(body)) return;
   const Displacements u{body.sites.data()};
   if (!body.force_states.gradients.empty()) {
     const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
       const Timed timed(stabilizing);
-      add_residual(body, body.sites, u, part, body.force_states, body.force_density, energy);
+      add_residual(body, Bodies::disturbed, body.sites, u, part, body.force_states, body.force_density, energy);
     });
   }
-  add_up(body.domain.halo, ForceSum<bonds::OfPlaces>{body, body.sites, u, {}, body.force_states, body.force_density},
+  add_up(body.domain.halo,
+         ForceSum<bonds::OfPlaces>{body, Bodies::disturbed, body.sites, u, {}, body.force_states, body.force_density},
          [] { return Timed(summing); });
 }
 
@@ -237,6 +265,11 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   const StepReport report = advance_stress(body, dt, with_views);
   sum_forces(body, with_views);
   return report;
+}
+
+double largest_pace(const Body& body, const MaterialBlock& block) {
+  const auto of_point = [&](int k) { return pace(body, block, block.points[k]) * body.share(block.points[k]); };
+  return largest(0, static_cast<int>(block.points.size()), 0, of_point);
 }
 
 double pace(const Body& body, const MaterialBlock& block, int i) {
@@ -254,11 +287,12 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, 
       [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
   if (!scratch.gradients.empty()) {
     behind_exchange(halo, scratch.gradients, [&](Part part) {
-      add_residual(body, directions, {directions.data(), true}, part, scratch, result, {});
+      add_residual(body, Bodies::all, directions, {directions.data(), true}, part, scratch, result, {});
     });
   }
   add_up(halo,
-         ForceSum<bonds::OfField>{body, directions, {directions.data(), true}, {directions.data()}, scratch, result},
+         ForceSum<bonds::OfField>{
+             body, Bodies::all, directions, {directions.data(), true}, {directions.data()}, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
 }

@@ -35,6 +35,9 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views);
 // A bound of what the stress of a point adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
 double pace(const Body& body, const MaterialBlock& block, int i);
 
+// Of the points of a block on this rank, as parts of their steps.
+double largest_pace(const Body& body, const MaterialBlock& block);
+
 // Collective. The linearised operator with the elastic moduli in the current state, applied to a field:
 // result = −f(v)/ρ (1/s² times v's unit). `directions` holds v in the place of y: a scratch copy of body.sites.
 // The geometric stiffness (of the order stress/modulus) is left out.

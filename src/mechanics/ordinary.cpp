@@ -64,9 +64,7 @@ void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part pa
     set_views(body, block, weight, part);
   });
   // Bonds in compression become no stiffer than they were.
-  const auto [begin, end] = range(block, part);
-  const auto of_point = [&](int k) { return pace(body, block, block.points[k]); };
-  report.pace = std::max(report.pace, largest(begin, end, 0, of_point));
+  report.pace = std::max(report.pace, block.resting_pace);
   if (!report.failure) report.failure = failure.found(block);
 }
 

@@ -190,8 +190,10 @@ double Subcycles::choose(Body& body, double safety_factor) {
   }
   spread_impulses(body, before);
   double fastest = 0;
-  for (const MaterialBlock& block : body.blocks) {
-    for (const int i : block.points) fastest = std::max(fastest, pace(body, block, i) * body.share(i));
+  for (MaterialBlock& block : body.blocks) {
+    const double of_block = largest_pace(body, block);
+    if (block.undisturbed) block.resting_pace = of_block;
+    fastest = std::max(fastest, of_block);
   }
   return fastest;
 }
@@ -228,7 +230,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   StepReport report;
   now.halo.exchange(body.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (!now.stressed[b].empty()) {
+    if (!body.blocks[b].undisturbed && !now.stressed[b].empty()) {
       advance_stress(body, body.blocks[b], {dt, order, &now.stressed[b]}, Part::boundary, report);
     }
   }

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "mechanics/undisturbed.hpp"
 #include "points/parallel.hpp"
 
 namespace strut {
@@ -30,6 +31,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
       control_(control),
       time_(initial_time) {
   body_.halvings.clear();
+  for (MaterialBlock& block : body_.blocks) block.resting_pace = largest_pace(body_, block);
+  find_undisturbed(body_);
   StepReport report = advance_stress(body_, 0, true);
   regroup(report);
   sum_forces(body_, true);
@@ -155,6 +158,7 @@ StepReport CentralDifference::substep(int order, double t) {
 
 void CentralDifference::move(bool with_views) {
   static Teuchos::Time& timer = phase("Motion and conditions");
+  look_for_disturbances(body_);
   const StepReport between = substeps();
   {
     const Timed timed(timer);

@@ -1,0 +1,16 @@
+// Bodies that fly or rest as a whole, until a contact, a load or a condition makes one of their points move otherwise:
+// they are not strained, and mechanics skips them.
+#pragma once
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// Collective. Marks the blocks of bodies (BlockBonds::body) whose points are all where they are in the reference state.
+void find_undisturbed(Body& body);
+
+// Collective while any body is undisturbed, else free. Takes the mark off the bodies whose points no longer have one
+// velocity, to the last bit. To be asked when velocities are final, before the points move.
+void look_for_disturbances(Body& body);
+
+}  // namespace strut
