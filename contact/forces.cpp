@@ -2,6 +2,7 @@
 // equal and opposite to the last bit at the two ends of a pair.
 #include "contact/forces.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -81,6 +82,12 @@ Vector surface_normal(const Slider& here, const Slider& there, const Vector& dir
   return length > 1e-6 ? Vector(difference / length) : direction;
 }
 
+// Of a positive semidefinite tensor, where it is above `floor`: it is at most the trace.
+double largest_eigenvalue(const Tensor& springs, double floor) {
+  if (!(springs.trace() > floor)) return 0;
+  return Eigen::SelfAdjointEigenSolver<Tensor>(springs, Eigen::EigenvaluesOnly).eigenvalues()[2];
+}
+
 }  // namespace
 
 Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, std::vector<Vector>& force_density) {
@@ -88,15 +95,16 @@ Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, st
   Tally tally;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector force = Vector::Zero();
-    double stiffness = 0;
+    Tensor springs = Tensor::Zero();
     for_each_touch(pairs, model, k, [&](const Touch& touch) {
       force -= touch.force() * touch.direction;
       tally.energy += 0.5 * stored_energy(touch.stiffness, touch.touching, touch.distance);
       const double mass = pairs.masses[k];
-      stiffness += touch.stiffness * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
+      const double weight = touch.stiffness * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
+      springs += weight * touch.direction * touch.direction.transpose();
     });
     force_density[pairs.owned[k]] += force / pairs.sites[k].reference[3];
-    tally.stiffness = std::max(tally.stiffness, stiffness);
+    tally.stiffness = std::max(tally.stiffness, largest_eigenvalue(springs, tally.stiffness));
   }
   return tally;
 }

@@ -9,8 +9,10 @@ namespace strut::contact {
 
 // Of this rank's points.
 struct Tally {
-  double energy = 0;     // stored by the penalty, J: half of each pair
-  double stiffness = 0;  // a bound of ω² of the touching points: the largest Σ k (1/m_i + 1/√(m_i m_j)), 1/s²
+  double energy = 0;  // stored by the penalty, J: half of each pair
+  // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n. For a
+  // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)².
+  double stiffness = 0;
 };
 
 // Collective. Brings the pairs to the present places and adds the penalty to force_density (N/m³).

@@ -197,7 +197,7 @@ TEST(Contact, BoundOfTheStiffnessHolds) {
   const double largest =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
   EXPECT_GE(bound, largest);
-  EXPECT_LT(bound, 4 * largest);  // and it is worth something
+  EXPECT_LT(bound, 2 * largest);  // and it is worth something
 }
 
 }  // namespace
