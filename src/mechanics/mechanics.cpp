@@ -84,8 +84,7 @@ void add_residual(const Body& body, Bodies bodies, const std::vector<Site>& plac
           const LatticeSums& on_lattice = *body.lattice_sums[block.lattice];
           sums.force = on_lattice.residual_force(i), sums.moment = on_lattice.residual_moment(i);
         }
-        const Tensor share = 0.5 * sums.moment * to_tensor(body.points[i].shape_inverse);
-        for (int c = 0; c < 3; ++c) states.tensors[i].column[c].head<3>() -= share.col(c).array();
+        take_residual(states.tensors[i], sums.moment, body.points[i]);
         result[i] = sums.force;
       });
     });

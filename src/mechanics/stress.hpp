@@ -46,6 +46,12 @@ void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part pa
 // on a lattice after add_squares.
 void view_residuals(Body& body, const MaterialBlock& block, Part part);
 
+// What a residual of the mean gradient takes from A by way of F: ½ M K⁻¹.
+inline void take_residual(ForceState& state, const Tensor& moment, const MaterialPoint& point) {
+  const Tensor share = 0.5 * moment * to_tensor(point.shape_inverse);
+  for (int c = 0; c < 3; ++c) state.column[c].head<3>() -= share.col(c).array();
+}
+
 // The state of the bonds of an ordinary point of dilatation θ and weighted volume m.
 inline ScalarState scalar_state(const materials::Moduli& moduli, double dilatation, double weighted_volume) {
   return {(3 * moduli.bulk - 5 * moduli.shear) * dilatation / weighted_volume, 15 * moduli.shear / weighted_volume};

@@ -36,22 +36,21 @@ class Census {
   void add(double pace) { counts_[class_of(pace)] += 1; }
   void agree(const Communicator& communicator) { communicator.sum(counts_); }
 
-  // Paces of points that are not halved are below this, where the run costs least; the fastest one where nothing is
-  // worth while.
+  // Paces of points that are not halved are below this, where the run costs least.
   double best() const {
     int best = 0;
     const int last = static_cast<int>(classes_per_octave * (most_halvings + std::log2(margin_)));
     for (int c = 1; c <= last; ++c) {
       if (cost(c) < cost(best)) best = c;
     }
-    return cost(best) < worth_while * cost(0) ? bound(best) : fastest_;
+    return bound(best);
   }
 
  private:
   double bound(int c) const { return fastest_ * std::exp2(-static_cast<double>(c) / classes_per_octave); }
   int class_of(double pace) const {
     const double c = std::floor(classes_per_octave * std::log2(fastest_ / pace));
-    return static_cast<int>(std::clamp(c, 0.0, classes - 1.0));
+    return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
   }
   // Of the same time, with steps for points of the pace bound(c) and below.
   double cost(int c) const;
@@ -66,43 +65,53 @@ int halvings_of(double pace, double bound, double margin) {
   return std::clamp(static_cast<int>(std::ceil(std::log2(pace / (margin * bound)))), 1, most_halvings);
 }
 
+// The cost of a step of a point, in that of one that is not halved.
+double cost_of(int halvings) { return 1 + cost_of_substep * ((1 << halvings) - 1); }
+
 double Census::cost(int c) const {
   double points = 0;
   for (int k = 0; k < classes; ++k) {
-    const int h = k < c ? halvings_of(bound(k), bound(c), margin_) : 0;
-    points += counts_[k] * (1 + cost_of_substep * ((1 << h) - 1));
+    points += counts_[k] * cost_of(k < c ? halvings_of(bound(k), bound(c), margin_) : 0);
   }
   return points * bound(c);
 }
 
+// Whether the points of a block may be stepped alone: not in a body with ordinary points, whose forces act once a step.
+bool may_be_halved(const Body& body, std::size_t block) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (body.domain.blocks[b].body == body.domain.blocks[block].body && body.blocks[b].is_ordinary()) return false;
+  }
+  return true;
+}
+
+// Calls visit(i, whether it may be halved) for the owned points.
 template <class Visit>
-void over_correspondence(const Body& body, Visit&& visit) {
-  for (const MaterialBlock& block : body.blocks) {
-    if (block.is_ordinary()) continue;
-    for (const int i : block.points) visit(block, i);
+void over_points(const Body& body, Visit&& visit) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const bool may = may_be_halved(body, b);
+    for (const int i : body.blocks[b].points) visit(i, may);
   }
 }
 
-// The halvings of owned points, or none at all.
-std::vector<std::uint8_t> chosen_halvings(const Body& body, double margin) {
-  std::vector<double> paces(body.owned(), 0);
-  double slowest_bound = 0;  // ordinary points are never stepped alone
+// The paces of owned points over all ranks: the largest, and the largest of those that may not be halved.
+struct Paces {
+  std::vector<double> values;
+  double largest = 0, floor = 0;
+};
+
+Paces paces_of(const Body& body) {
+  Paces paces{std::vector<double>(body.owned(), 0)};
   for (const MaterialBlock& block : body.blocks) {
-    for (const int i : block.points) paces[i] = pace(body, block, i);
-    if (!block.is_ordinary()) continue;
-    for (const int i : block.points) slowest_bound = std::max(slowest_bound, paces[i]);
+    for (const int i : block.points) paces.values[i] = pace(body, block, i);
   }
-  double agreed[] = {slowest_bound, 0};
-  for (const double p : paces) agreed[1] = std::max(agreed[1], p);
+  double agreed[] = {0, 0};
+  over_points(body, [&](int i, bool may) {
+    agreed[0] = std::max(agreed[0], paces.values[i]);
+    if (!may) agreed[1] = std::max(agreed[1], paces.values[i]);
+  });
   body.domain.communicator.max(agreed);
-  Census census(agreed[1], margin);
-  for (const double p : paces) census.add(p);
-  census.agree(body.domain.communicator);
-  const double bound = std::max(census.best(), agreed[0]);
-  if (!(bound < agreed[1])) return {};
-  std::vector<std::uint8_t> halvings(body.owned(), 0);
-  over_correspondence(body, [&](const MaterialBlock&, int i) { halvings[i] = halvings_of(paces[i], bound, margin); });
-  return halvings;
+  paces.largest = agreed[0], paces.floor = agreed[1];
+  return paces;
 }
 
 // The ghosts' too.
@@ -114,17 +123,37 @@ void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) 
 }
 
 // Points near those that are halved h times are halved h − 1 times at least.
-void grade(const Body& body, Halo& halo, std::vector<std::uint8_t>& halvings) {
+void grade(Body& body, std::vector<std::uint8_t>& halvings) {
   for (int n = 0; n < buffer; ++n) {
     const std::vector<std::uint8_t> before = halvings;
-    over_correspondence(body, [&](const MaterialBlock&, int i) {
+    over_points(body, [&](int i, bool) {
       body.domain.families.for_each(i, [&](int j) {
         if (before[j] > halvings[i] + 1) halvings[i] = before[j] - 1;
       });
     });
     halvings.resize(body.owned());
-    exchange(body, halo, halvings);
+    exchange(body, body.domain.halo, halvings);
   }
+}
+
+// The halvings of owned points and ghosts, or none where they are not worth while: points between stiff ones count,
+// too.
+std::vector<std::uint8_t> chosen_halvings(Body& body, double margin) {
+  const Paces paces = paces_of(body);
+  Census census(paces.largest, margin);
+  for (const double p : paces.values) census.add(p);
+  census.agree(body.domain.communicator);
+  const double bound = std::max(census.best(), paces.floor);
+  if (!(bound < paces.largest)) return {};
+  std::vector<std::uint8_t> halvings(body.owned(), 0);
+  over_points(body, [&](int i, bool may) { halvings[i] = may ? halvings_of(paces.values[i], bound, margin) : 0; });
+  exchange(body, body.domain.halo, halvings);
+  grade(body, halvings);
+  double costs[] = {0, static_cast<double>(body.owned())};
+  for (int i = 0; i < body.owned(); ++i) costs[0] += cost_of(halvings[i]);
+  body.domain.communicator.sum(costs);
+  const bool pays = costs[0] * bound < worth_while * costs[1] * paces.largest;
+  return pays ? halvings : std::vector<std::uint8_t>{};
 }
 
 // How often the motion of each point is halved: as the stress of any point that moves it.
@@ -138,7 +167,7 @@ std::vector<std::uint8_t> motions_of(const Body& body, const std::vector<std::ui
 
 // Half of the impulse belongs to the interval before, half to the one after.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
-  over_correspondence(body, [&](const MaterialBlock&, int i) {
+  over_points(body, [&](int i, bool) {
     const double old_share = before.empty() ? 1 : std::ldexp(1.0, -before[i]), share = body.share(i);
     if (share == old_share) return;
     const double mean = 0.5 * (old_share + share);
@@ -167,27 +196,15 @@ Eigen::Array4d own_stretch(const Body& body, const ForceState& state, int i, Wei
 }  // namespace
 
 double Subcycles::choose(Body& body, double safety_factor) {
-  std::vector<std::uint8_t> halvings = chosen_halvings(body, std::min(1.0, most_turn / safety_factor));
+  const std::vector<std::uint8_t> before = std::move(body.halvings);
+  body.halvings = chosen_halvings(body, std::min(1.0, most_turn / safety_factor));
   orders_.clear();
   motions_.clear();
   updates_ = 1;
-  const std::vector<std::uint8_t> before = std::exchange(body.halvings, {});
-  if (!halvings.empty()) {
-    exchange(body, body.domain.halo, halvings);
-    grade(body, body.domain.halo, halvings);
-    body.halvings = std::move(halvings);
-    motions_ = motions_of(body, body.halvings);
-    std::vector<std::uint8_t> everywhere = motions_;
-    exchange(body, body.domain.halo, everywhere);
-    double most[] = {0.0};
-    for (const std::uint8_t h : body.halvings) most[0] = std::max<double>(most[0], h);
-    body.domain.communicator.max(most);
-    for (int m = 1; m <= static_cast<int>(most[0]); ++m) orders_.push_back(order_of(body, everywhere, m));
-    double counts[] = {0, static_cast<double>(body.owned())};
-    for (int i = 0; i < body.owned(); ++i) counts[0] += 1 << body.halvings[i];
-    body.domain.communicator.sum(counts);
-    updates_ = counts[0] / counts[1];
-  }
+  double agreed[] = {0};  // the most halvings of any point
+  for (const std::uint8_t h : body.halvings) agreed[0] = std::max<double>(agreed[0], h);
+  body.domain.communicator.max(agreed);
+  if (agreed[0] > 0) make_orders(body, static_cast<int>(agreed[0]));
   spread_impulses(body, before);
   double fastest = 0;
   for (MaterialBlock& block : body.blocks) {
@@ -196,6 +213,17 @@ double Subcycles::choose(Body& body, double safety_factor) {
     fastest = std::max(fastest, of_block);
   }
   return fastest;
+}
+
+void Subcycles::make_orders(Body& body, int count) {
+  motions_ = motions_of(body, body.halvings);
+  std::vector<std::uint8_t> everywhere = motions_;
+  exchange(body, body.domain.halo, everywhere);
+  for (int m = 1; m <= count; ++m) orders_.push_back(order_of(body, everywhere, m));
+  double updates[] = {0, static_cast<double>(body.owned())};
+  for (int i = 0; i < body.owned(); ++i) updates[0] += 1 << body.halvings[i];
+  body.domain.communicator.sum(updates);
+  updates_ = updates[0] / updates[1];
 }
 
 Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const {
@@ -275,8 +303,7 @@ void Subcycles::add_residuals(Body& body, Order& now, int order) const {
       const std::span family(now.sources.data() + now.start[n], now.sources.data() + now.start[n + 1]);
       const bonds::Residual sums =
           bonds::residual(bonds::Listed{family}, body.sites.data(), states.gradients.data(), i, weight);
-      const Tensor share = 0.5 * sums.moment * to_tensor(body.points[i].shape_inverse);
-      for (int c = 0; c < 3; ++c) states.tensors[i].column[c].head<3>() -= share.col(c).array();
+      take_residual(states.tensors[i], sums.moment, body.points[i]);
       body.force_density[i] = sums.force;
     });
   });

@@ -46,6 +46,7 @@ class Subcycles {
     Halo halo;
   };
   void add_residuals(Body& body, Order& now, int order) const;
+  void make_orders(Body& body, int count);
   Order order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const;
 
   std::vector<Order> orders_;
