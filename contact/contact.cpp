@@ -21,10 +21,16 @@ constexpr double forecast = 2;
 // The bound of the stiffness falls so slowly after points have parted: a step that jumps with every touch costs energy.
 constexpr double decay = 0.99;
 
-std::vector<int> points_of_block(const Domain& domain, int block) {
+// Of this share of the points a new search of all costs about as much as one about single ones.
+constexpr double most_moved = 0.01;
+
+// The mean motion of points is that of one in so many: any that is the same on all ranks will do.
+constexpr std::size_t sampling = 16;
+
+std::vector<int> points_of(const Domain& domain, int first, int second) {
   std::vector<int> points;
   for (int i = 0; i < domain.owned; ++i) {
-    if (domain.cloud.blocks[i] == block) points.push_back(i);
+    if (domain.cloud.blocks[i] == first || domain.cloud.blocks[i] == second) points.push_back(i);
   }
   return points;
 }
@@ -52,15 +58,6 @@ double diagonal(const double* one, const double* other) {
   return std::sqrt(square);
 }
 
-// Calls visit(i, k) for the points of both parties, k = 0, 1, …
-template <class Visit>
-void for_each_party(const Parties& parties, Visit&& visit) {
-  std::size_t k = 0;
-  for (const auto* party : {&parties.first, &parties.second}) {
-    for (const int i : *party) visit(i, k++);
-  }
-}
-
 Vector place(const Crowd& crowd, int i) { return crowd.sites[i].current.head<3>().matrix(); }
 
 }  // namespace
@@ -69,8 +66,7 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
   for (const Interaction& interaction : interactions) {
     const auto [first, second, model] = interaction;
     const bool one_body = domain.blocks[first].body == domain.blocks[second].body;
-    Parties parties{points_of_block(domain, first), {}, first == second, one_body};
-    if (!parties.self) parties.second = points_of_block(domain, second);
+    Parties parties{first, second, one_body, points_of(domain, first, second)};
     const double horizon = std::min(domain.blocks[first].smallest, domain.blocks[second].smallest);
     meetings_.push_back({interaction, std::move(parties), skin_share * horizon});
     blocks_.insert(blocks_.end(), {first, second});
@@ -80,32 +76,54 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
 }
 
 void Contact::search(const Crowd& crowd, Meeting& meeting) {
-  static Teuchos::Time& timer = phase("Contact search");
-  const Timed timed(timer);
   const Model& model = meeting.interaction.model;
-  const double gap = meeting.parties.self ? 0 : distance_of_boxes(crowd, meeting.parties);
-  const bool far = gap > model.radius + meeting.skin;
-  meeting.pairs = far ? Pairs{} : find_pairs(crowd, meeting.parties, model, meeting.skin);
-  meeting.allowance = far ? gap - model.radius : meeting.skin;
+  meeting.places.clear();
+  for (const int i : meeting.parties.points) meeting.places.push_back(place(crowd, i));
+  const double gap = meeting.parties.self() ? 0 : distance_of_boxes(crowd, meeting.parties, meeting.places);
+  meeting.far = gap > model.radius + meeting.skin;
+  meeting.pairs = meeting.far ? Pairs{} : find_pairs(crowd, meeting.parties, meeting.places, model, meeting.skin);
+  meeting.allowance = meeting.far ? gap - model.radius : meeting.skin;
   meeting.travelled = 0;
   meeting.tally = {};
   meeting.friction.clear();
-  meeting.places.clear();
-  for_each_party(meeting.parties, [&](int i, std::size_t) { meeting.places.push_back(place(crowd, i)); });
   ++searches_;
 }
 
-// Collective. The bound grows with the fastest points, which often only tremble. How far they have really gone is
-// looked at before a search, which costs a thousand times as much a point; while it is less than half the allowance,
-// the pairs still hold.
-bool Contact::search_is_needed(const Crowd& crowd, Meeting& meeting) {
-  const std::size_t points = meeting.parties.first.size() + meeting.parties.second.size();
-  if (crowd.domain.communicator.sum(static_cast<std::int64_t>(points - meeting.places.size())) > 0) return true;
-  Reach reach;
-  for_each_party(meeting.parties, [&](int i, std::size_t k) { reach.add(place(crowd, i) - meeting.places[k]); });
-  crowd.domain.communicator.max(reach.along);
-  meeting.travelled = diagonal(reach.along, reach.along);
-  return !(meeting.travelled < 0.5 * meeting.allowance);
+// Collective. The bound grows with the fastest points, which often only tremble, or are few. How far points have really
+// gone is looked at before a search, which costs a hundred times as much: only those that have gone a quarter of the
+// allowance, beside the mean of all, need one. While no other has gone farther, half the allowance is left.
+void Contact::look(const Crowd& crowd, Meeting& meeting) {
+  static Teuchos::Time& timer = phase("Contact search");
+  const Timed timed(timer);
+  const std::vector<int>& points = meeting.parties.points;
+  double sums[] = {static_cast<double>(points.size()), static_cast<double>(meeting.places.size()), 0, 0, 0, 0};
+  for (std::size_t k = 0; k < meeting.places.size(); k += sampling) {
+    const Vector way = place(crowd, points[k]) - meeting.places[k];
+    for (int c = 0; c < 3; ++c) sums[2 + c] += way[c];
+    ++sums[5];
+  }
+  crowd.domain.communicator.sum(sums);
+  if (sums[1] < sums[0]) return search(crowd, meeting);  // the first time
+  const Vector mean = Vector(sums[2], sums[3], sums[4]) / std::max(1.0, sums[5]);
+  std::vector<int> moved;
+  double farthest[] = {0};  // of the others
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const double way = (place(crowd, points[k]) - meeting.places[k] - mean).norm();
+    if (way <= 0.25 * meeting.allowance) {
+      farthest[0] = std::max(farthest[0], way);
+    } else {
+      moved.push_back(static_cast<int>(k));
+    }
+  }
+  const auto all_moved = crowd.domain.communicator.sum(static_cast<std::int64_t>(moved.size()));
+  if (all_moved > 0 && (meeting.far || all_moved > most_moved * sums[0])) return search(crowd, meeting);
+  crowd.domain.communicator.max(farthest);
+  meeting.travelled = 2 * farthest[0];
+  if (all_moved == 0) return;
+  for (const int k : moved) meeting.places[k] = place(crowd, points[k]) - mean;
+  renew_pairs(crowd, meeting.parties, meeting.places, moved, meeting.interaction.model, meeting.skin, meeting.pairs);
+  meeting.friction.clear();
+  ++renewals_;
 }
 
 void Contact::add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density) {
@@ -120,7 +138,7 @@ void Contact::add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::v
 
 void Contact::add_forces(const Crowd& crowd, double dt, std::vector<Vector>& force_density) {
   for (Meeting& meeting : meetings_) {
-    if (meeting.due && search_is_needed(crowd, meeting)) search(crowd, meeting);
+    if (meeting.due) look(crowd, meeting);
     meeting.due = false;
     add_forces(crowd, dt, meeting, force_density);
   }
@@ -131,10 +149,11 @@ void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) 
   for (const Meeting& meeting : meetings_) numbers.push_back(meeting.tally.stiffness);
   for (const int block : blocks_) {
     for (const Meeting& meeting : meetings_) {
-      const bool first = meeting.interaction.first == block;
-      if (!first && meeting.interaction.second != block) continue;
+      if (meeting.interaction.first != block && meeting.interaction.second != block) continue;
       Reach reach;
-      for (const int i : first ? meeting.parties.first : meeting.parties.second) reach.add(crowd.velocities[i]);
+      for (const int i : meeting.parties.points) {
+        if (crowd.domain.cloud.blocks[i] == block) reach.add(crowd.velocities[i]);
+      }
       numbers.insert(numbers.end(), std::begin(reach.along), std::end(reach.along));
       break;
     }

@@ -1,8 +1,10 @@
 #include "contact/search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <unordered_map>
 
 #include "points/cell_grid.hpp"
 #include "points/common_box.hpp"
@@ -14,20 +16,20 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-Vector place(const Site& site) { return site.current.head<3>().matrix(); }
-
 // A point as it travels to other ranks.
 struct Candidate {
   double reference[4], current[4];  // of Site
   double mass;
   std::int64_t id, block, owned;  // owned: its local index on the rank that owns it
+  std::int64_t moved;             // whether its place is new
 };
 
-Candidate candidate(const Crowd& crowd, int i) {
+Candidate candidate(const Crowd& crowd, int i, const Vector& place) {
   const Site& site = crowd.sites[i];
   Candidate c{};
   std::copy_n(site.reference.data(), 4, c.reference);
-  std::copy_n(site.current.data(), 4, c.current);
+  std::copy_n(place.data(), 3, c.current);
+  c.current[3] = site.current[3];
   c.mass = crowd.densities[i] * site.reference[3];
   c.id = crowd.domain.cloud.ids[i];
   c.block = crowd.domain.cloud.blocks[i];
@@ -45,29 +47,42 @@ Site site(const Candidate& c) {
 Vector place(const Candidate& c) { return {c.current[0], c.current[1], c.current[2]}; }
 Vector reference(const Candidate& c) { return {c.reference[0], c.reference[1], c.reference[2]}; }
 
-// The box of points over all ranks.
-Box box_of(const Crowd& crowd, std::span<const int> points) {
+// What a search is told (search.hpp).
+struct Task {
+  const Crowd& crowd;
+  const Parties& parties;
+  std::span<const Vector> places;
+  const Model& model;
+  double skin;
+
+  double reach() const { return model.radius + skin; }
+  int block(std::size_t k) const { return crowd.domain.cloud.blocks[parties.points[k]]; }
+  const Communicator& communicator() const { return crowd.domain.communicator; }
+};
+
+// The box of the points of a block over all ranks.
+Box box_of(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, int block) {
   Box mine;
-  for (const int i : points) mine.extend(place(crowd.sites[i]));
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (crowd.domain.cloud.blocks[parties.points[k]] == block) mine.extend(places[k]);
+  }
   return common_box(mine, crowd.domain.communicator);
 }
 
-// Those of `points` that lie within `reach` of the box.
-void append_near(const Crowd& crowd, const std::vector<int>& points, const Box& box, double reach,
-                 std::vector<int>& result) {
-  if (box.isEmpty()) return;
-  for (const int i : points) {
-    if (box.squaredExteriorDistance(place(crowd.sites[i])) <= reach * reach) result.push_back(i);
-  }
-}
-
-// Owned points that may have a partner at all, ascending.
-std::vector<int> possible_points(const Crowd& crowd, const Parties& parties, double reach) {
-  if (parties.self) return parties.first;
+// The points, as indices of parties.points, that may have a partner at all: those near the box of the other party.
+std::vector<int> possible_points(const Task& task) {
   std::vector<int> points;
-  append_near(crowd, parties.first, box_of(crowd, parties.second), reach, points);
-  append_near(crowd, parties.second, box_of(crowd, parties.first), reach, points);
-  std::sort(points.begin(), points.end());
+  Box boxes[2];
+  if (!task.parties.self()) {
+    boxes[0] = box_of(task.crowd, task.parties, task.places, task.parties.second);
+    boxes[1] = box_of(task.crowd, task.parties, task.places, task.parties.first);
+  }
+  for (std::size_t k = 0; k < task.places.size(); ++k) {
+    const Box& others = boxes[task.block(k) == task.parties.first ? 0 : 1];
+    const bool near =
+        !others.isEmpty() && others.squaredExteriorDistance(task.places[k]) <= task.reach() * task.reach();
+    if (task.parties.self() || near) points.push_back(static_cast<int>(k));
+  }
   return points;
 }
 
@@ -76,19 +91,27 @@ struct Pool {
   std::vector<Candidate> members;
   std::vector<Vector> places;
   std::size_t owned = 0;
+
+  void add(const Candidate& c) {
+    members.push_back(c);
+    places.push_back(place(c));
+  }
 };
 
-Pool pool_of(const Crowd& crowd, const Parties& parties, double reach) {
+// Of the points parties.points[k], k in `points`, and those near them on other ranks. Both lists ascend.
+Pool pool_of(const Task& task, const std::vector<int>& points, const std::vector<int>& moved = {}) {
   Pool pool;
-  const std::vector<int> points = possible_points(crowd, parties, reach);
   pool.members.reserve(points.size());
   pool.places.reserve(points.size());
-  for (const int i : points) pool.members.push_back(candidate(crowd, i));
-  for (const Candidate& c : pool.members) pool.places.push_back(place(c));
+  for (const int k : points) {
+    pool.add(candidate(task.crowd, task.parties.points[k], task.places[k]));
+    pool.members.back().moved = std::binary_search(moved.begin(), moved.end(), k);
+  }
   pool.owned = pool.members.size();
-  const auto others = from_near_ranks<Candidate>(pool.places, pool.members, reach, crowd.domain.communicator);
-  pool.members.insert(pool.members.end(), others.begin(), others.end());
-  for (const Candidate& c : others) pool.places.push_back(place(c));
+  for (const Candidate& c : from_near_ranks<Candidate>(box_around(pool.places), pool.places, pool.members, task.reach(),
+                                                       task.communicator())) {
+    pool.add(c);
+  }
   return pool;
 }
 
@@ -99,7 +122,7 @@ struct Criterion {
   const Parties& parties;
 
   bool operator()(const Candidate& a, const Candidate& b, double distance2) const {
-    if (!parties.self && a.block == b.block) return false;
+    if (!parties.self() && a.block == b.block) return false;
     if (!parties.one_body) return true;
     const Vector xi = reference(b) - reference(a);
     const double reach = touching_distance(radius, xi.norm()) + skin;
@@ -152,16 +175,12 @@ class Memory {
   double horizon2_ = 0, limit_ = 0;  // the smallest horizon, squared, m²; m
 };
 
-// Partners of the pool's owned members, as places in the pool, ordered by id.
-struct Lists {
-  std::vector<std::size_t> start;
-  std::vector<int> partners;
-};
+using IndexPairs = std::vector<std::pair<int, int>>;  // a member that is owned, and its partner: places in the pool
 
-Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
+IndexPairs all_pairs(const Pool& pool, const Criterion& may_touch, double reach) {
   const CellGrid grid(pool.places, reach);
   const Memory memory(grid, pool, may_touch);
-  std::vector<std::pair<int, int>> pairs;
+  IndexPairs pairs;
   std::vector<int> near;
   for (int cell = 0; cell < grid.cells(); ++cell) {
     if (grid.members(cell).empty()) continue;
@@ -183,15 +202,67 @@ Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
       }
     }
   }
+  return pairs;
+}
+
+// Those one of whose members has moved; some of them twice.
+IndexPairs pairs_of_moved(const Pool& pool, const Criterion& may_touch, double reach) {
+  std::vector<int> moved;
+  std::vector<Vector> places;
+  for (std::size_t m = 0; m < pool.members.size(); ++m) {
+    if (!pool.members[m].moved) continue;
+    moved.push_back(static_cast<int>(m));
+    places.push_back(pool.places[m]);
+  }
+  const CellGrid grid(places, reach);
+  IndexPairs pairs;
+  const int members = static_cast<int>(pool.members.size()), owned = static_cast<int>(pool.owned);
+  for (int k = 0; k < members; ++k) {
+    grid.visit_near(pool.places[k], [&](int n, const Vector& there) {
+      const double distance2 = (there - pool.places[k]).squaredNorm();
+      const int other = moved[n];
+      if (other == k || distance2 > reach * reach) return;
+      if (!may_touch(pool.members[k], pool.members[other], distance2)) return;
+      if (k < owned) pairs.emplace_back(k, other);
+      if (other < owned) pairs.emplace_back(other, k);
+    });
+  }
+  return pairs;
+}
+
+// Partners of the pool's owned members, as places in the pool, ordered by id.
+struct Lists {
+  std::vector<std::size_t> start{0};
+  std::vector<int> partners;
+
+  void close() { start.push_back(partners.size()); }  // the list of one more member is complete
+  auto of(std::size_t k) const { return std::span(partners).subspan(start[k], start[k + 1] - start[k]); }
+};
+
+Lists lists_of(const Pool& pool, IndexPairs pairs) {
   std::sort(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) {
     return std::pair(a.first, pool.members[a.second].id) < std::pair(b.first, pool.members[b.second].id);
   });
-  Lists lists{std::vector<std::size_t>(pool.owned + 1, 0), {}};
-  for (const auto& [k, partner] : pairs) {
-    ++lists.start[k + 1];
-    lists.partners.push_back(partner);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  Lists lists;
+  auto next = pairs.begin();
+  for (std::size_t k = 0; k < pool.owned; ++k) {
+    for (; next != pairs.end() && next->first == static_cast<int>(k); ++next) lists.partners.push_back(next->second);
+    lists.close();
   }
-  for (std::size_t k = 0; k < pool.owned; ++k) lists.start[k + 1] += lists.start[k];
+  return lists;
+}
+
+Lists merged(const Pool& pool, const Lists& a, const Lists& b) {
+  std::vector<std::int64_t> ids;
+  for (const Candidate& member : pool.members) ids.push_back(member.id);
+  Lists lists;
+  for (std::size_t k = 0; k < pool.owned; ++k) {
+    std::ranges::set_union(
+        a.of(k), b.of(k), std::back_inserter(lists.partners), {}, [&](int m) { return ids[m]; },
+        [&](int m) { return ids[m]; });
+    lists.close();
+  }
   return lists;
 }
 
@@ -199,49 +270,128 @@ Lists lists_of(const Pool& pool, const Criterion& may_touch, double reach) {
 std::vector<int> paired_members(const Pool& pool, const Lists& lists) {
   std::vector<int> members, others;
   for (std::size_t k = 0; k < pool.owned; ++k) {
-    if (lists.start[k + 1] > lists.start[k]) members.push_back(static_cast<int>(k));
+    if (!lists.of(k).empty()) members.push_back(static_cast<int>(k));
   }
+  std::vector<bool> seen(pool.members.size());
   for (const int partner : lists.partners) {
-    if (partner >= static_cast<int>(pool.owned)) others.push_back(partner);
+    if (partner >= static_cast<int>(pool.owned) && !seen[partner]) others.push_back(partner);
+    seen[partner] = true;
   }
-  std::sort(others.begin(), others.end(), [&](int a, int b) { return pool.members[a].id < pool.members[b].id; });
-  others.erase(std::unique(others.begin(), others.end()), others.end());
+  std::ranges::sort(others, {}, [&](int m) { return pool.members[m].id; });
   members.insert(members.end(), others.begin(), others.end());
   return members;
 }
 
-void make_halo(const Communicator& communicator, const Pool& pool, const std::vector<int>& members, Pairs& pairs) {
-  std::vector<std::int64_t> owned, others;
-  for (const int m : members) (m < static_cast<int>(pool.owned) ? owned : others).push_back(pool.members[m].id);
-  if (communicator.sum(static_cast<std::int64_t>(others.size())) > 0) pairs.halo.emplace(communicator, owned, others);
-}
-
-}  // namespace
-
-Pairs find_pairs(const Crowd& crowd, const Parties& parties, const Model& model, double skin) {
-  const double reach = model.radius + skin;
-  const Pool pool = pool_of(crowd, parties, reach);
-  const Lists lists = lists_of(pool, {model.radius, skin, parties}, reach);
-  const std::vector<int> members = paired_members(pool, lists);
+Pairs pairs_of(const Task& task, const Pool& pool, const Lists& lists) {
   Pairs pairs;
-  pairs.one_body = parties.one_body;
+  pairs.one_body = task.parties.one_body;
   std::vector<int> local(pool.members.size(), -1);
-  for (const int m : members) {
+  for (const int m : paired_members(pool, lists)) {
     const Candidate& member = pool.members[m];
     local[m] = static_cast<int>(pairs.sites.size());
     pairs.sites.push_back(site(member));
     pairs.masses.push_back(member.mass);
+    pairs.ids.push_back(member.id);
     if (m >= static_cast<int>(pool.owned)) continue;
     pairs.owned.push_back(static_cast<int>(member.owned));
-    pairs.start.push_back(pairs.start.back() + lists.start[m + 1] - lists.start[m]);
+    pairs.start.push_back(pairs.start.back() + lists.of(m).size());
   }
   for (const int partner : lists.partners) pairs.partners.push_back(local[partner]);
-  make_halo(crowd.domain.communicator, pool, members, pairs);
+  const auto first_other = pairs.ids.begin() + static_cast<std::ptrdiff_t>(pairs.owned.size());
+  const std::vector<std::int64_t> owned(pairs.ids.begin(), first_other), others(first_other, pairs.ids.end());
+  if (task.communicator().sum(static_cast<std::int64_t>(others.size())) > 0) {
+    pairs.halo.emplace(task.communicator(), owned, others);
+  }
   return pairs;
 }
 
-double distance_of_boxes(const Crowd& crowd, const Parties& parties) {
-  const Box one = box_of(crowd, parties.first), other = box_of(crowd, parties.second);
+// Owned points that a search about moved ones has to know, as indices of parties.points: these, those near any moved
+// one of any rank, and those that have partners already.
+std::vector<int> points_about(const Task& task, const std::vector<int>& moved, const Pairs& pairs) {
+  const double reach = task.reach();
+  using Record = std::array<double, 3>;
+  std::vector<Vector> centres;
+  std::vector<Record> records;
+  for (const int k : moved) {
+    const Vector& x = centres.emplace_back(task.places[k]);
+    records.push_back({x[0], x[1], x[2]});
+  }
+  for (const Record& x :
+       from_near_ranks<Record>(box_around(task.places), centres, records, reach, task.communicator())) {
+    centres.emplace_back(x[0], x[1], x[2]);
+  }
+  const Box box = box_around(centres);
+  const CellGrid grid(centres, reach);
+  std::vector<int> points;
+  std::size_t paired = 0;
+  for (std::size_t k = 0; k < task.places.size(); ++k) {
+    const int i = task.parties.points[k];
+    while (paired < pairs.owned.size() && pairs.owned[paired] < i) ++paired;
+    bool wanted = paired < pairs.owned.size() && pairs.owned[paired] == i;
+    if (!wanted && !box.isEmpty() && box.squaredExteriorDistance(task.places[k]) <= reach * reach) {
+      grid.visit_near(task.places[k], [&](int, const Vector& centre) {
+        wanted = wanted || (centre - task.places[k]).squaredNorm() <= reach * reach;
+      });
+    }
+    if (wanted) points.push_back(static_cast<int>(k));
+  }
+  return points;
+}
+
+// What is known of the pair's partners on other ranks, for those that have gone out of the pool's reach.
+Candidate remembered(const Pairs& pairs, std::size_t s) {
+  Candidate c{};
+  std::copy_n(pairs.sites[s].reference.data(), 4, c.reference);
+  std::copy_n(pairs.sites[s].current.data(), 4, c.current);
+  c.mass = pairs.masses[s];
+  c.id = pairs.ids[s];
+  return c;
+}
+
+// The pairs found before. Adds their members to the pool where it has not got them; it has all owned ones.
+Lists old_lists(const Pairs& pairs, Pool& pool) {
+  std::unordered_map<std::int64_t, int> index;
+  for (std::size_t m = 0; m < pool.members.size(); ++m) index.emplace(pool.members[m].id, static_cast<int>(m));
+  std::vector<int> members;
+  for (std::size_t s = 0; s < pairs.ids.size(); ++s) {
+    const auto [at, is_new] = index.emplace(pairs.ids[s], static_cast<int>(pool.members.size()));
+    if (is_new) pool.add(remembered(pairs, s));
+    members.push_back(at->second);
+  }
+  Lists lists;
+  std::size_t old = 0;
+  for (std::size_t k = 0; k < pool.owned; ++k) {
+    if (old < pairs.owned.size() && pairs.owned[old] == pool.members[k].owned) {
+      for (std::size_t p = pairs.start[old]; p < pairs.start[old + 1]; ++p) {
+        lists.partners.push_back(members[pairs.partners[p]]);
+      }
+      ++old;
+    }
+    lists.close();
+  }
+  return lists;
+}
+
+}  // namespace
+
+Pairs find_pairs(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Model& model,
+                 double skin) {
+  const Task task{crowd, parties, places, model, skin};
+  const Pool pool = pool_of(task, possible_points(task));
+  return pairs_of(task, pool, lists_of(pool, all_pairs(pool, {model.radius, skin, parties}, task.reach())));
+}
+
+void renew_pairs(const Crowd& crowd, const Parties& parties, std::span<const Vector> places,
+                 const std::vector<int>& moved, const Model& model, double skin, Pairs& pairs) {
+  const Task task{crowd, parties, places, model, skin};
+  Pool pool = pool_of(task, points_about(task, moved, pairs), moved);
+  const Lists gained = lists_of(pool, pairs_of_moved(pool, {model.radius, skin, parties}, task.reach()));
+  const Lists before = old_lists(pairs, pool);
+  pairs = pairs_of(task, pool, merged(pool, gained, before));
+}
+
+double distance_of_boxes(const Crowd& crowd, const Parties& parties, std::span<const Vector> places) {
+  const Box one = box_of(crowd, parties, places, parties.first), other = box_of(crowd, parties, places, parties.second);
   if (one.isEmpty() || other.isEmpty()) return std::numeric_limits<double>::infinity();
   return one.exteriorDistance(other);
 }

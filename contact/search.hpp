@@ -1,6 +1,7 @@
 // Who may touch whom: the pairs of two blocks (or of one) that are nearer than a reach and not bonded.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,18 +20,21 @@ struct Crowd {
   std::span<const double> densities;   // kg/m³
 };
 
-// This rank's owned points of the two blocks that may touch, ascending.
+// The two blocks that may touch, and this rank's points of them.
 struct Parties {
-  std::vector<int> first, second;
-  bool self = false;      // one block, with no second party
-  bool one_body = false;  // the blocks are bonded to each other where they are near
+  int first = 0, second = 0;  // blocks; the same: a block that touches itself
+  bool one_body = false;      // the blocks are bonded to each other where they are near
+  std::vector<int> points;    // owned, of either block, ascending
+
+  bool self() const { return first == second; }
 };
 
 // Points that have a partner, then the partners of other ranks. Both ends of a pair have it in their lists.
 struct Pairs {
-  std::vector<int> owned;      // local indices in the body, ascending
-  std::vector<Site> sites;     // of the owned ones, then of the others: places as of the search or the last exchange
-  std::vector<double> masses;  // kg
+  std::vector<int> owned;         // local indices in the body, ascending
+  std::vector<Site> sites;        // of the owned ones, then of the others: places as of the search or the last exchange
+  std::vector<double> masses;     // kg
+  std::vector<std::int64_t> ids;  // of the sites' points, the others' ascending
   std::vector<std::size_t> start{0};  // partners of owned[k]: partners[start[k]] … partners[start[k + 1] − 1],
   std::vector<int> partners;          // indices into sites, ordered by global id
   bool one_body = false;              // see Parties
@@ -40,10 +44,17 @@ struct Pairs {
 };
 
 // Collective. All pairs of the parties that are nearer than the distance at which they touch + skin (m) and not bonded.
-Pairs find_pairs(const Crowd& crowd, const Parties& parties, const Model& model, double skin);
+// `places`: of parties.points, m.
+Pairs find_pairs(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Model& model,
+                 double skin);
+
+// Collective. The same where only some places are new since `pairs` was found: those of parties.points[k], k in
+// `moved`, ascending. Pairs that are no longer near may stay.
+void renew_pairs(const Crowd& crowd, const Parties& parties, std::span<const Vector> places,
+                 const std::vector<int>& moved, const Model& model, double skin, Pairs& pairs);
 
 // Collective. The distance (m) between the bounding boxes of the two parties: 0 where they overlap, infinity where one
 // of them has no points.
-double distance_of_boxes(const Crowd& crowd, const Parties& parties);
+double distance_of_boxes(const Crowd& crowd, const Parties& parties, std::span<const Vector> places);
 
 }  // namespace strut::contact

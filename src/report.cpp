@@ -117,7 +117,9 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
   const double point_steps = static_cast<double>(scene.points) * solver.steps();
   const double core_seconds = seconds * scene.body.domain.communicator.size();
   text << formatted("%-26s %10.3f\n", "whole run", seconds);
-  if (solver.contact().any()) text << solver.contact().searches() << " searches for contact\n";
+  if (const contact::Contact& contact = solver.contact(); contact.any()) {
+    text << contact.searches() << " searches for contact, " << contact.renewals() << " about single points\n";
+  }
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
                     point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
   if (solver.most_substeps() > 1) {

@@ -41,7 +41,7 @@ double largest_pace(const Body& body, const MaterialBlock& block);
 // Collective. The linearised operator with the elastic moduli in the current state, applied to a field:
 // result = −f(v)/ρ (1/s² times v's unit). `directions` holds v in the place of y: a scratch copy of body.sites.
 // The geometric stiffness (of the order stress/modulus) is left out.
-// `scratch`: a copy of body.force_states.
+// `scratch`: a copy of body.force_states, or these themselves: forces and the next stresses do without.
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
                    std::vector<Vector>& result);
 

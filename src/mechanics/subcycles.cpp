@@ -84,6 +84,8 @@ bool may_be_halved(const Body& body, std::size_t block) {
   return true;
 }
 
+bool is_undisturbed(const Body& body, int i) { return body.blocks[body.domain.cloud.blocks[i]].undisturbed; }
+
 // Calls visit(i, whether it may be halved) for the owned points.
 template <class Visit>
 void over_points(const Body& body, Visit&& visit) {
@@ -268,6 +270,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, static_cast<int>(now.moved.size()), [&, weight](int n) {
       const int i = now.moved[n];
+      if (is_undisturbed(body, i)) return;  // its force is zero, and its states are not kept
       const Site& here = body.sites[i];
       Eigen::Array4d sum = Eigen::Array4d::Zero();
       const auto add = [&sum](const ForceState& state, const auto& moment, const Eigen::Array4d& stretch) {
@@ -299,7 +302,7 @@ void Subcycles::add_residuals(Body& body, Order& now, int order) const {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, static_cast<int>(now.moved.size()), [&, weight](int n) {
       const int i = now.moved[n];
-      if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0)) return;
+      if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0) || is_undisturbed(body, i)) return;
       const std::span family(now.sources.data() + now.start[n], now.sources.data() + now.start[n + 1]);
       const bonds::Residual sums =
           bonds::residual(bonds::Listed{family}, body.sites.data(), states.gradients.data(), i, weight);

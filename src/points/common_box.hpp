@@ -1,10 +1,18 @@
-// The bounding box of points that are spread over ranks.
+// The bounding box of points, and of those that are spread over ranks.
 #pragma once
+
+#include <span>
 
 #include "base/communicator.hpp"
 #include "base/tensors.hpp"
 
 namespace strut {
+
+inline Eigen::AlignedBox3d box_around(std::span<const Vector> points) {
+  Eigen::AlignedBox3d box;
+  for (const Vector& x : points) box.extend(x);
+  return box;
+}
 
 // Collective. The box that holds the boxes of all ranks; empty where all of them are.
 inline Eigen::AlignedBox3d common_box(const Eigen::AlignedBox3d& mine, const Communicator& communicator) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "points/cell_grid.hpp"
+#include "points/common_box.hpp"
 #include "points/near_ranks.hpp"
 #include "points/partition.hpp"
 
@@ -29,7 +30,7 @@ std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<dou
     const Vector& X = cloud.positions[i];
     mine.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i], cloud.blocks[i]});
   }
-  return from_near_ranks<Candidate>(cloud.positions, mine, reach, communicator);
+  return from_near_ranks<Candidate>(box_around(cloud.positions), cloud.positions, mine, reach, communicator);
 }
 
 // Owned points first, then candidates.

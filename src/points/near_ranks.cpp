@@ -7,9 +7,7 @@ namespace strut {
 
 namespace {
 
-std::vector<Eigen::AlignedBox3d> boxes_of_all(std::span<const Vector> places, const Communicator& communicator) {
-  Eigen::AlignedBox3d mine;
-  for (const Vector& x : places) mine.extend(x);
+std::vector<Eigen::AlignedBox3d> boxes_of_all(const Eigen::AlignedBox3d& mine, const Communicator& communicator) {
   std::vector<double> corners(6 * communicator.size(), 0);
   // An empty box, turned inside out, must stay finite to be added up.
   const Vector low = mine.isEmpty() ? Vector::Constant(1) : mine.min();
@@ -28,10 +26,11 @@ std::vector<Eigen::AlignedBox3d> boxes_of_all(std::span<const Vector> places, co
 
 }  // namespace
 
-std::vector<double> doubles_from_near_ranks(std::span<const Vector> places, std::span<const double> records, int width,
-                                            double reach, const Communicator& communicator) {
+std::vector<double> doubles_from_near_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
+                                            std::span<const double> records, int width, double reach,
+                                            const Communicator& communicator) {
   if (communicator.size() == 1) return {};
-  const auto boxes = boxes_of_all(places, communicator);
+  const auto boxes = boxes_of_all(box, communicator);
   std::vector<double> outgoing;
   std::vector<int> targets;
   for (int r = 0; r < communicator.size(); ++r) {

@@ -10,12 +10,17 @@ namespace strut {
 namespace {
 
 using Field = std::vector<Vector>;
+using StoredField = std::vector<Eigen::Vector3f>;  // single precision is far finer than an estimate's accuracy
+
+// What is left of the image of a vector when its share in the basis is taken out: less than this is round-off.
+constexpr double smallest_rest = 1e-5;
 
 // Σ m a·b over all ranks: M⁻¹K is symmetric in this product. The same on any number of ranks to the last bit, or modes
 // that come in pairs, among which round-off chooses, would tip the estimate, and the step and the run with it.
-double inner(const Body& body, const Field& a, const Field& b) {
+template <class Other>
+double inner(const Body& body, const Field& a, const Other& b) {
   std::vector<double> terms(body.owned());
-  for (int i = 0; i < body.owned(); ++i) terms[i] = body.mass(i) * a[i].dot(b[i]);
+  for (int i = 0; i < body.owned(); ++i) terms[i] = body.mass(i) * a[i].dot(b[i].template cast<double>());
   return body.domain.communicator.reproducible_sum(terms);
 }
 
@@ -31,15 +36,21 @@ Vector noise(std::int64_t id) {
   return v;
 }
 
-Field start_field(const Body& body, const Field& mode) {
+Field start_field(const Body& body, const StoredField& mode) {
   Field field(body.owned());
   for (int i = 0; i < body.owned(); ++i) field[i] = noise(body.domain.cloud.ids[i]);
   if (mode.empty()) return field;
   // Mostly the old mode; enough noise to find a new one that has overtaken it.
   const double scale = 0.1 / std::sqrt(inner(body, field, field));
-  const double old = 1 / std::sqrt(inner(body, mode, mode));
-  for (int i = 0; i < body.owned(); ++i) field[i] = old * mode[i] + scale * field[i];
+  for (int i = 0; i < body.owned(); ++i) field[i] = mode[i].cast<double>() + scale * field[i];  // a mode is of length 1
   return field;
+}
+
+Field widened(const StoredField& field) {
+  Field result;
+  result.reserve(field.size());
+  for (const Eigen::Vector3f& v : field) result.push_back(v.cast<double>());
+  return result;
 }
 
 void scale_by(Field& field, double factor) {
@@ -49,28 +60,34 @@ void scale_by(Field& field, double factor) {
 // The tridiagonal matrix of Lanczos and its basis.
 struct Lanczos {
   std::vector<double> diagonal, beside;
-  std::vector<Field> basis;
+  std::vector<StoredField> basis;
 };
 
-Lanczos iterate(Body& body, const Field& start, int iterations) {
+StoredField stored(const Field& field) {
+  StoredField result;
+  result.reserve(field.size());
+  for (const Vector& v : field) result.push_back(v.cast<float>());
+  return result;
+}
+
+Lanczos iterate(Body& body, Field q, int iterations) {
   std::vector<Site> directions = body.sites;
-  ForceStates scratch = body.force_states;
   Lanczos lanczos;
-  Field q = start, image(body.owned());
+  Field image(body.owned());
   scale_by(q, 1 / std::sqrt(inner(body, q, q)));
   for (int k = 0; k < iterations; ++k) {
     for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = q[i].array();
-    lanczos.basis.push_back(q);
-    apply_tangent(body, body.domain.halo, directions, scratch, image);
+    lanczos.basis.push_back(stored(q));
+    apply_tangent(body, body.domain.halo, directions, body.force_states, image);
     lanczos.diagonal.push_back(inner(body, image, q));
     // Against the whole basis: it is short, and ghosts of converged modes would spoil the residual.
-    for (const Field& earlier : lanczos.basis) {
+    for (const StoredField& earlier : lanczos.basis) {
       const double overlap = inner(body, image, earlier);
-      for (int i = 0; i < body.owned(); ++i) image[i] -= overlap * earlier[i];
+      for (int i = 0; i < body.owned(); ++i) image[i] -= overlap * earlier[i].cast<double>();
     }
     const double length = std::sqrt(inner(body, image, image));
     lanczos.beside.push_back(length);
-    if (!(length > 1e-10 * std::abs(lanczos.diagonal.front()))) break;  // the basis is invariant
+    if (!(length > smallest_rest * std::abs(lanczos.diagonal.front()))) break;  // the basis is invariant
     q = image;
     scale_by(q, 1 / length);
   }
@@ -78,32 +95,30 @@ Lanczos iterate(Body& body, const Field& start, int iterations) {
 }
 
 // The Ritz vector Σ weights[k] basis[k].
-void combine(const std::vector<Field>& basis, const Eigen::VectorXd& weights, Field& result) {
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].setZero();
-    for (std::size_t k = 0; k < basis.size(); ++k) result[i] += weights[k] * basis[k][i];
+StoredField combine(const std::vector<StoredField>& basis, const Eigen::VectorXd& weights) {
+  StoredField result(basis[0].size(), Eigen::Vector3f::Zero());
+  for (std::size_t k = 0; k < basis.size(); ++k) {
+    const auto weight = static_cast<float>(weights[static_cast<Eigen::Index>(k)]);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += weight * basis[k][i];
   }
+  return result;
 }
 
 }  // namespace
 
-// Of the basis, the start, its image, the mode and the next vector, and the terms of a product; of the copies of places
-// and force states of owned points and ghosts.
+// Of the basis, the mode and the next one; of the present vector, its image and the terms of a product; of the
+// directions.
 double StableStep::bytes(const Body& body) {
-  const ForceStates& states = body.force_states;
-  const double fields = (basis_size + 4.0) * sizeof(Vector) + sizeof(double);
-  return fields * body.owned() + static_cast<double>(sizeof(Site) * body.sites.size()) +
-         static_cast<double>(sizeof(ForceState) * (states.tensors.size() + states.gradients.size()) +
-                             sizeof(ScalarState) * states.scalars.size());
+  const double fields = (basis_size + 2.0) * sizeof(Eigen::Vector3f) + 2.0 * sizeof(Vector) + sizeof(double);
+  return fields * body.owned() + static_cast<double>(sizeof(Site) * body.sites.size());
 }
 
 double StableStep::estimate(Body& body) {
   static Teuchos::Time& timer = phase("Stable step");
   const Timed timed(timer);
-  mode_ = start_field(body, mode_);
   double bound = 0;
   for (int cycle = 0; cycle < most_cycles; ++cycle) {
-    const Lanczos lanczos = iterate(body, mode_, basis_size);
+    const Lanczos lanczos = iterate(body, cycle == 0 ? start_field(body, mode_) : widened(mode_), basis_size);
     const int n = static_cast<int>(lanczos.diagonal.size());
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
     const Eigen::Map<const Eigen::VectorXd> diagonal(lanczos.diagonal.data(), n), beside(lanczos.beside.data(), n - 1);
@@ -111,7 +126,7 @@ double StableStep::estimate(Body& body) {
     const Eigen::VectorXd weights = ritz.eigenvectors().col(n - 1);
     const double value = ritz.eigenvalues()[n - 1];
     const double residual = std::abs(lanczos.beside[n - 1] * weights[n - 1]);
-    combine(lanczos.basis, weights, mode_);
+    mode_ = combine(lanczos.basis, weights);
     bound = value + residual;
     if (!(residual > accuracy * value)) break;
   }

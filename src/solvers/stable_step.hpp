@@ -10,18 +10,19 @@ namespace strut {
 class StableStep {
  public:
   // Collective. 2/ω_max in s, the same on any number of ranks to the last bit; infinity for a body without stiffness.
-  // Later calls start from the mode found last, which makes them cheaper.
+  // Later calls start from the mode found last, which makes them cheaper. Spoils body.force_states, which are of use
+  // only between stresses and forces.
   double estimate(Body& body);
 
   // Bytes that an estimate takes on this rank while it runs.
   static double bytes(const Body& body);
 
-  static constexpr int basis_size = 8;      // vectors kept: 24 bytes a point each while the estimate runs
+  static constexpr int basis_size = 8;      // vectors kept: 12 bytes a point each while the estimate runs
   static constexpr int most_cycles = 8;     // of basis_size products each
   static constexpr double accuracy = 0.02;  // of ω²_max: 1 % of the step
 
  private:
-  std::vector<Vector> mode_;  // the mode found last
+  std::vector<Eigen::Vector3f> mode_;  // the mode found last, of length 1
 };
 
 }  // namespace strut

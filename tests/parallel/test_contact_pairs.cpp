@@ -53,15 +53,21 @@ struct Part {
   std::vector<double> densities;
 
   Crowd crowd() const { return {domain, sites, velocities, densities}; }
-  std::vector<int> of_block(int block) const {
-    std::vector<int> points;
-    for (int i = 0; i < domain.owned; ++i) {
-      if (domain.cloud.blocks[i] == block) points.push_back(i);
-    }
-    return points;
-  }
   Parties parties(int a, int b) const {
-    return {of_block(a), a == b ? std::vector<int>{} : of_block(b), a == b, bonds[a].body == bonds[b].body};
+    Parties result{a, b, bonds[a].body == bonds[b].body, {}};
+    for (int i = 0; i < domain.owned; ++i) {
+      if (domain.cloud.blocks[i] == a || domain.cloud.blocks[i] == b) result.points.push_back(i);
+    }
+    return result;
+  }
+  std::vector<Vector> places(const Parties& parties) const {
+    std::vector<Vector> result;
+    for (const int i : parties.points) result.push_back(sites[i].current.head<3>().matrix());
+    return result;
+  }
+  Pairs pairs(int a, int b) const {
+    const Parties found = parties(a, b);
+    return find_pairs(crowd(), found, places(found), model, skin);
   }
 };
 
@@ -108,7 +114,7 @@ class ContactOfBlocks : public ::testing::TestWithParam<std::pair<int, int>> {
 
 TEST_P(ContactOfBlocks, SearchFindsExactlyThePairsOfBruteForce) {
   const auto [a, b] = GetParam();
-  Pairs pairs = find_pairs(part.crowd(), part.parties(a, b), model, skin);
+  Pairs pairs = part.pairs(a, b);
   std::map<int, std::vector<int>> found;
   std::vector<double> ids(pairs.sites.size());  // of the pairs' sites, by a search for their places
   for (std::size_t s = 0; s < pairs.sites.size(); ++s) {
@@ -136,7 +142,7 @@ TEST_P(ContactOfBlocks, SearchFindsExactlyThePairsOfBruteForce) {
 
 TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   const auto [a, b] = GetParam();
-  Pairs pairs = find_pairs(part.crowd(), part.parties(a, b), model, skin);
+  Pairs pairs = part.pairs(a, b);
   std::vector<Vector> density(part.domain.owned, Vector::Zero()), friction;
   const Tally tally = add_normal_forces(part.crowd(), model, pairs, density);
   double energy = 0, scale = 0;
@@ -169,6 +175,50 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   for (int c = 0; c < 6; ++c) EXPECT_NEAR(sums[c], 0, count * 1e-15 * scale);  // round-off of a sum over all points
 }
 
+// Single points jump across the cube, three times: the pairs are those of a new search of all, besides old ones that
+// have parted.
+TEST_P(ContactOfBlocks, PairsRenewedAboutMovedPointsAreThoseOfANewSearch) {
+  const auto [a, b] = GetParam();
+  Part now = part_of(all, world);
+  const Parties parties = now.parties(a, b);
+  Pairs renewed = now.pairs(a, b);
+  std::int64_t gained = 0;
+  for (int turn = 1; turn <= 3; ++turn) {
+    std::vector<int> moved;
+    for (std::size_t k = 0; k < parties.points.size(); ++k) {
+      const int i = parties.points[k];
+      const auto id = static_cast<std::size_t>(now.domain.cloud.ids[i]);
+      if (id % 17 != static_cast<std::size_t>(turn)) continue;
+      moved.push_back(static_cast<int>(k));
+      now.sites[i].current.head<3>() = all.places[(7 * id + turn) % count].array() + 0.03;
+    }
+    const auto ids_of = [](const Pairs& pairs) {
+      std::set<std::pair<std::int64_t, std::int64_t>> ids;
+      for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+        for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
+          const bool is_new = ids.emplace(pairs.ids[k], pairs.ids[pairs.partners[p]]).second;
+          EXPECT_TRUE(is_new) << "a pair twice";
+        }
+      }
+      return ids;
+    };
+    const auto before = ids_of(renewed);
+    renew_pairs(now.crowd(), parties, now.places(parties), moved, model, skin, renewed);
+    Pairs fresh = now.pairs(a, b);
+    const auto found = ids_of(renewed);
+    for (const auto& pair : ids_of(fresh)) {
+      EXPECT_TRUE(found.contains(pair)) << pair.first << " and " << pair.second;
+      if (!before.contains(pair)) ++gained;
+    }
+    for (const auto& pair : before) EXPECT_TRUE(found.contains(pair)) << pair.first << " and " << pair.second;
+    std::vector<Vector> one(now.domain.owned, Vector::Zero()), other = one;
+    add_normal_forces(now.crowd(), model, renewed, one);
+    add_normal_forces(now.crowd(), model, fresh, other);
+    EXPECT_EQ(one, other);
+  }
+  EXPECT_GT(world.sum(gained), 10) << "nothing new was near";
+}
+
 INSTANTIATE_TEST_SUITE_P(Blocks, ContactOfBlocks,
                          ::testing::Values(std::pair(0, 0), std::pair(0, 1), std::pair(2, 1), std::pair(2, 2)));
 
@@ -178,7 +228,7 @@ TEST(Contact, BoundOfTheStiffnessHolds) {
   const Communicator world;
   const Scatter all = scatter();
   const Part part = part_of(all, world);
-  Pairs pairs = find_pairs(part.crowd(), part.parties(0, 0), model, skin);
+  Pairs pairs = part.pairs(0, 0);
   std::vector<Vector> density(part.domain.owned, Vector::Zero());
   const double bound = world.max(add_normal_forces(part.crowd(), model, pairs, density).stiffness);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);  // block 0 has every third point

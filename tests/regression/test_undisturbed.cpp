@@ -33,6 +33,9 @@ Parts scene(const RunFolder& folder, const std::string& third) {
 
 const std::string correspondence = key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
                                    key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35");
+// So stiff that its points are stepped alone.
+const std::string stiff = key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
+                          key("Young's Modulus", "4.8e14") + key("Poisson's Ratio", "0.35");
 const std::string ordinary = key("Material Model", "Elastic") + key("Density", "8930") +
                              key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35");
 
@@ -75,6 +78,7 @@ TEST_P(Undisturbed, BodiesAreSkippedUntilTheyAreReached) {
   const double closed = 0.5 * h / 20, step = skipping.solver.dt();
   EXPECT_NEAR(some.reached[0], closed, 2 * step);
   EXPECT_EQ(some.reached[0], some.reached[1]);
+  EXPECT_EQ(skipping.solver.most_substeps() > 1, GetParam() == stiff);
   EXPECT_GT(some.reached[2], 49e-6) << "the third is never reached";
   for (const double time : all.reached) EXPECT_EQ(time, 0);
   double off = 0, largest = 0;
@@ -86,14 +90,16 @@ TEST_P(Undisturbed, BodiesAreSkippedUntilTheyAreReached) {
   EXPECT_NEAR(some.balance, all.balance, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Third, Undisturbed, testing::Values(correspondence, ordinary),
-                         [](const auto& info) { return info.index == 0 ? "Correspondence" : "Ordinary"; });
+const std::vector<std::string> names{"Correspondence", "Stiff", "Ordinary"};
+INSTANTIATE_TEST_SUITE_P(Third, Undisturbed, testing::Values(correspondence, stiff, ordinary),
+                         [](const auto& info) { return names[info.index]; });
 
 // A motion that begins later: at rest until then.
 TEST(Undisturbed, AMotionBeginsWhenItBegins) {
   const RunFolder folder;
   Parts parts;
-  parts.conditions = along("pull", "Prescribed Velocity", "top", "z", "if (t &gt; 2e-6) { value = 1; } else { value = 0; }");
+  parts.conditions =
+      along("pull", "Prescribed Velocity", "top", "z", "if (t &gt; 2e-6) { value = 1; } else { value = 0; }");
   Simulation run(folder, parts);
   double rest = 0;
   run.go([&](const Ledger& now) {
