@@ -39,13 +39,14 @@ struct Elastic {
   Moduli moduli() const { return {bulk, shear}; }
 
   // ½ σ : C⁻¹ : σ, J per m³ of current volume.
-  double elastic_energy(const Symmetric& stress) const {
+  double elastic_energy(const Symmetric& stress, const State& = {}) const {
     const double p = trace(stress) / 3;
     const Symmetric s = deviator(stress);
     return p * p / (2 * bulk) + double_dot(s, s) / (4 * shear);
   }
 
   double dissipation(const State&) const { return 0; }
+  double equivalent_stress(const Symmetric& stress) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
 };
 

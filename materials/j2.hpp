@@ -52,8 +52,11 @@ struct J2 {
   }
 
   Moduli moduli() const { return {bulk, shear}; }
-  double elastic_energy(const Symmetric& stress) const { return Elastic{bulk, shear}.elastic_energy(stress); }
+  double elastic_energy(const Symmetric& stress, const State&) const {
+    return Elastic{bulk, shear}.elastic_energy(stress);
+  }
   double dissipation(const State& state) const { return state.plastic_work; }
+  double equivalent_stress(const Symmetric& stress) const { return von_mises(stress); }
   double flow_stress(const State& state) const {
     return flow(state.equivalent_plastic_strain, state.plastic_strain_rate).stress;
   }

@@ -4,9 +4,9 @@
 //   step      takes the unrotated rate of deformation d = Rᵀ D R over a step of length dt, the old unrotated Cauchy
 //             stress (Pa) and its own State, which it updates; it returns the new unrotated Cauchy stress.
 //   State     a struct of doubles only; state_names names them in order, as they appear in output.
-//   moduli    the elastic moduli that bound the stable step.
+//   moduli    the elastic moduli that bound the stable step; of the state, where they change with it.
 //   energies  elastic_energy and dissipation feed the ledger of a run.
-//   flow_stress  what the von Mises stress equals while the point yields; infinity for a law that never yields.
+//   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
 #pragma once
 
 #include <array>
@@ -37,16 +37,32 @@ struct Moduli {
 
 template <class L>
 concept Law = std::copyable<L> && std::default_initializable<typename L::State> &&
-              std::is_trivially_copyable_v<typename L::State> &&
-              requires(const L law, const PointStep& step, const Symmetric& stress, typename L::State& state,
-                       const typename L::State& committed) {
-                { law.step(step, stress, state) } -> std::same_as<PointStress>;
-                { law.moduli() } -> std::same_as<Moduli>;
-                { law.elastic_energy(stress) } -> std::same_as<double>;  // J per m³ of current volume
-                { law.dissipation(committed) } -> std::same_as<double>;  // J per m³ of reference volume, so far
-                { law.flow_stress(committed) } -> std::same_as<double>;  // Pa
-                { L::state_names.size() } -> std::convertible_to<std::size_t>;
-              };
+    std::is_trivially_copyable_v<typename L::State> &&
+    requires(const L law, const PointStep& step, const Symmetric& stress, typename L::State& state,
+             const typename L::State& committed) {
+  { law.step(step, stress, state) } -> std::same_as<PointStress>;
+  { law.moduli() } -> std::same_as<Moduli>;
+  { law.elastic_energy(stress, committed) } -> std::same_as<double>;  // J per m³ of current volume
+  { law.dissipation(committed) } -> std::same_as<double>;             // J per m³ of reference volume, so far
+  { law.equivalent_stress(stress) } -> std::same_as<double>;          // Pa
+  { law.flow_stress(committed) } -> std::same_as<double>;             // Pa
+  { L::state_names.size() } -> std::convertible_to<std::size_t>;
+};
+
+// Whether a law's moduli change with its state.
+template <class L>
+inline constexpr bool has_changing_moduli = requires(const L law, const typename L::State& state) {
+  law.moduli(state);
+};
+
+template <class L>
+Moduli moduli_of(const L& law, const typename L::State& state) {
+  if constexpr (has_changing_moduli<L>) {
+    return law.moduli(state);
+  } else {
+    return law.moduli();
+  }
+}
 
 // The number of doubles in a law's State.
 template <class L>

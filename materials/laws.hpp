@@ -3,12 +3,13 @@
 
 #include <variant>
 
+#include "materials/deshpande_fleck.hpp"
 #include "materials/elastic.hpp"
 #include "materials/j2.hpp"
 #include "materials/law.hpp"
 
 namespace strut::materials {
 
-using AnyLaw = std::variant<Elastic, J2>;
+using AnyLaw = std::variant<Elastic, J2, DeshpandeFleck>;
 
 }  // namespace strut::materials

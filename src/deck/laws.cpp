@@ -54,6 +54,10 @@ materials::AnyLaw make_j2(const Values& material, Problems& problems) {
   return materials::J2{.bulk = moduli.bulk, .shear = moduli.shear, .flow = make_flow_stress(material, problems)};
 }
 
+materials::AnyLaw make_foam(const Values& material, Problems& problems) {
+  return make_metal_foam(material, checked_moduli(material, problems), problems);
+}
+
 // Of every law by correspondence: the modes that F does not see must be held down.
 Section with_stabilization(Section law) {
   law.keys.push_back({.name = "Stabilization",
@@ -98,6 +102,7 @@ const std::vector<LawEntry>& laws() {
       {elastic_ordinary(), Formulation::ordinary, make_elastic},
       {elastic(), Formulation::correspondence, make_elastic},
       {elastic_plastic(), Formulation::correspondence, make_j2},
+      {with_stabilization(metal_foam_section()), Formulation::correspondence, make_foam},
   };
   return entries;
 }

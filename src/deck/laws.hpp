@@ -22,6 +22,10 @@ const std::vector<LawEntry>& laws();
 // What all materials share: density, elastic constants.
 Section material_section();
 
+// Of a metal foam; `foam`: its moduli as it is at first.
+Section metal_foam_section();
+materials::AnyLaw make_metal_foam(const Values& material, const materials::Moduli& foam, Problems& problems);
+
 // The keys "Yield Stress", Hardening and Rate of a law with a flow stress.
 Section flow_stress_section();
 materials::FlowStress make_flow_stress(const Values& material, Problems& problems);

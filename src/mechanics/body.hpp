@@ -1,10 +1,12 @@
 // All that mechanics knows of the points of one rank: the dictionary of fields.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/tensors.hpp"
@@ -85,6 +87,17 @@ struct MaterialBlock {
   double resting_pace = 0;  // 1/s, the largest of its points, as a part of their steps, undisturbed
 
   int lattice = -1;  // in domain.families.lattices, where its points sit on one
+
+  template <class L>
+  typename L::State state_of(std::size_t k) const {
+    std::array<double, materials::state_size<L>> columns{};
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = state[c * points.size() + k];
+    return materials::from_columns<L>(columns);
+  }
+  // Of points[k] as it is now.
+  materials::Moduli moduli(std::size_t k) const {
+    return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(k)); }, material.law);
+  }
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
 };

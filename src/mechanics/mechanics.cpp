@@ -184,11 +184,11 @@ Tensor change_of_gradient(const Body& body, const MaterialBlock& block, const st
 void set_tangent_states(const Body& body, const std::vector<Site>& directions, Part part, ForceStates& result) {
   over_lattices(body, Bodies::all, part, [&](LatticeSums& sums) { sums.add_moments(body, {directions.data(), true}); });
   for (const MaterialBlock& block : body.blocks) {
-    const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
     const auto [begin, end] = range(block, part);
     bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
       for_each_point(begin, end, [&, weight](int k) {
         const int i = block.points[k];
+        const materials::Moduli moduli = block.moduli(k);
         if (block.is_ordinary()) {
           result.scalars[i] = tangent_state(body, directions, block, k, moduli, weight);
           return;
@@ -197,7 +197,7 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
         const Tensor dF = change_of_gradient(body, block, directions, i, weight);
         const double share = body.share(i);
         result.tensors[i] = tangent_state(point, moduli, dF, share);
-        if (point.mean_stabilization > 0) {
+        if (block.material.mean_stabilization > 0) {
           result.gradients[i] = bonds::packed(dF, point.mean_stabilization, share * share);
         }
       });
@@ -267,33 +267,17 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
 }
 
 double largest_pace(const Body& body, const MaterialBlock& block) {
-  const auto of_point = [&](int k) { return pace(body, block, block.points[k]) * body.share(block.points[k]); };
+  const auto of_point = [&](int k) { return pace(body, block, k) * body.share(block.points[k]); };
   return largest(0, static_cast<int>(block.points.size()), 0, of_point);
 }
 
-double pace(const Body& body, const MaterialBlock& block, int i) {
-  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+double pace(const Body& body, const MaterialBlock& block, int k) {
+  const int i = block.points[k];
   const MaterialPoint& point = body.points[i];
   const Tensor& F = point.deformation_gradient;
   const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
+  const double modulus = block.moduli(k).longitudinal();
   return std::sqrt(modulus / body.density[i] * body.domain.volumes[i] * trace(point.shape_inverse) / 3 * steepness);
-}
-
-void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
-                   std::vector<Vector>& result) {
-  behind_exchange(
-      halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
-      [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
-  if (!scratch.gradients.empty()) {
-    behind_exchange(halo, scratch.gradients, [&](Part part) {
-      add_residual(body, Bodies::all, directions, {directions.data(), true}, part, scratch, result, {});
-    });
-  }
-  add_up(halo,
-         ForceSum<bonds::OfField>{
-             body, Bodies::all, directions, {directions.data(), true}, {directions.data()}, scratch, result},
-         [] { return 0; });  // the estimate of the step has a time of its own
-  for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
 }
 
 namespace {
@@ -303,11 +287,10 @@ void add_energies(const Body& body, const MaterialBlock& block, const L& law, En
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
     const double volume = body.domain.volumes[i];
-    std::array<double, materials::state_size<L>> columns{};
-    for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = block.state[c * block.points.size() + k];
     const double J = body.points[i].deformation_gradient.determinant();
-    sum.elastic += J * law.elastic_energy(body.points[i].stress) * volume;
-    sum.dissipated += law.dissipation(materials::from_columns<L>(columns)) * volume;
+    const auto state = block.state_of<L>(k);
+    sum.elastic += J * law.elastic_energy(body.points[i].stress, state) * volume;
+    sum.dissipated += law.dissipation(state) * volume;
   }
 }
 

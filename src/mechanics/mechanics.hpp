@@ -32,8 +32,8 @@ void sum_forces(Body& body, bool with_views);
 // Both.
 StepReport advance_stress_and_force(Body& body, double dt, bool with_views);
 
-// A bound of what the stress of a point adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
-double pace(const Body& body, const MaterialBlock& block, int i);
+// A bound of what the stress of block.points[k] adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
+double pace(const Body& body, const MaterialBlock& block, int k);
 
 // Of the points of a block on this rank, as parts of their steps.
 double largest_pace(const Body& body, const MaterialBlock& block);

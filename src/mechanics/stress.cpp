@@ -19,13 +19,6 @@ namespace strut {
 namespace {
 
 template <class L>
-typename L::State load(const MaterialBlock& block, std::size_t k) {
-  std::array<double, materials::state_size<L>> columns{};
-  for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = block.state[c * block.points.size() + k];
-  return materials::from_columns<L>(columns);
-}
-
-template <class L>
 void store(MaterialBlock& block, std::size_t k, const typename L::State& state) {
   const auto columns = materials::to_columns<L>(state);
   for (std::size_t c = 0; c < columns.size(); ++c) block.state[c * block.points.size() + k] = columns[c];
@@ -118,17 +111,32 @@ struct Update {
   Weight weight;
   StressPass pass;
   FirstFailure& failure;
-  double stiffness = law.moduli().longitudinal() / (3 * block.material.density);  // m²/s²
 
   // Stress and state of one point.
   void advance(const Group& g, int l, const LaneSymmetric& rates, double dt, double J) const {
     Symmetric rate;
     for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l];
-    typename L::State state = load<L>(block, g.k[l]);
+    typename L::State state = block.state_of<L>(g.k[l]);
+    const double old_modulus = materials::moduli_of(law, state).longitudinal();
     const auto [stress, converged] = law.step({rate, dt, J}, g.points[l]->stress, state);
     if (!converged) return failure.report(g.k[l], Failure::Kind::no_stress);
     g.points[l]->stress = stress;
     store<L>(block, g.k[l], state);
+    if constexpr (materials::has_changing_moduli<L>) {  // C and C̄ are in units of the modulus
+      if (!(old_modulus > 0)) return;
+      const double growth = materials::moduli_of(law, state).longitudinal() / old_modulus;
+      g.points[l]->stabilization *= growth;
+      g.points[l]->mean_stabilization *= growth;
+    }
+  }
+
+  // M/(3ρ) of the points of a group, m²/s².
+  Lanes stiffness(const Group& g) const {
+    Lanes modulus = Lanes{} + law.moduli().longitudinal();
+    if constexpr (materials::has_changing_moduli<L>) {
+      for (int l = 0; l < 4; ++l) modulus[l] = law.moduli(block.state_of<L>(g.k[l])).longitudinal();
+    }
+    return modulus / (3 * block.material.density);
   }
 
   void store_point(const Group& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A) const {
@@ -138,7 +146,7 @@ struct Update {
     const int i = block.points[g.k[l]];
     const double share = body.share(i, pass.order);
     body.force_states.tensors[i] = bonds::packed(lane(A, l), share * point.stabilization);
-    if (point.mean_stabilization > 0) {
+    if (block.material.mean_stabilization > 0) {
       body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.mean_stabilization, share);
     }
   }
@@ -197,7 +205,7 @@ struct Update {
     const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
     const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share);
     const Lanes volume = of_points(g, [this](int i) { return body.sites[i].reference[3]; });
-    const Lanes pace2 = stiffness * share * share * J * volume * small::square(inverse_stretch) *
+    const Lanes pace2 = stiffness(g) * share * share * J * volume * small::square(inverse_stretch) *
                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
     for (int l = 0; l < g.count; ++l) {

@@ -104,7 +104,9 @@ struct Paces {
 Paces paces_of(const Body& body) {
   Paces paces{std::vector<double>(body.owned(), 0)};
   for (const MaterialBlock& block : body.blocks) {
-    for (const int i : block.points) paces.values[i] = pace(body, block, i);
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      paces.values[block.points[k]] = pace(body, block, static_cast<int>(k));
+    }
   }
   double agreed[] = {0, 0};
   over_points(body, [&](int i, bool may) {

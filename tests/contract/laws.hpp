@@ -57,6 +57,15 @@ inline std::vector<NamedLaw> table_of_laws() {
           {"j2_" + hardening_name + "_" + rate_name, materials::J2{bulk, shear, {yield_stress, hardening, rate}}});
     }
   }
+  for (const double growth : {1.0, 4.0}) {
+    for (const double alpha : {0.0, 1.0, 2.1}) {
+      materials::DeshpandeFleck foam{.initial = {bulk, shear}, .compacted = {growth * bulk, growth * shear}};
+      foam.alpha = alpha, foam.plateau = yield_stress, foam.linear = 20e6, foam.locking = 400e6, foam.exponent = 3.3;
+      foam.densification = 1.2;
+      const std::string of_alpha = "foam_alpha_" + std::to_string(static_cast<int>(10 * alpha));
+      table.push_back({of_alpha + (growth > 1 ? "_growing" : ""), foam});
+    }
+  }
   return table;
 }
 

@@ -157,7 +157,8 @@ TEST_P(LawTest, TheStressIsNeverAboveTheFlowStressAndOnItWhileItFlows) {
         const double before = law.dissipation(point.state);
         const double trial = point.stress.norm() + 10 * bulk * step.rate.norm() * step.dt;
         ASSERT_TRUE(point.advance(law, step));
-        const double limit = law.flow_stress(point.state), q = von_mises(point.stress);
+        const double limit = law.flow_stress(point.state), q = law.equivalent_stress(point.stress);
+        if (!std::isfinite(limit)) continue;  // never yields, or has locked
         const double error = 1e-9 * limit + 1e-14 * (trial + point.stress.norm());
         EXPECT_LE(q, limit + error);
         if (law.dissipation(point.state) > before) {
@@ -182,7 +183,7 @@ TEST_P(LawTest, PlasticStrainAndWorkNeverFall) {
           EXPECT_GE(to_columns<L>(point.state)[strain], to_columns<L>(old.state)[strain]);
         }
       }
-      EXPECT_GE(law.elastic_energy(point.stress), 0);
+      EXPECT_GE(law.elastic_energy(point.stress, point.state), 0);
     }
   });
 }
@@ -198,7 +199,7 @@ TEST_P(LawTest, IsElasticBelowYield) {
       ASSERT_TRUE(point.advance(law, {strain / 1e-8, 1e-8, 1}));
       const Symmetric hooke = spherical(moduli.bulk * trace(strain)) + 2 * moduli.shear * deviator(strain);
       EXPECT_LE((point.stress - hooke).norm(), 1e-14 * bulk * 1e-4 * 10);
-      EXPECT_NEAR(law.elastic_energy(point.stress), 0.5 * double_dot(hooke, strain),
+      EXPECT_NEAR(law.elastic_energy(point.stress, point.state), 0.5 * double_dot(hooke, strain),
                   1e-13 * double_dot(hooke.cwiseAbs(), strain.cwiseAbs()));
       EXPECT_EQ(law.dissipation(point.state), 0);
     }
@@ -222,8 +223,13 @@ void expect_flow_stress(const AnyLaw& law, double von_mises, double plastic_stra
   EXPECT_NEAR(von_mises, expected, closed_form_tolerance * expected);
 }
 
+// Closed forms of flow at constant volume; those of foams are in test_metal_foam.
+template <class L>
+constexpr bool keeps_its_volume = !std::same_as<L, DeshpandeFleck>;
+
 TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
   with_law([]<Law L>(const L& law) {
+    if constexpr (!keeps_its_volume<L>) return;
     constexpr double rate = 1e4, dt = 1e-8;
     point::Driver<L> point(law);
     double old_plastic = 0, plastic = 0, q = 0;
@@ -240,6 +246,7 @@ TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
 
 TEST_P(LawTest, UniaxialStressIsTheClosedForm) {
   with_law([]<Law L>(const L& law) {
+    if constexpr (!keeps_its_volume<L>) return;
     constexpr double rate = 1e4, dt = 1e-8;
     point::Driver<L> point(law);
     double old_plastic = 0, plastic = 0;
@@ -300,7 +307,7 @@ TEST_P(LawTest, ConvergesWithTheStep) {
 TEST_P(LawTest, PlasticStrainDoesNotDependOnTheStep) {
   with_law([]<Law L>(const L& law) {
     const int strain = column<L>("Equivalent_Plastic_Strain");
-    if (strain < 0) GTEST_SKIP() << "no plastic strain";
+    if (strain < 0 || !keeps_its_volume<L>) GTEST_SKIP() << "no plastic strain, or its direction turns";
     double found[2];
     for (const int coarse : {0, 1}) {
       point::Driver<L> point(law);
@@ -330,7 +337,7 @@ TEST_P(LawTest, WorkIsStoredOrDissipated) {
       work += done;
       size += std::abs(done);
     }
-    const double balance = law.elastic_energy(point.stress) + law.dissipation(point.state);
+    const double balance = law.elastic_energy(point.stress, point.state) + law.dissipation(point.state);
     EXPECT_NEAR(work, balance, 1e-10 * size);
   });
 }
