@@ -55,32 +55,36 @@ struct DeshpandeFleck {
     const Flow flow = solve(at, equivalent, state.equivalent_plastic_strain, now);
     if (!flow.converged) return {trial, false};
     const Symmetric next = spherical(flow.mean * at.mean) + flow.deviatoric * deviator(trial);
-    const double stored = elastic_energy(stress, state);
     State reached = state;
     reached.equivalent_plastic_strain += flow.increment;
-    reached.volumetric_plastic_strain += trace(step.rate) * step.dt - (trace(next) - trace(stress)) / (3 * now.bulk);
-    // What was done and is not stored: it counts what a compacted point gives up as its moduli grow.
-    const double done = 0.5 * step.dt * double_dot(stress + next, step.rate);
-    reached.plastic_work += step.J * std::max(0.0, done - (elastic_energy(next, reached) - stored));
+    reached.volumetric_plastic_strain += flow.increment * alpha * alpha * flow.mean * at.mean / (form() * flow.stress);
+    reached.plastic_work += std::max(0.0, work(step, stress, next) - stored_more(step, stress, state, next, reached));
     if (!std::isfinite(reached.plastic_work)) return {trial, false};
     state = reached;
     return {next, true};
   }
 
   Moduli moduli() const { return initial; }
-  // Between those of the foam and those of the solid as the plastic compaction is between 0 and its full value.
+  // Between those of the foam and those of the solid as the plastic compaction is between 0 and its full value; none of
+  // a failed point.
   Moduli moduli(const State& state) const {
+    if (state.failed > 0) return {};
     const double share = compaction(state);
     return {initial.bulk + share * (compacted.bulk - initial.bulk),
             initial.shear + share * (compacted.shear - initial.shear)};
   }
   double elastic_energy(const Symmetric& stress, const State& state) const {
+    if (state.failed > 0) return 0;
     const Moduli now = moduli(state);
     return Elastic{now.bulk, now.shear}.elastic_energy(stress);
   }
   double dissipation(const State& state) const { return state.plastic_work; }
   double equivalent_stress(const Symmetric& stress) const { return equivalent({trace(stress) / 3, von_mises(stress)}); }
-  double flow_stress(const State& state) const { return hardening(state.equivalent_plastic_strain).stress; }
+  // None of a point that has become solid.
+  double flow_stress(const State& state) const {
+    const bool is_solid = state.equivalent_plastic_strain >= (1 - 1e-9) * solid * densification;
+    return is_solid ? never : hardening(state.equivalent_plastic_strain).stress;
+  }
 
  private:
   struct Invariants {
@@ -117,6 +121,7 @@ struct DeshpandeFleck {
 
   struct Flow {
     double increment;         // Δε̂
+    double stress;            // Y, Pa
     double mean, deviatoric;  // what is left of the trial's parts
     bool converged;
   };
@@ -137,7 +142,7 @@ struct DeshpandeFleck {
       const double reached = this->equivalent(s), residual = reached - Y.stress;
       const bool found = std::abs(residual) <= tolerance * equivalent;
       if (found || right - left <= 4 * std::numeric_limits<double>::epsilon() * (strain + x)) {
-        return {x, mean, mises, true};
+        return {x, Y.stress, mean, mises, true};
       }
       (residual > 0 ? left : right) = x;
       const double by_ratio =
@@ -146,7 +151,7 @@ struct DeshpandeFleck {
       const double next = x - residual / slope;
       x = next > left && next < right ? next : (left + right) / 2;
     }
-    return {0, 1, 1, false};
+    return {0, 0, 1, 1, false};
   }
 
   // No direction of flow takes less stress for a strain than this, Pa; without the mean part where none flows.
@@ -155,11 +160,24 @@ struct DeshpandeFleck {
     return alpha > 0 ? std::min(3 * now.shear / f, now.bulk * alpha * alpha / f) : 3 * now.shear / f;
   }
 
+  // Per volume of the reference state, which J times a stress and a stored energy are of.
+  static double old_J(const PointStep& step) { return step.J * std::exp(-trace(step.rate) * step.dt); }
+  static double work(const PointStep& step, const Symmetric& before, const Symmetric& after) {
+    return 0.5 * step.dt * double_dot(old_J(step) * before + step.J * after, step.rate);
+  }
+  // What a compacted point gives up as its moduli grow is stored no more.
+  double stored_more(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
+                     const State& state) const {
+    return step.J * elastic_energy(after, state) - old_J(step) * elastic_energy(before, old_state);
+  }
+
   PointStress fail(const PointStep& step, const Symmetric& stress, State& state) const {
-    const double done = 0.5 * step.dt * double_dot(stress, step.rate);
-    state.plastic_work += step.J * std::max(0.0, done + elastic_energy(stress, state));
-    state.failed = 1;
-    return {Symmetric::Zero(), true};
+    State reached = state;
+    reached.failed = 1;
+    const Symmetric none = Symmetric::Zero();
+    reached.plastic_work += std::max(0.0, work(step, stress, none) - stored_more(step, stress, state, none, reached));
+    state = reached;
+    return {none, true};
   }
 };
 

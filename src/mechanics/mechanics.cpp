@@ -280,6 +280,23 @@ double pace(const Body& body, const MaterialBlock& block, int k) {
   return std::sqrt(modulus / body.density[i] * body.domain.volumes[i] * trace(point.shape_inverse) / 3 * steepness);
 }
 
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
+                   std::vector<Vector>& result) {
+  behind_exchange(
+      halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
+      [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
+  if (!scratch.gradients.empty()) {
+    behind_exchange(halo, scratch.gradients, [&](Part part) {
+      add_residual(body, Bodies::all, directions, {directions.data(), true}, part, scratch, result, {});
+    });
+  }
+  add_up(halo,
+         ForceSum<bonds::OfField>{
+             body, Bodies::all, directions, {directions.data(), true}, {directions.data()}, scratch, result},
+         [] { return 0; });  // the estimate of the step has a time of its own
+  for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
+}
+
 namespace {
 
 template <class L>

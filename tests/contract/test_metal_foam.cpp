@@ -60,7 +60,7 @@ TEST(MetalFoam, HydrostaticYield) {
   for (const double alpha : {0.5, 2.1}) {
     const DeshpandeFleck law = without_hardening(foam(alpha));
     DeshpandeFleck::State state;
-    const Symmetric rate = spherical(-1e4);
+    const Symmetric rate = spherical(-3e3);  // ε̂ = 1.1, far from locking
     Symmetric stress = Symmetric::Zero();
     for (int i = 0; i < 100; ++i) {
       const PointStress next = law.step({rate, 1e-6, 1}, stress, state);
@@ -87,27 +87,37 @@ TEST(MetalFoam, AlphaZeroIsJ2) {
   EXPECT_NEAR(one.state.equivalent_plastic_strain, other.state.equivalent_plastic_strain, 1e-10);
 }
 
-// σ̂ ε̂̇ = σ : ε̇_p: what is not stored is the integral of Y over ε̂, known in closed form without the locking term. At J =
-// 1; of the second order in the step, as work and integral are both trapezoids, but for the step in which it yields.
+// σ̂ ε̂̇ = σ : ε̇_p: what is not stored is ∫ J Y dε̂, of which ∫ Y dε̂ is known in closed form without the locking term, and what
+// a volume under stress gives up as it shrinks, −∫ W dJ (3 % of it). Of the second order in the step, as all are
+// trapezoids, but for the step in which it yields.
 TEST(MetalFoam, DissipatesWhatTheFlowStressDoes) {
   DeshpandeFleck law = foam();
   law.locking = 0;
+  const auto integral = [&](double strain) {
+    return law.plateau * strain + law.linear * strain * strain / (2 * law.densification);
+  };
   double error[2];
   for (const int fine : {0, 1}) {
     const int steps = fine ? 4000 : 400;
     DeshpandeFleck::State state;
     Symmetric stress = Symmetric::Zero();
     const Symmetric rate = Symmetric{-0.8 / steps, 0, 0, 0.3 / steps, 0, 0} / 1e-6;
+    double exact = 0;
     for (int i = 0; i < steps; ++i) {
-      const PointStress next = law.step({rate, 1e-6, 1}, stress, state);
+      const double before = integral(state.equivalent_plastic_strain);
+      const double J = std::exp(-0.8 * (i + 1) / steps);
+      const PointStress next = law.step({rate, 1e-6, J}, stress, state);
       ASSERT_TRUE(next.converged);
+      const double mean_J = std::exp(-0.8 * (i + 0.5) / steps);
+      exact += mean_J * (integral(state.equivalent_plastic_strain) - before);
+      if (state.equivalent_plastic_strain > 0) {
+        exact += 0.4 / steps * mean_J * (law.elastic_energy(stress, state) + law.elastic_energy(next.stress, state));
+      }
       stress = next.stress;
     }
-    const double strain = state.equivalent_plastic_strain;
-    const double exact = law.plateau * strain + law.linear * strain * strain / (2 * law.densification);
     error[fine] = std::abs(state.plastic_work / exact - 1);
   }
-  EXPECT_LT(error[0], 1e-3);
+  EXPECT_LT(error[0], 1e-4);
   EXPECT_LT(error[1], error[0] / 5);
 }
 
@@ -149,11 +159,12 @@ TEST(MetalFoam, FailsWhereItsVolumeHasGrown) {
   Symmetric stress = Symmetric::Zero();
   double J = 1, work = 0;
   for (int i = 0; i < 12; ++i) {
+    const double old_J = J;
     J *= std::exp(0.01);
     const Symmetric rate{1e4, 0, 0, 0, 0, 0};
     const PointStress next = law.step({rate, 1e-6, J}, stress, state);
     ASSERT_TRUE(next.converged);
-    work += J * 0.5 * 1e-6 * double_dot(stress + next.stress, rate);
+    work += 0.5 * 1e-6 * double_dot(old_J * stress + J * next.stress, rate);
     stress = next.stress;
     EXPECT_EQ(state.failed > 0, i >= 9) << i;  // ln J = 0.10
     if (state.failed > 0) {
