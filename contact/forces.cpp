@@ -41,8 +41,7 @@ void for_each_touch(const Pairs& pairs, const Model& model, std::size_t k, Visit
     const Vector eta = (there.current - here.current).head<3>().matrix();
     const double distance2 = eta.squaredNorm();
     if (!(distance2 < radius2)) continue;
-    const double touching =
-        pairs.one_body ? touching_distance(model.radius, reference_distance(here, there)) : model.radius;
+    const double touching = touching_distance(model.radius, reference_distance(here, there), pairs.one_body);
     if (!(distance2 < touching * touching)) continue;
     const double distance = std::sqrt(distance2);
     // Two points at the same place have no direction: nothing parts them in this step.

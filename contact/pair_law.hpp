@@ -20,13 +20,14 @@ inline double penalty_stiffness(double penalty, double horizon) {
   return 18 * penalty / (std::numbers::pi * square * square * horizon);
 }
 
-// The distance at which two points of one body begin to touch: r_c, but never more than 0.9 of their distance in the
-// reference state (Parks et al. 2008, LAMMPS' PERI package). So a body does not start under pressure from points that
-// are beyond each other's horizon but within r_c, and the material that joins two points is left to its own law until
-// it has been shortened by a tenth. Points of different bodies touch at r_c.
+// The distance at which two points begin to touch: r_c, but never more than a share of their distance in the reference
+// state. Of one body: 0.9 of it (Parks et al. 2008, LAMMPS' PERI package). So a body does not start under pressure from
+// points that are beyond each other's horizon but within r_c, and the material that joins two points is left to its own
+// law until it has been shortened by a tenth. Of two bodies: all of it, so that bodies with a common face start without
+// pressure and without a gap.
 constexpr double reference_share = 0.9;
-inline double touching_distance(double radius, double reference_distance) {
-  return std::min(radius, reference_share * reference_distance);
+inline double touching_distance(double radius, double reference_distance, bool one_body) {
+  return std::min(radius, (one_body ? reference_share : 1) * reference_distance);
 }
 
 // f = K_c (r_c − d) V₁ V₂ for d ≤ r_c, else 0, N (eq. 22). `stiffness`: K_c V₁ V₂, N/m.

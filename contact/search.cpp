@@ -123,10 +123,9 @@ struct Criterion {
 
   bool operator()(const Candidate& a, const Candidate& b, double distance2) const {
     if (!parties.self() && a.block == b.block) return false;
-    if (!parties.one_body) return true;
     const Vector xi = reference(b) - reference(a);
-    const double reach = touching_distance(radius, xi.norm()) + skin;
-    return distance2 <= reach * reach && !bonded(a.current[3], b.current[3], xi);
+    const double reach = touching_distance(radius, xi.norm(), parties.one_body) + skin;
+    return distance2 <= reach * reach && !(parties.one_body && bonded(a.current[3], b.current[3], xi));
   }
 };
 

@@ -35,14 +35,13 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
   const double limit = solver.stable_step();
-  const std::string overlap = overlap_warning(solver.contact(), communicator);
   const double step_time = measured_step(deck, solver);
   const double dt = scene.control.fixed_dt > 0 ? scene.control.fixed_dt : scene.control.safety_factor * limit;
   const double steps = std::ceil((deck.solver.final_time - deck.solver.initial_time) / dt);
   const std::string scene_text = describe_scene(scene);
   if (communicator.rank() != 0) return;
-  std::cout << scene_text << overlap << step_warning(scene.control, limit, deck.solver.initial_time) << "stable step "
-            << limit << " s at the start; about " << steps << " steps of " << dt
+  std::cout << scene_text << step_warning(scene.control, limit, deck.solver.initial_time) << "stable step " << limit
+            << " s at the start; about " << steps << " steps of " << dt
             << " s (more where the step must shrink with the deformation)\n"
             << "estimated time " << as_duration(steps * step_time) << " (" << step_time << " s a step, measured)\n"
             << deck_file.string() << ": no errors\n";

@@ -99,15 +99,6 @@ std::string step_warning(const StepControl& control, double limit, double time) 
       control.fixed_dt, limit, time);
 }
 
-std::string overlap_warning(const contact::Contact& contact, const Communicator& communicator) {
-  const double stored = communicator.sum(contact.energy());
-  if (!(stored > 0)) return "";
-  return formatted(
-      "WARNING: bodies start within the contact radius of each other: the penalty stores %.4g J that will drive them "
-      "apart\n",
-      stored);
-}
-
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds) {
   std::ostringstream text;
   text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");

@@ -34,9 +34,6 @@ double predicted_memory(const Scene& scene);
 // A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 
-// Collective. Bodies that start within each other's contact radius, before the first step; "" where none do.
-std::string overlap_warning(const contact::Contact& contact, const Communicator& communicator);
-
 // Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end.
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds);
 

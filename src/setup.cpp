@@ -276,7 +276,10 @@ void add_condition(const deck::Condition& condition, double t, Scene& scene) {
     case deck::ConditionType::rigid_plane: {
       const bool one_sided = condition.type == deck::ConditionType::rigid_plane;
       all.planes.push_back({std::move(points), condition.point, normal, one_sided, condition.friction});
+      return;
     }
+    case deck::ConditionType::open_end:
+      all.open_ends.push_back(open_end(points, normal, scene.body));
   }
 }
 

@@ -136,7 +136,6 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   catch_signals();
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
-  say(communicator, overlap_warning(solver.contact(), communicator));
   const Ledger ledger = step_through(deck, scene, solver, frames, history);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   say(communicator, closing_report(scene, solver, ledger, seconds));

@@ -213,7 +213,7 @@ Condition condition(const Values& values, Problems& problems) {
   Condition condition{.name = values.name(),
                       .type = to_enum<ConditionType>(
                           values.text("Type"), {"Initial Velocity", "Prescribed Displacement", "Prescribed Velocity",
-                                                "Body Force", "Symmetry Plane", "Rigid Plane"}),
+                                                "Body Force", "Symmetry Plane", "Rigid Plane", "Non-Reflecting End"}),
                       .node_set = values.text("Node Set"),
                       .component = to_enum<int>(values.text("Coordinate"), {"x", "y", "z"}),
                       .value = values.function("Value")};

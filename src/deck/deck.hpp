@@ -78,7 +78,8 @@ enum class ConditionType {
   prescribed_velocity,
   body_force,      // N per m³ of reference volume
   symmetry_plane,  // the points of the set keep their distance to the plane through them with this normal
-  rigid_plane      // one-sided: points of the set stay on the side the normal points to
+  rigid_plane,     // one-sided: points of the set stay on the side the normal points to
+  open_end         // waves leave through the layer of points as if the body went on behind it
 };
 
 struct Condition {

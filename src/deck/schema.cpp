@@ -208,6 +208,17 @@ Section rigid_plane() {
   return section;
 }
 
+Section open_end() {
+  return {.name = "Non-Reflecting End",
+          .meaning =
+              "Waves leave through the set, one layer of points, as if the body went on behind it: viscous traction "
+              "ρ c v with the speeds of longitudinal and shear waves in the undeformed material.",
+          .keys = {{.name = "Normal",
+                    .kind = Kind::vector,
+                    .required = true,
+                    .meaning = "Of the end's surface, of any length but zero."}}};
+}
+
 Section conditions() {
   Section one = {.name = any_name,
                  .meaning = "One condition.",
@@ -218,13 +229,13 @@ Section conditions() {
   Key type = {.name = "Type", .kind = Kind::choice, .required = true, .meaning = "It decides on further keys."};
   return {.name = "Boundary Conditions",
           .meaning = "What is imposed on points, initial conditions included.",
-          .sections = {
-              with_cases(std::move(one), std::move(type),
-                         {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
-                          along_axis("Prescribed Displacement", "m", "The displacement at every time."),
-                          along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
-                          along_axis("Body Force", "N/m³", "A force per reference volume."),
-                          plane("Symmetry Plane", "The points keep their distance to the plane."), rigid_plane()})}};
+          .sections = {with_cases(
+              std::move(one), std::move(type),
+              {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
+               along_axis("Prescribed Displacement", "m", "The displacement at every time."),
+               along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
+               along_axis("Body Force", "N/m³", "A force per reference volume."),
+               plane("Symmetry Plane", "The points keep their distance to the plane."), rigid_plane(), open_end()})}};
 }
 
 Section solver() {

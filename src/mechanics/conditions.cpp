@@ -1,5 +1,6 @@
 #include "mechanics/conditions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace strut {
@@ -27,6 +28,29 @@ void constrain_motion(const PrescribedMotion& motion, double t, const PointSteps
     work.before.external += half_impulse * body.previous_velocity[i][c];
     work.after.external += half_impulse * imposed;
     v = imposed;
+  }
+}
+
+// The velocity after a kick that would change `before` by `kick`, with a drag on the mean of both: stable at any rate.
+double dragged(double before, double kick, double rate, double dt) {
+  return (before * (1 - 0.5 * rate * dt) + kick) / (1 + 0.5 * rate * dt);
+}
+
+struct Impulse {
+  int point;
+  Vector half;  // N s
+};
+
+void drag(const OpenEnd& end, const PointSteps& steps, Body& body, std::vector<Impulse>& impulses) {
+  for (const auto& [i, along, across, gain] : end.drags) {
+    const Vector before = body.previous_velocity[i], kick = gain * (body.velocity[i] - before);
+    const double speed = end.normal.dot(before), push = end.normal.dot(kick), dt = steps.of(i);
+    const Vector sliding = before - speed * end.normal, shear = kick - push * end.normal;
+    Vector& v = body.velocity[i];
+    const Vector kicked = v;
+    v = dragged(speed, push, along, dt) * end.normal;
+    for (int c = 0; c < 3; ++c) v[c] += dragged(sliding[c], shear[c], across, dt);
+    impulses.push_back({i, 0.5 * body.mass(i) * (v - kicked)});
   }
 }
 
@@ -75,8 +99,14 @@ void start_motions(const Conditions& conditions, double t, double dt, Body& body
 }
 
 void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work) {
+  std::vector<Impulse> drags;
+  for (const OpenEnd& end : conditions.open_ends) drag(end, steps, body, drags);
   for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, steps, body, work);
   for (const Plane& plane : conditions.planes) constrain_plane(plane, steps, body, work);
+  for (const auto& [i, half] : drags) {  // with the velocity that the others leave
+    work.before.external += half.dot(body.previous_velocity[i]);
+    work.after.external += half.dot(body.velocity[i]);
+  }
 }
 
 Conditions restricted_to(const Conditions& conditions, const std::vector<std::uint8_t>& halvings, int order) {
@@ -85,9 +115,27 @@ Conditions restricted_to(const Conditions& conditions, const std::vector<std::ui
     return all;
   };
   Conditions some;
+  for (OpenEnd end : conditions.open_ends) {
+    std::erase_if(end.drags, [&](const OpenEnd::Drag& drag) { return halvings[drag.point] < order; });
+    some.open_ends.push_back(end);
+  }
   for (const PrescribedMotion& motion : conditions.motions) some.motions.push_back(restrict(motion));
   for (const Plane& plane : conditions.planes) some.planes.push_back(restrict(plane));
   return some;
+}
+
+OpenEnd open_end(const std::vector<int>& points, const Vector& normal, const Body& body) {
+  OpenEnd end{normal, {}};
+  for (const int i : points) {
+    const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
+    const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, material.law);
+    const double s = body.domain.cloud.spacings[i];
+    end.drags.push_back({.point = i,
+                         .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),
+                         .across = 2 / s * std::sqrt(moduli.shear / material.density),
+                         .gain = std::max(1.0, 2 * body.domain.volumes[i] / (s * s * s))});
+  }
+  return end;
 }
 
 void add_work_of_body_forces(const Conditions& conditions, double t, double kick, const Body& body, KickWork& work) {

@@ -1,4 +1,4 @@
-// What acts on points from outside: loads, prescribed motion, planes; and the work that each does.
+// What acts on points from outside: loads, prescribed motion, planes, open ends; and the work that each does.
 #pragma once
 
 #include <cmath>
@@ -34,8 +34,23 @@ struct Plane {
   double friction = 0;
 };
 
+// An end that waves leave as if the body went on behind it: the viscous traction −ρ c_p v_n − ρ c_s v_t (Lysmer &
+// Kuhlemeyer 1969) on the layer of points that has the end's surface. The traction acts in the middle of the layer:
+// what is beyond it, half of a layer of whole cells, is taken to belong to the other side, and its inertia is the other
+// side's (README).
+struct OpenEnd {
+  struct Drag {
+    int point;
+    double along, across;  // traction over speed and mass of half a layer: 2 c_p/s and 2 c_s/s, s the spacing; 1/s
+    double gain;           // mass of the point over that of half a layer
+  };
+  Vector normal;  // of unit length
+  std::vector<Drag> drags;
+};
+
 struct Conditions {
   std::vector<BodyForce> body_forces;
+  std::vector<OpenEnd> open_ends;
   std::vector<PrescribedMotion> motions;
   std::vector<Plane> planes;  // applied last: nothing passes a wall
 };
@@ -71,6 +86,9 @@ void start_motions(const Conditions& conditions, double t, double dt, Body& body
 // Changes the velocities after the kick at time t, which carry each point on for its step, to what the conditions
 // allow.
 void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work);
+
+// The open end that these points are, by the moduli of their undeformed blocks.
+OpenEnd open_end(const std::vector<int>& points, const Vector& normal, const Body& body);
 
 // Of the points that are stepped alone, and halve their step `order` times or more. Without body forces: they act once
 // a whole step.

@@ -132,7 +132,7 @@ struct Update {
 
   // M/(3ρ) of the points of a group, m²/s².
   Lanes stiffness(const Group& g) const {
-    Lanes modulus = Lanes{} + law.moduli().longitudinal();
+    Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
       for (int l = 0; l < 4; ++l) modulus[l] = law.moduli(block.state_of<L>(g.k[l])).longitudinal();
     }

@@ -92,8 +92,8 @@ Part part_of(const Scatter& all, const Communicator& world) {
 double distance(const Scatter& all, int i, int j) { return (all.places[i] - all.places[j]).norm(); }
 
 double touching(const Scatter& all, int i, int j) {
-  if (bonds[all.cloud.blocks[i]].body != bonds[all.cloud.blocks[j]].body) return model.radius;
-  return touching_distance(model.radius, (all.cloud.positions[i] - all.cloud.positions[j]).norm());
+  const bool one_body = bonds[all.cloud.blocks[i]].body == bonds[all.cloud.blocks[j]].body;
+  return touching_distance(model.radius, (all.cloud.positions[i] - all.cloud.positions[j]).norm(), one_body);
 }
 
 bool joined(const Scatter& all, int i, int j) {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "bodies.hpp"
-#include "mechanics/undisturbed.hpp"
 #include "mechanics/observables.hpp"
+#include "mechanics/undisturbed.hpp"
 
 namespace strut::regression {
 namespace {

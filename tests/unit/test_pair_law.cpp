@@ -31,9 +31,11 @@ TEST(PairLaw, ForceIsTheSlopeOfTheEnergy) {
 }
 
 TEST(PairLaw, PointsThatStartCloseTouchAtNineTenthsOfTheirDistance) {
-  EXPECT_EQ(touching_distance(1, 10), 1);
-  EXPECT_DOUBLE_EQ(touching_distance(1, 1), 0.9);
-  EXPECT_DOUBLE_EQ(touching_distance(1, 0.5), 0.45);
+  EXPECT_EQ(touching_distance(1, 10, true), 1);
+  EXPECT_DOUBLE_EQ(touching_distance(1, 1, true), 0.9);
+  EXPECT_DOUBLE_EQ(touching_distance(1, 0.5, true), 0.45);
+  EXPECT_EQ(touching_distance(1, 10, false), 1);
+  EXPECT_EQ(touching_distance(1, 0.5, false), 0.5);
 }
 
 TEST(PairLaw, FrictionIsCoulombsAndDragsAlongTheSliding) {
