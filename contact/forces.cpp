@@ -19,6 +19,10 @@ void bring_to_present(const Crowd& crowd, Pairs& pairs) {
   pairs.halo->exchange(places, site_stride, 3);
 }
 
+// Pairs that are just at the distance at which they touch, as bodies with a common face are at the start, count as
+// touching: their stiffness belongs into the first step.
+constexpr double just = 1 + 1e-9;
+
 // A pair that touches.
 struct Touch {
   int partner;
@@ -35,14 +39,14 @@ double reference_distance(const Site& a, const Site& b) {
 template <class Visit>
 void for_each_touch(const Pairs& pairs, const Model& model, std::size_t k, Visit&& visit) {
   const Site& here = pairs.sites[k];
-  const double radius2 = model.radius * model.radius;
+  const double radius2 = just * model.radius * model.radius;
   for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
     const Site& there = pairs.sites[pairs.partners[p]];
     const Vector eta = (there.current - here.current).head<3>().matrix();
     const double distance2 = eta.squaredNorm();
     if (!(distance2 < radius2)) continue;
     const double touching = touching_distance(model.radius, reference_distance(here, there), pairs.one_body);
-    if (!(distance2 < touching * touching)) continue;
+    if (!(distance2 < just * touching * touching)) continue;
     const double distance = std::sqrt(distance2);
     // Two points at the same place have no direction: nothing parts them in this step.
     const Vector direction = distance > 0 ? Vector(eta / distance) : Vector::Zero();

@@ -133,15 +133,16 @@ struct DeshpandeFleck {
   // σ̂ of the trial, returned with Δε̂/Y, less Y: positive at the left end of the bracket, negative at the right one.
   Flow solve(const Invariants& trial, double equivalent, double strain, const Moduli& now) const {
     const double f = form(), per_mean = now.bulk * alpha * alpha / f, per_mises = 3 * now.shear / f;
-    double left = 0, right = std::min(solid * densification - strain, equivalent / std::min(per_mises, slowest(now)));
+    double last_step = never, left = 0,
+           right = std::min(solid * densification - strain, equivalent / std::min(per_mises, slowest(now)));
     double x = 0;
     for (int i = 0; i < most_iterations; ++i) {
       const Hardening Y = hardening(strain + x);
       const double ratio = x / Y.stress, mean = 1 / (1 + per_mean * ratio), mises = 1 / (1 + per_mises * ratio);
       const Invariants s{mean * trial.mean, mises * trial.mises};
       const double reached = this->equivalent(s), residual = reached - Y.stress;
-      const bool found = std::abs(residual) <= tolerance * equivalent;
-      if (found || right - left <= 4 * std::numeric_limits<double>::epsilon() * (strain + x)) {
+      const double round_off = 4 * std::numeric_limits<double>::epsilon() * (strain + x);
+      if (std::abs(residual) <= tolerance * equivalent || right - left <= round_off || last_step <= round_off) {
         return {x, Y.stress, mean, mises, true};
       }
       (residual > 0 ? left : right) = x;
@@ -149,7 +150,9 @@ struct DeshpandeFleck {
           -(per_mises * mises * s.mises * s.mises + alpha * alpha * per_mean * mean * s.mean * s.mean) / (f * reached);
       const double slope = by_ratio * (1 - ratio * Y.slope) / Y.stress - Y.slope;
       const double next = x - residual / slope;
-      x = next > left && next < right ? next : (left + right) / 2;
+      const double safe = next > left && next < right ? next : (left + right) / 2;
+      last_step = std::abs(safe - x);
+      x = safe;
     }
     return {0, 0, 1, 1, false};
   }
