@@ -163,10 +163,17 @@ struct DeshpandeFleck {
     return alpha > 0 ? std::min(3 * now.shear / f, now.bulk * alpha * alpha / f) : 3 * now.shear / f;
   }
 
-  // Per volume of the reference state, which J times a stress and a stored energy are of.
-  static double old_J(const PointStep& step) { return step.J * std::exp(-trace(step.rate) * step.dt); }
+  // Per volume of the reference state: ½ (P₀ + P₁) : ΔF, which is what the forces do on points that move evenly through
+  // the step. With e = d Δt = ΔU U_mid⁻¹ the stretches at its ends are (1 ∓ ½ e) U_mid.
+  static double old_J(const PointStep& step) {
+    const Tensor half = 0.5 * step.dt * to_tensor(step.rate), one = Tensor::Identity();
+    return step.J * (one - half).determinant() / (one + half).determinant();
+  }
   static double work(const PointStep& step, const Symmetric& before, const Symmetric& after) {
-    return 0.5 * step.dt * double_dot(old_J(step) * before + step.J * after, step.rate);
+    const Tensor half = 0.5 * step.dt * to_tensor(step.rate), one = Tensor::Identity();
+    const Symmetric from_old = symmetric_part(half * (one - half).inverse());
+    const Symmetric from_new = symmetric_part(half * (one + half).inverse());
+    return old_J(step) * double_dot(before, from_old) + step.J * double_dot(after, from_new);
   }
   // What a compacted point gives up as its moduli grow is stored no more.
   double stored_more(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,

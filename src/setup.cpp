@@ -80,9 +80,12 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
       return material.stabilization == type ? material.stabilization_coefficient : 0.0;
     };
     const bool ordinary = material.formulation == deck::Formulation::ordinary;
-    materials.push_back({material.density, material.law, coefficient(deck::StabilizationType::silling),
+    materials.push_back({material.density,
+                         material.law,
+                         coefficient(deck::StabilizationType::silling),
                          ordinary ? Formulation::ordinary : Formulation::correspondence,
-                         ordinary ? 0.0 : coefficient(deck::StabilizationType::mean_gradient)});
+                         ordinary ? 0.0 : coefficient(deck::StabilizationType::mean_gradient),
+                         {material.linear_viscosity, material.quadratic_viscosity}});
   }
   return materials;
 }

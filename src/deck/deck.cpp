@@ -86,6 +86,8 @@ Material material(const Values& values, Problems& problems) {
   Material material{.name = values.name(),
                     .density = values.real("Density"),
                     .stabilization = stabilization(values.text("Stabilization")),
+                    .linear_viscosity = values.real("Linear Viscosity"),
+                    .quadratic_viscosity = values.real("Quadratic Viscosity"),
                     .stabilization_coefficient = values.real("Stabilization Coefficient")};
   for (const LawEntry& law : laws()) {
     if (law.schema.name != values.text("Material Model")) continue;

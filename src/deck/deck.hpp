@@ -45,6 +45,7 @@ struct Material {
   materials::AnyLaw law;  // ordinary: Elastic
   // By correspondence.
   StabilizationType stabilization = StabilizationType::silling;
+  double linear_viscosity = 0, quadratic_viscosity = 0;
   double stabilization_coefficient = 0;  // in units of (λ + 2μ)/(tr K/3), dimensionless
 };
 

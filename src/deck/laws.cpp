@@ -58,8 +58,8 @@ materials::AnyLaw make_foam(const Values& material, Problems& problems) {
   return make_metal_foam(material, checked_moduli(material, problems), problems);
 }
 
-// Of every law by correspondence: the modes that F does not see must be held down.
-Section with_stabilization(Section law) {
+// Of every law by correspondence.
+Section with_common_keys(Section law) {
   law.keys.push_back({.name = "Stabilization",
                       .kind = Kind::choice,
                       .choices = {"Mean Gradient", "Silling", "None"},
@@ -72,6 +72,14 @@ Section with_stabilization(Section law) {
                       .fallback = "0.01",
                       .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for "
                                  "every influence function and horizon. Not Peridigm's Hourglass Coefficient."});
+  law.keys.push_back({.name = "Linear Viscosity",
+                      .range = not_negative,
+                      .fallback = "0",
+                      .meaning =
+                          "b₁ of the artificial viscosity, which spreads shocks over some points: where the volume "
+                          "shrinks at the rate D, a pressure ρ l |D| (b₁ c + b₂² l |D|). 0.06 is usual."});
+  law.keys.push_back(
+      {.name = "Quadratic Viscosity", .range = not_negative, .fallback = "0", .meaning = "b₂. 1.2 is usual."});
   return law;
 }
 
@@ -85,11 +93,11 @@ Section elastic_ordinary() {
 }
 
 Section elastic() {
-  return with_stabilization({.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."});
+  return with_common_keys({.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."});
 }
 
 Section elastic_plastic() {
-  Section section = with_stabilization(flow_stress_section());
+  Section section = with_common_keys(flow_stress_section());
   section.name = "Elastic Plastic Correspondence";
   section.meaning = "J2 plasticity: hypoelastic, with the flow stress that Yield Stress, Hardening and Rate define.";
   return section;
@@ -102,7 +110,7 @@ const std::vector<LawEntry>& laws() {
       {elastic_ordinary(), Formulation::ordinary, make_elastic},
       {elastic(), Formulation::correspondence, make_elastic},
       {elastic_plastic(), Formulation::correspondence, make_j2},
-      {with_stabilization(metal_foam_section()), Formulation::correspondence, make_foam},
+      {with_common_keys(metal_foam_section()), Formulation::correspondence, make_foam},
   };
   return entries;
 }

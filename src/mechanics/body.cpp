@@ -150,6 +150,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   for (MaterialBlock& block : body.blocks) {
     if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
     set_shape(body, block);
+    if (block.material.viscosity.any()) block.viscous.resize(block.points.size());
   }
   set_what_blocks_feel(body);
   return body;
@@ -164,11 +165,12 @@ double bytes_per_point(const Body& body, const MaterialBlock& block) {
                              (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
                              (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
   const std::size_t ordinary = block.is_ordinary() ? sizeof(OrdinaryPoint) : 0;
+  const std::size_t viscous = block.material.viscosity.any() ? sizeof(ViscousPoint) : 0;
   constexpr std::size_t mechanics =
       sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + 2 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int) +
                                 sizeof(std::uint64_t) + sizeof(std::size_t);
-  return static_cast<double>(mechanics + forces + ordinary + cloud + state);
+  return static_cast<double>(mechanics + forces + ordinary + viscous + cloud + state);
 }
 
 }  // namespace

@@ -63,12 +63,27 @@ struct OrdinaryPoint {
   double energy = 0;           // W, J/m³; current after a step with views
 };
 
+// What the artificial viscosity of a block keeps of a point.
+struct ViscousPoint {
+  double pressure = 0;  // J q of the last step, Pa
+  double work = 0;      // taken so far, J per m³ of reference volume
+  double damping = 0;   // part of the critical damping of the fastest wave between points
+};
+
+// Artificial viscosity of von Neumann & Richtmyer (1950) and Landshoff (1955): where the volume shrinks at the rate D,
+// a pressure q = ρ l |D| (b₁ c + b₂² l |D|) resists it, l the distance of points and c the speed of longitudinal waves.
+struct Viscosity {
+  double linear = 0, quadratic = 0;  // b₁, b₂
+  bool any() const { return linear > 0 || quadratic > 0; }
+};
+
 struct BlockMaterial {
   double density = 0;  // kg/m³
   materials::AnyLaw law;
   double stabilization = 0;  // in units of (λ + 2μ)/(tr K/3); 0: none. Ordinary bonds need none, and have none
   Formulation formulation = Formulation::correspondence;
   double mean_stabilization = 0;  // by the mean gradient of both ends; unit as above
+  Viscosity viscosity = {};       // by correspondence
 };
 
 // The points of one block of the mesh on this rank, with their law's state in columns.
@@ -79,6 +94,7 @@ struct MaterialBlock {
   int interior = 0;                     // so many of them need no ghost
   std::vector<double> state;            // state[column * points.size() + k] of points[k]
   std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
+  std::vector<ViscousPoint> viscous;    // of points[k]; empty without viscosity
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
   bool feels_correspondence = false, feels_ordinary = false;
 

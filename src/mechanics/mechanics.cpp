@@ -308,6 +308,7 @@ void add_energies(const Body& body, const MaterialBlock& block, const L& law, En
     const auto state = block.state_of<L>(k);
     sum.elastic += J * law.elastic_energy(body.points[i].stress, state) * volume;
     sum.dissipated += law.dissipation(state) * volume;
+    if (!block.viscous.empty()) sum.dissipated += block.viscous[k].work * volume;
   }
 }
 

@@ -89,10 +89,12 @@ LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, const La
   return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
 }
 
-// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹; times the share of the step.
+// A = P K⁻¹ − C F, P = J R (τ − q I) Rᵀ F⁻ᵀ = J R (τ − q I) U⁻¹; times the share of the step. `viscous`: q, Pa.
 LaneTensor force_states(const Group& g, const Polar<Lanes>& polar, const LaneSymmetric& inverse_stretch,
-                        const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J, const Lanes& share) {
-  const LaneSymmetric stress = symmetrics(g, &MaterialPoint::stress);
+                        const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J, const Lanes& share,
+                        const Lanes& viscous) {
+  LaneSymmetric stress = symmetrics(g, &MaterialPoint::stress);
+  for (int c = 0; c < 3; ++c) stress.c[c] -= viscous;
   LaneTensor A = small::product(small::full(stress), small::full(inverse_stretch));
   A = small::product(small::product(polar.rotation, A), small::full(shape_inverse));
   const Lanes C = lanes(g, [](const MaterialPoint& p) { return p.stabilization; });
@@ -117,16 +119,48 @@ struct Update {
     Symmetric rate;
     for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l];
     typename L::State state = block.state_of<L>(g.k[l]);
-    const double old_modulus = materials::moduli_of(law, state).longitudinal();
     const auto [stress, converged] = law.step({rate, dt, J}, g.points[l]->stress, state);
     if (!converged) return failure.report(g.k[l], Failure::Kind::no_stress);
     g.points[l]->stress = stress;
     store<L>(block, g.k[l], state);
-    if constexpr (materials::has_changing_moduli<L>) {  // C and C̄ are in units of the modulus
-      if (!(old_modulus > 0)) return;
-      const double growth = materials::moduli_of(law, state).longitudinal() / old_modulus;
-      g.points[l]->stabilization *= growth;
-      g.points[l]->mean_stabilization *= growth;
+  }
+
+  // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
+  Lanes viscous_pressure(const Group& g, const LaneSymmetric& rates, const LaneSymmetric& inverse_stretch,
+                         const Lanes& J, const Lanes& dt) const {
+    const auto [linear, quadratic] = block.material.viscosity;
+    const Lanes modulus = 3 * stiffness(g), speed2 = modulus * J, steepness2 = small::square(inverse_stretch) / 3;
+    Lanes q = Lanes::Zero();
+    for (int l = 0; l < g.count; ++l) {
+      if (!(J[l] > 0) || has_failed(g, l)) continue;
+      const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
+      const double length = std::cbrt(body.sites[block.points[g.k[l]]].reference[3]) / std::sqrt(steepness2[l]);
+      const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
+      q[l] = block.material.density / J[l] * jump * by_speed;
+      ViscousPoint& point = block.viscous[g.k[l]];
+      point.work += 0.5 * (point.pressure + J[l] * q[l]) * -D * dt[l];
+      point.pressure = J[l] * q[l];
+      point.damping = jump > 0 ? by_speed / c : 0;
+    }
+    return q;
+  }
+
+  // Whether a point has failed: it has no stiffness left.
+  bool has_failed(const Group& g, int l) const {
+    if constexpr (materials::has_changing_moduli<L>) {
+      return !(law.moduli(block.state_of<L>(g.k[l])).longitudinal() > 0);
+    }
+    return false;
+  }
+
+  // A failed point goes on as a mass. F and R stay as they were.
+  void store_failed(const Group& g, int l) const {
+    MaterialPoint& point = *g.points[l];
+    point.stabilization = point.mean_stabilization = 0;
+    const int i = block.points[g.k[l]];
+    body.force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
+    if (block.material.mean_stabilization > 0) {
+      body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, 0, body.share(i, pass.order));
     }
   }
 
@@ -196,19 +230,25 @@ struct Update {
     const Lanes J = small::determinant(F);
     const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
     const Lanes share = of_points(g, [this](int i) { return body.share(i, pass.order); });
+    const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
+    Lanes viscous = Lanes::Zero();
     if (pass.dt > 0) {
       const LaneSymmetric rates = strain_rate(g, polar.stretch, pass.dt * share);
       for (int l = 0; l < g.count; ++l) {
         if (J[l] > 0) advance(g, l, rates, pass.dt * share[l], J[l]);
       }
+      if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, J, pass.dt * share);
     }
-    const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
-    const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share);
+    const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share, viscous);
     const Lanes volume = of_points(g, [this](int i) { return body.sites[i].reference[3]; });
     const Lanes pace2 = stiffness(g) * share * share * J * volume * small::square(inverse_stretch) *
                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
     for (int l = 0; l < g.count; ++l) {
+      if (has_failed(g, l)) {
+        store_failed(g, l);
+        continue;
+      }
       if (!(J[l] > 0)) {  // NaN too
         failure.report(g.k[l], Failure::Kind::inverted);
         continue;
@@ -229,6 +269,8 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
                                  STRUT_INLINE_ALL { return update.advance_group(begin + 4 * group, end); };
   const double fastest = largest(0, (end - begin + 3) / 4, 0, advance_group);
   report.pace = std::max(report.pace, std::sqrt(fastest));
+  const auto damping = [&block](int k) { return block.viscous[k].damping; };
+  report.damping = largest(0, static_cast<int>(block.viscous.size()), report.damping, damping);
   if (!report.failure) report.failure = failure.found(block);
 }
 

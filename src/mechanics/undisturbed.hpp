@@ -6,8 +6,8 @@
 
 namespace strut {
 
-// Collective. Marks the blocks of bodies (BlockBonds::body) whose points are all where they are in the reference state, and
-// no others. The solver does at its start; who moves points by hand then does it again.
+// Collective. Marks the blocks of bodies (BlockBonds::body) whose points are all where they are in the reference state,
+// and no others. The solver does at its start; who moves points by hand then does it again.
 void find_undisturbed(Body& body);
 
 // Collective while any body is undisturbed, else free. Takes the mark off the bodies whose points no longer have one

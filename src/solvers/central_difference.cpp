@@ -99,10 +99,12 @@ void CentralDifference::kick(double final_time) {
   if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
 }
 
-// ω² of a sum of operators is at most the sum of theirs.
+// ω² of a sum of operators is at most the sum of theirs. A damping by the velocities of the mid-step before takes as
+// much of the step as the formula of StepReport says.
 double CentralDifference::stable_step() const {
   const double alone = limit_ * std::min(1.0, pace_at_estimate_ / pace_);
-  return alone / std::sqrt(1 + 0.25 * alone * alone * contact_.stiffness());
+  const double undamped = alone / std::sqrt(1 + 0.25 * alone * alone * contact_.stiffness());
+  return undamped * (std::sqrt(1 + damping_ * damping_) - damping_);
 }
 
 void CentralDifference::add_work_of_friction(double kick) {
@@ -182,7 +184,7 @@ void CentralDifference::move(bool with_views) {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.pace};
+  std::vector<double> agreed{report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.pace, report.damping};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(crowd(), agreed);
   {
@@ -192,6 +194,7 @@ void CentralDifference::check(const StepReport& report) {
   }
   stop_agreed_ = agreed[1] > 0;
   pace_ = agreed[2];
+  damping_ = agreed[3];
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
   if (agreed[0] == 0) return;
   std::ostringstream text;

@@ -79,7 +79,7 @@ class CentralDifference {
   Work work_;                                    // up to the mid-step before time()
   KickWork kick_work_;                           // of the impulses at time()
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
-  double limit_ = 0, pace_ = 0, pace_at_estimate_ = 0;
+  double limit_ = 0, pace_ = 0, pace_at_estimate_ = 0, damping_ = 0;
   double put_in_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;

@@ -323,16 +323,16 @@ TEST_P(LawTest, PlasticStrainDoesNotDependOnTheStep) {
 // ---- Energy ---------------------------------------------------------------------------------------------------------
 
 // At J = 1 the trapezoid of the stress power is what is stored and what is dissipated, to the round-off of the sum and
-// the 1e-12 of the law's solution, whether a step starts to flow or not. Laws that reckon with the change of J over the
-// step get rates that leave it at 1; test_metal_foam has the others.
+// the 1e-12 of the law's solution, whether a step starts to flow or not. For laws that reckon with the change of J
+// over the step see test_metal_foam.
 TEST_P(LawTest, WorkIsStoredOrDissipated) {
   with_law([]<Law L>(const L& law) {
+    if (!keeps_its_volume<L>) GTEST_SKIP() << "reckons with the change of J";
     Random random(5);
     Point<L> point;
     double work = 0, size = 0;
     for (int i = 0; i < 500; ++i) {
-      PointStep step{random_tensor(random, power_of_ten(random, 3, 4.5)), 1e-8, 1};
-      if (!keeps_its_volume<L>) step.rate = deviator(step.rate);
+      const PointStep step{random_tensor(random, power_of_ten(random, 3, 4.5)), 1e-8, 1};
       const Symmetric old = point.stress;
       ASSERT_TRUE(point.advance(law, step));
       const double done = 0.5 * step.dt * double_dot(old + point.stress, step.rate);

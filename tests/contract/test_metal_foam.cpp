@@ -121,6 +121,29 @@ TEST(MetalFoam, DissipatesWhatTheFlowStressDoes) {
   EXPECT_LT(error[1], error[0] / 5);
 }
 
+// In uniaxial strain P = σ: the trapezoid of its work is what is stored and what is dissipated, in steps of any size.
+TEST(MetalFoam, WorkIsStoredOrDissipated) {
+  DeshpandeFleck law = foam();
+  law.compacted = {75e9, 26e9};
+  DeshpandeFleck::State state;
+  Symmetric stress = Symmetric::Zero();
+  double F = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double old_F = F, old_stress = stress[0], old_stored = old_F * law.elastic_energy(stress, state);
+    const double old_plastic = state.equivalent_plastic_strain, old_dissipated = law.dissipation(state);
+    F *= 0.96;
+    const Symmetric rate{(F - old_F) / (0.5 * (F + old_F)) / 1e-6, 0, 0, 0, 0, 0};
+    const PointStress next = law.step({rate, 1e-6, F}, stress, state);
+    ASSERT_TRUE(next.converged);
+    stress = next.stress;
+    if (state.equivalent_plastic_strain == old_plastic) continue;  // elastic: dissipates nothing
+    const double work = 0.5 * (stress[0] + old_stress) * (F - old_F);
+    const double kept = F * law.elastic_energy(stress, state) - old_stored + law.dissipation(state) - old_dissipated;
+    EXPECT_NEAR(kept, work, 1e-12 * (work + old_stored)) << i;
+  }
+  EXPECT_GT(state.equivalent_plastic_strain, 1.5);
+}
+
 // However hard it is pressed, ε̂ stays below ε_D, and the stress goes on to grow.
 TEST(MetalFoam, LocksWithoutOverstepping) {
   const DeshpandeFleck law = foam();
