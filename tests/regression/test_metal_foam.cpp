@@ -60,11 +60,10 @@ TEST(MetalFoam, ShockIsThatOfTheJumpConditions) {
     if (now.time < 0.04e-3) early = now.momentum[2], from = now.time;
     if (now.time < 0.19e-3) late = now.momentum[2], to = now.time;
   });
-  EXPECT_LT(end.balance_error, 0.01);
-  std::cout << end.balance_error << " " << (late - early) / (to - from) / 4e-6 << " " << shock_of(v).stress << "\n";
+  EXPECT_LT(end.balance_error, 1e-4);
   const Shock expected = shock_of(v);
   EXPECT_GT(expected.strain, 0.5);  // near the locking strain of 1 − 1/e
-  EXPECT_NEAR((late - early) / (to - from) / 4e-6, expected.stress, 0.02 * expected.stress);
+  EXPECT_NEAR((late - early) / (to - from) / 4e-6, expected.stress, 0.02 * expected.stress);  // measured: 1.1 % below
 }
 
 // Pressed between its ends to a tenth of its height, the foam goes on to carry load.

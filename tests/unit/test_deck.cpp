@@ -1,6 +1,8 @@
 // Decks that are right: every key into the structs, and every default.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "deck_under_test.hpp"
 
 namespace strut::deck {
@@ -265,6 +267,35 @@ TEST(Deck, ReadsTheTaylorDecks) {
     ++count;
   }
   EXPECT_GE(count, 10);
+}
+
+const char* const foam_keys = R"(value="Metal Foam Correspondence"/>
+      <Parameter name="Plateau Stress" type="double" value="3e6"/>
+      <Parameter name="Linear Hardening" type="double" value="3e6"/>
+      <Parameter name="Locking Stress" type="double" value="45e6"/>
+      <Parameter name="Locking Exponent" type="double" value="4"/>
+)";
+
+std::string foam_deck(const std::string& more) {
+  return changed(full_deck, R"(value="Elastic Correspondence"/>)", foam_keys + more);
+}
+
+// α from ν_p, ε_D from the densities: −(9 + α²)/(3 α²) ln(ρ_f/ρ_s), 0 < ν_p.
+TEST(Deck, MetalFoamFromPoissonsRatioAndDensities) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(foam_deck(R"(<Parameter name="Plastic Poisson's Ratio" type="double" value="0.1"/>
+      <Parameter name="Solid Density" type="double" value="1e5"/>)"));
+  const auto& law = std::get<materials::DeshpandeFleck>(deck.materials[1].law);
+  EXPECT_DOUBLE_EQ(law.alpha * law.alpha, 4.5 * 0.8 / 1.1);
+  const double ratio = deck.materials[1].density / 1e5, square = law.alpha * law.alpha;
+  EXPECT_NEAR(law.densification, -(9 + square) / (3 * square) * std::log(ratio), 1e-12);
+}
+
+TEST(Deck, MetalFoamNamesWhatIsMissing) {
+  const DeckFolder folder;
+  const std::string error = folder.error(foam_deck(R"(<Parameter name="Alpha" type="double" value="2.1"/>)"));
+  EXPECT_NE(error.find("'Densification Strain' or 'Solid Density' is missing; expected one of them"), std::string::npos)
+      << error;
 }
 
 }  // namespace
