@@ -16,8 +16,8 @@ struct Failure {
 
 struct StepReport {
   double pace = 0;  // 1/s, the largest of any point, as a part of its step: the stable step shrinks with it
-  double damping =
-      0;  // ζ, the largest part of the critical damping by viscosity: the stable step is √(1 + ζ²) − ζ of that without
+  // ζ, the largest part of the critical damping by viscosity: the stable step is √(1 + ζ²) − ζ of that without.
+  double damping = 0;
   std::optional<Failure> failure;  // the first on this rank; its stress is the old one
 };
 
