@@ -68,7 +68,7 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
     const bool one_body = domain.blocks[first].body == domain.blocks[second].body;
     Parties parties{first, second, one_body, points_of(domain, first, second)};
     const double horizon = std::min(domain.blocks[first].smallest, domain.blocks[second].smallest);
-    meetings_.push_back({interaction, std::move(parties), skin_share * horizon});
+    meetings_.push_back({model, std::move(parties), skin_share * horizon});
     blocks_.insert(blocks_.end(), {first, second});
   }
   std::sort(blocks_.begin(), blocks_.end());
@@ -76,7 +76,7 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
 }
 
 void Contact::search(const Crowd& crowd, Meeting& meeting) {
-  const Model& model = meeting.interaction.model;
+  const Model& model = meeting.model;
   meeting.places.clear();
   for (const int i : meeting.parties.points) meeting.places.push_back(place(crowd, i));
   const double gap = meeting.parties.self() ? 0 : distance_of_boxes(crowd, meeting.parties, meeting.places);
@@ -121,7 +121,7 @@ void Contact::look(const Crowd& crowd, Meeting& meeting) {
   meeting.travelled = 2 * farthest[0];
   if (all_moved == 0) return;
   for (const int k : moved) meeting.places[k] = place(crowd, points[k]) - mean;
-  renew_pairs(crowd, meeting.parties, meeting.places, moved, meeting.interaction.model, meeting.skin, meeting.pairs);
+  renew_pairs(crowd, meeting.parties, meeting.places, moved, meeting.model, meeting.skin, meeting.pairs);
   meeting.friction.clear();
   ++renewals_;
 }
@@ -131,7 +131,7 @@ void Contact::add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::v
   if (pairs.empty() && !pairs.halo) return;
   static Teuchos::Time& timer = phase("Contact forces");
   const Timed timed(timer);
-  const Model& model = meeting.interaction.model;
+  const Model& model = meeting.model;
   meeting.tally = add_normal_forces(crowd, model, pairs, force_density);
   if (model.friction > 0 && dt > 0) add_friction(crowd, model, dt, pairs, force_density, meeting.friction);
 }
@@ -147,16 +147,10 @@ void Contact::add_forces(const Crowd& crowd, double dt, std::vector<Vector>& for
 void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const {
   if (!any()) return;
   for (const Meeting& meeting : meetings_) numbers.push_back(meeting.tally.stiffness);
+  std::vector<Reach> reaches(crowd.domain.blocks.size());
+  for (int i = 0; i < crowd.domain.owned; ++i) reaches[crowd.domain.cloud.blocks[i]].add(crowd.velocities[i]);
   for (const int block : blocks_) {
-    for (const Meeting& meeting : meetings_) {
-      if (meeting.interaction.first != block && meeting.interaction.second != block) continue;
-      Reach reach;
-      for (const int i : meeting.parties.points) {
-        if (crowd.domain.cloud.blocks[i] == block) reach.add(crowd.velocities[i]);
-      }
-      numbers.insert(numbers.end(), std::begin(reach.along), std::end(reach.along));
-      break;
-    }
+    numbers.insert(numbers.end(), std::begin(reaches[block].along), std::end(reaches[block].along));
   }
 }
 
@@ -170,7 +164,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
     return numbers.data() + meetings_.size() + 6 * at;
   };
   for (Meeting& meeting : meetings_) {
-    const double motion = dt * diagonal(reach(meeting.interaction.first), reach(meeting.interaction.second));
+    const double motion = dt * diagonal(reach(meeting.parties.first), reach(meeting.parties.second));
     meeting.travelled += motion;
     meeting.due = !(meeting.travelled + forecast * motion < meeting.allowance);
   }

@@ -50,7 +50,7 @@ class Contact {
  private:
   // One interaction as it goes on.
   struct Meeting {
-    Interaction interaction;
+    Model model;
     Parties parties;
     double skin = 0;       // m: how much nearer than a search finds its pairs two points may come before the next one
     double allowance = 0;  // relative motion after which the next search is due, m

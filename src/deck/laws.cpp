@@ -10,13 +10,19 @@ namespace {
 
 const std::array<std::string, 4> elastic_keys = {"Bulk Modulus", "Shear Modulus", "Young's Modulus", "Poisson's Ratio"};
 
+}  // namespace
+
+materials::Moduli moduli_from(double E, double nu) { return {E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))}; }
+
+namespace {
+
 // From any two of the four constants.
 materials::Moduli moduli(const Values& material) {
   const auto& [bulk, shear, young, poisson] = elastic_keys;
   const double K = material.real(bulk), G = material.real(shear);
   const double E = material.real(young), nu = material.real(poisson);
   if (!material.has(young) && !material.has(poisson)) return {K, G};
-  if (!material.has(bulk) && !material.has(shear)) return {E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))};
+  if (!material.has(bulk) && !material.has(shear)) return moduli_from(E, nu);
   if (!material.has(shear) && !material.has(poisson)) return {K, 3 * K * E / (9 * K - E)};
   if (!material.has(shear)) return {K, 3 * K * (1 - 2 * nu) / (2 * (1 + nu))};
   if (!material.has(poisson)) return {G * E / (3 * (3 * G - E)), G};

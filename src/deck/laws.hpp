@@ -22,6 +22,9 @@ const std::vector<LawEntry>& laws();
 // What all materials share: density, elastic constants.
 Section material_section();
 
+// From Young's modulus (Pa) and Poisson's ratio.
+materials::Moduli moduli_from(double E, double nu);
+
 // Of a metal foam; `foam`: its moduli as it is at first.
 Section metal_foam_section();
 materials::AnyLaw make_metal_foam(const Values& material, const materials::Moduli& foam, Problems& problems);

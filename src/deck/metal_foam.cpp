@@ -45,8 +45,7 @@ materials::Moduli compacted_moduli(const Values& material, const materials::Modu
     problems.add(material.path(), "'" + young + "' and '" + poisson + "' belong together; expected both or none");
     return foam;
   }
-  const double E = material.real(young), nu = material.real(poisson);
-  return {E / (3 * (1 - 2 * nu)), E / (2 * (1 + nu))};
+  return moduli_from(material.real(young), material.real(poisson));
 }
 
 Key number(const std::string& name, const std::string& unit, Range range, const std::string& meaning) {

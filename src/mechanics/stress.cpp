@@ -126,13 +126,14 @@ struct Update {
   }
 
   // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
+  // `stiffness`: M/(3ρ), of failed points 0.
   Lanes viscous_pressure(const Group& g, const LaneSymmetric& rates, const LaneSymmetric& inverse_stretch,
-                         const Lanes& J, const Lanes& dt) const {
+                         const Lanes& stiffness, const Lanes& J, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
-    const Lanes modulus = 3 * stiffness(g), speed2 = modulus * J, steepness2 = small::square(inverse_stretch) / 3;
+    const Lanes speed2 = 3 * stiffness * J, steepness2 = small::square(inverse_stretch) / 3;
     Lanes q = Lanes::Zero();
     for (int l = 0; l < g.count; ++l) {
-      if (!(J[l] > 0) || has_failed(g, l)) continue;
+      if (!(J[l] > 0) || !(stiffness[l] > 0)) continue;
       const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
       const double length = std::cbrt(body.sites[block.points[g.k[l]]].reference[3]) / std::sqrt(steepness2[l]);
       const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
@@ -143,14 +144,6 @@ struct Update {
       point.damping = jump > 0 ? by_speed / c : 0;
     }
     return q;
-  }
-
-  // Whether a point has failed: it has no stiffness left.
-  bool has_failed(const Group& g, int l) const {
-    if constexpr (materials::has_changing_moduli<L>) {
-      return !(law.moduli(block.state_of<L>(g.k[l])).longitudinal() > 0);
-    }
-    return false;
   }
 
   // A failed point goes on as a mass. F and R stay as they were.
@@ -164,8 +157,8 @@ struct Update {
     }
   }
 
-  // M/(3ρ) of the points of a group, m²/s².
-  Lanes stiffness(const Group& g) const {
+  // M/(3ρ) of the points of a group, m²/s²; 0 of those that have failed.
+  Lanes stiffness_of(const Group& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
       for (int l = 0; l < 4; ++l) modulus[l] = law.moduli(block.state_of<L>(g.k[l])).longitudinal();
@@ -231,21 +224,22 @@ struct Update {
     const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
     const Lanes share = of_points(g, [this](int i) { return body.share(i, pass.order); });
     const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
-    Lanes viscous = Lanes::Zero();
+    Lanes stiffness = stiffness_of(g), viscous = Lanes::Zero();
     if (pass.dt > 0) {
       const LaneSymmetric rates = strain_rate(g, polar.stretch, pass.dt * share);
       for (int l = 0; l < g.count; ++l) {
         if (J[l] > 0) advance(g, l, rates, pass.dt * share[l], J[l]);
       }
-      if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, J, pass.dt * share);
+      if constexpr (materials::has_changing_moduli<L>) stiffness = stiffness_of(g);
+      if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, stiffness, J, pass.dt * share);
     }
     const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share, viscous);
     const Lanes volume = of_points(g, [this](int i) { return body.sites[i].reference[3]; });
-    const Lanes pace2 = stiffness(g) * share * share * J * volume * small::square(inverse_stretch) *
+    const Lanes pace2 = stiffness * share * share * J * volume * small::square(inverse_stretch) *
                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
     for (int l = 0; l < g.count; ++l) {
-      if (has_failed(g, l)) {
+      if (!(stiffness[l] > 0)) {  // has failed
         store_failed(g, l);
         continue;
       }

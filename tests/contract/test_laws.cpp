@@ -229,7 +229,7 @@ constexpr bool keeps_its_volume = !std::same_as<L, DeshpandeFleck>;
 
 TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
   with_law([]<Law L>(const L& law) {
-    if constexpr (!keeps_its_volume<L>) return;
+    if (!keeps_its_volume<L>) GTEST_SKIP() << "see test_metal_foam";
     constexpr double rate = 1e4, dt = 1e-8;
     point::Driver<L> point(law);
     double old_plastic = 0, plastic = 0, q = 0;
@@ -246,7 +246,7 @@ TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
 
 TEST_P(LawTest, UniaxialStressIsTheClosedForm) {
   with_law([]<Law L>(const L& law) {
-    if constexpr (!keeps_its_volume<L>) return;
+    if (!keeps_its_volume<L>) GTEST_SKIP() << "see test_metal_foam";
     constexpr double rate = 1e4, dt = 1e-8;
     point::Driver<L> point(law);
     double old_plastic = 0, plastic = 0;
