@@ -144,6 +144,13 @@ void Contact::add_forces(const Crowd& crowd, double dt, std::vector<Vector>& for
   }
 }
 
+void Contact::add_stiffness(std::span<const Vector> field, std::span<Vector> result) {
+  for (Meeting& meeting : meetings_) {
+    if (meeting.pairs.empty() && !meeting.pairs.halo) continue;
+    contact::add_stiffness(meeting.model, meeting.pairs, field, result);
+  }
+}
+
 void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const {
   if (!any()) return;
   for (const Meeting& meeting : meetings_) numbers.push_back(meeting.tally.stiffness);

@@ -32,6 +32,10 @@ class Contact {
   // here (s), 0 at the start.
   void add_forces(const Crowd& crowd, double dt, std::vector<Vector>& force_density);
 
+  // Collective, after add_forces. Adds the stiffness of what touches, times a field of the owned points, to result (N/m
+  // times the field's unit). Without friction.
+  void add_stiffness(std::span<const Vector> field, std::span<Vector> result);
+
   // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
   // with its own, and hands it back.
   void append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const;

@@ -129,4 +129,16 @@ void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pair
   }
 }
 
+void add_stiffness(const Model& model, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
+  std::vector<Vector> values(pairs.sites.size());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) values[k] = field[pairs.owned[k]];
+  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(values.data()), 3, 3);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    for_each_touch(pairs, model, k, [&](const Touch& touch) {
+      const double approach = touch.direction.dot(values[k] - values[touch.partner]);
+      result[pairs.owned[k]] += touch.stiffness * approach * touch.direction;
+    });
+  }
+}
+
 }  // namespace strut::contact

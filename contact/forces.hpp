@@ -23,4 +23,8 @@ Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, st
 void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
                   std::vector<Vector>& friction);
 
+// Collective, after add_normal_forces. Adds the stiffness of the touching pairs, times a field of the body's owned
+// points, to result (N/m times the field's unit). The turning of a pair's direction is left out.
+void add_stiffness(const Model& model, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);
+
 }  // namespace strut::contact

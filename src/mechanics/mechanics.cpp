@@ -8,6 +8,7 @@
 #include "mechanics/lattice_sums.hpp"
 #include "mechanics/ordinary_bonds.hpp"
 #include "mechanics/stress.hpp"
+#include "mechanics/tangent.hpp"
 
 namespace strut {
 
@@ -181,7 +182,14 @@ Tensor change_of_gradient(const Body& body, const MaterialBlock& block, const st
   return N * to_tensor(body.points[i].shape_inverse);
 }
 
-void set_tangent_states(const Body& body, const std::vector<Site>& directions, Part part, ForceStates& result) {
+// The same with ∂P/∂F as it is.
+ForceState tangent_state(const MaterialPoint& point, const PointTangent& tangent, const Tensor& dF) {
+  const Tensor A = tangent.times(dF) * to_tensor(point.shape_inverse) - point.stabilization * dF;
+  return bonds::packed(A, point.stabilization);
+}
+
+void set_tangent_states(const Body& body, const std::vector<Site>& directions,
+                        const std::vector<PointTangent>* tangents, Part part, ForceStates& result) {
   over_lattices(body, Bodies::all, part, [&](LatticeSums& sums) { sums.add_moments(body, {directions.data(), true}); });
   for (const MaterialBlock& block : body.blocks) {
     const auto [begin, end] = range(block, part);
@@ -196,7 +204,8 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
         const MaterialPoint& point = body.points[i];
         const Tensor dF = change_of_gradient(body, block, directions, i, weight);
         const double share = body.share(i);
-        result.tensors[i] = tangent_state(point, moduli, dF, share);
+        result.tensors[i] =
+            tangents ? tangent_state(point, (*tangents)[i], dF) : tangent_state(point, moduli, dF, share);
         if (block.material.mean_stabilization > 0) {
           result.gradients[i] = bonds::packed(dF, point.mean_stabilization, share * share);
         }
@@ -207,7 +216,9 @@ void set_tangent_states(const Body& body, const std::vector<Site>& directions, P
 
 }  // namespace
 
-StepReport advance_stress(Body& body, double dt, bool with_views) {
+namespace {
+
+StepReport advance(Body& body, const StressPass& pass, bool with_views) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
   StepReport report;
   const Displacements u{body.sites.data()};
@@ -220,7 +231,7 @@ StepReport advance_stress(Body& body, double dt, bool with_views) {
       } else if (block.is_ordinary()) {
         advance_ordinary(body, block, with_views, part, report);
       } else {
-        advance_stress(body, block, {dt}, part, report);
+        advance_stress(body, block, pass, part, report);
       }
     }
     if (!with_views) return;
@@ -238,6 +249,10 @@ StepReport advance_stress(Body& body, double dt, bool with_views) {
       [&] { over(Part::boundary); });
   return report;
 }
+
+}  // namespace
+
+StepReport advance_stress(Body& body, double dt, bool with_views) { return advance(body, {dt}, with_views); }
 
 void sum_forces(Body& body, bool with_views) {
   static Teuchos::Time& stabilizing = phase("Stabilisation");
@@ -266,6 +281,12 @@ StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
   return report;
 }
 
+StepReport advance_by_any_step(Body& body, double dt, bool with_views) {
+  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_views);
+  sum_forces(body, with_views);
+  return report;
+}
+
 double largest_pace(const Body& body, const MaterialBlock& block) {
   const auto of_point = [&](int k) { return pace(body, block, k) * body.share(block.points[k]); };
   return largest(0, static_cast<int>(block.points.size()), 0, of_point);
@@ -280,11 +301,12 @@ double pace(const Body& body, const MaterialBlock& block, int k) {
   return std::sqrt(modulus / body.density[i] * body.domain.volumes[i] * trace(point.shape_inverse) / 3 * steepness);
 }
 
-void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
-                   std::vector<Vector>& result) {
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
+                   const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result) {
+  const auto set_states = [&](Part part) { set_tangent_states(body, directions, tangents, part, scratch); };
   behind_exchange(
-      halo, places(directions), site_stride, 3, [&] { set_tangent_states(body, directions, Part::interior, scratch); },
-      [&] { set_tangent_states(body, directions, Part::boundary, scratch); });
+      halo, places(directions), site_stride, 3, [&] { set_states(Part::interior); },
+      [&] { set_states(Part::boundary); });
   if (!scratch.gradients.empty()) {
     behind_exchange(halo, scratch.gradients, [&](Part part) {
       add_residual(body, Bodies::all, directions, {directions.data(), true}, part, scratch, result, {});
@@ -294,7 +316,7 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, 
          ForceSum<bonds::OfField>{
              body, Bodies::all, directions, {directions.data(), true}, {directions.data()}, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
-  for_each_point(0, body.owned(), [&](int i) { result[i] /= -body.density[i]; });
+  for_each_point(0, body.owned(), [&](int i) { result[i] *= -1; });
 }
 
 namespace {

@@ -8,6 +8,8 @@
 
 namespace strut {
 
+struct PointTangent;
+
 // A point at which a step went wrong.
 struct Failure {
   int point;  // owned, local index
@@ -34,18 +36,22 @@ void sum_forces(Body& body, bool with_views);
 // Both.
 StepReport advance_stress_and_force(Body& body, double dt, bool with_views);
 
+// The same for a step of any size, as an implicit solver takes it: rotations to round-off.
+StepReport advance_by_any_step(Body& body, double dt, bool with_views);
+
 // A bound of what the stress of block.points[k] adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
 double pace(const Body& body, const MaterialBlock& block, int k);
 
 // Of the points of a block on this rank, as parts of their steps.
 double largest_pace(const Body& body, const MaterialBlock& block);
 
-// Collective. The linearised operator with the elastic moduli in the current state, applied to a field:
-// result = −f(v)/ρ (1/s² times v's unit). `directions` holds v in the place of y: a scratch copy of body.sites.
-// The geometric stiffness (of the order stress/modulus) is left out.
+// Collective. The linearised operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
+// `directions` holds v in the place of y: a scratch copy of body.sites.
+// `tangents`: of the owned points by correspondence (tangent.hpp); if null, those of the elastic moduli, without the
+// geometric stiffness (of the order stress/modulus), which is left out of ordinary points in any case.
 // `scratch`: a copy of body.force_states, or these themselves: forces and the next stresses do without.
-void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions, ForceStates& scratch,
-                   std::vector<Vector>& result);
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
+                   const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result);
 
 struct Energies {
   double elastic = 0, dissipated = 0, stabilization = 0;  // J

@@ -207,6 +207,13 @@ struct Update {
     return F;
   }
 
+  // Each further update squares what the first one left.
+  Polar<Lanes> polar_of(const Group& g, const LaneTensor& F) const {
+    Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
+    for (int n = 0; pass.of_any_size && n < 3; ++n) polar = polar_update(polar.rotation, F);
+    return polar;
+  }
+
   // Of each point of a group.
   template <class Of>
   Lanes of_points(const Group& g, Of of) const {
@@ -221,7 +228,7 @@ struct Update {
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
     const LaneTensor F = deformation_gradient(g, shape_inverse);
     const Lanes J = small::determinant(F);
-    const Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
+    const Polar<Lanes> polar = polar_of(g, F);
     const Lanes share = of_points(g, [this](int i) { return body.share(i, pass.order); });
     const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
     Lanes stiffness = stiffness_of(g), viscous = Lanes::Zero();

@@ -34,10 +34,12 @@ class FirstFailure {
 // Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
 //   dt: of a step that is halved `order` times
 //   chosen: places in block.points, of those to advance; all points if null
+//   of_any_size: the step may turn a point far; its rotation is found to round-off
 struct StressPass {
   double dt;
   int order = 0;
   const std::vector<int>* chosen = nullptr;
+  bool of_any_size = false;
 };
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report);
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report);

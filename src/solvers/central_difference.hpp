@@ -5,20 +5,10 @@
 #include "mechanics/conditions.hpp"
 #include "mechanics/mechanics.hpp"
 #include "mechanics/subcycles.hpp"
+#include "solvers/ledger.hpp"
 #include "solvers/stable_step.hpp"
 
 namespace strut {
-
-// The ledger of a run at one time.
-struct Ledger {
-  double time = 0, dt = 0;                                             // s
-  double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
-  double external = 0;  // J, work of loads and prescribed motion on the points so far
-  // J, work of walls and contact on the points so far: what penalties store and friction and walls take is negative.
-  double contact = 0;
-  double balance_error = 0;          // |stored + dissipated − put in| over the largest sum of energies so far
-  Vector momentum = Vector::Zero();  // kg m/s
-};
 
 struct StepControl {
   double fixed_dt = 0;  // s; 0: from the stable step

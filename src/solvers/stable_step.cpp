@@ -78,7 +78,8 @@ Lanczos iterate(Body& body, Field q, int iterations) {
   for (int k = 0; k < iterations; ++k) {
     for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = q[i].array();
     lanczos.basis.push_back(stored(q));
-    apply_tangent(body, body.domain.halo, directions, body.force_states, image);
+    apply_tangent(body, body.domain.halo, directions, nullptr, body.force_states, image);
+    for (int i = 0; i < body.owned(); ++i) image[i] /= body.density[i];
     lanczos.diagonal.push_back(inner(body, image, q));
     // Against the whole basis: it is short, and ghosts of converged modes would spoil the residual.
     for (const StoredField& earlier : lanczos.basis) {

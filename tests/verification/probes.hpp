@@ -46,7 +46,8 @@ std::vector<Vector> operator_on(Body& body, OfPoint&& field) {
   for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = field(i).array();
   ForceStates scratch = body.force_states;
   std::vector<Vector> result(body.owned());
-  apply_tangent(body, body.domain.halo, directions, scratch, result);
+  apply_tangent(body, body.domain.halo, directions, nullptr, scratch, result);
+  for (int i = 0; i < body.owned(); ++i) result[i] /= body.density[i];
   return result;
 }
 

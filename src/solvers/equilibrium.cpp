@@ -1,0 +1,143 @@
+#include "solvers/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/timing.hpp"
+
+namespace strut {
+
+namespace {
+
+// Reactions that have become smaller than this part of the largest so far are no scale: what is left of an unloaded
+// body is round-off of its loading.
+constexpr double smallest_scale = 1e-4;
+
+double squared_norm(const Field& field) {
+  double sum = 0;
+  for (const Vector& v : field) sum += v.squaredNorm();
+  return sum;
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact)
+    : body_(body), conditions_(std::move(conditions)), contact_(std::move(contact)), committed_(body) {
+  residual_.assign(body.owned(), Vector::Zero());
+  outer_ = outer_before_ = residual_;
+  directions_ = body.sites;
+  looked_at_.resize(body.owned());
+  for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
+}
+
+void Equilibrium::begin(double t, double dt) {
+  t_ = t, dt_ = dt;
+  held_.emplace(conditions_, body_, t, dt);
+}
+
+Imbalance Equilibrium::evaluate(bool with_views) {
+  static Teuchos::Time& timer = phase("Trials");
+  const Timed timed(timer);
+  committed_.restore_materials(body_);
+  const StepReport report = advance_by_any_step(body_, dt_, with_views);
+  failure_ = report.failure;
+  residual_ = body_.force_density;
+  add_body_forces(conditions_, t_ + dt_, body_);
+  for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volumes[i] * (body_.force_density[i] - residual_[i]);
+  add_contact();
+  for (int i = 0; i < body_.owned(); ++i) residual_[i] = body_.domain.volumes[i] * body_.force_density[i];
+  return measure(report.failure.has_value());
+}
+
+// Contact asks how far points may have moved by their velocities: those of the way from the last trial, in a second.
+void Equilibrium::add_contact() {
+  if (!contact_.any()) return;
+  std::vector<Vector> way(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) {
+    way[i] = body_.current(i) - looked_at_[i];
+    looked_at_[i] += way[i];
+  }
+  const contact::Crowd crowd{body_.domain, body_.sites, way, body_.density};
+  std::vector<double> agreed;
+  contact_.append_to_agree(crowd, agreed);
+  body_.domain.communicator.max(agreed);
+  contact_.take_agreed(agreed, 1);
+  contact_.add_forces(crowd, 0, body_.force_density);
+}
+
+// The reactions are what balances the forces in held directions.
+Imbalance Equilibrium::measure(bool failed) {
+  Field reactions = residual_;
+  held_->keep(reactions);
+  held_->remove(residual_);
+  for (int i = 0; i < body_.owned(); ++i) outer_[i] -= reactions[i];
+  double sums[] = {squared_norm(residual_), squared_norm(outer_), failed ? 1.0 : 0.0};
+  body_.domain.communicator.sum(sums);
+  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1]), sums[2] > 0};
+  if (!std::isfinite(now.norm + now.scale)) now.failed = true;
+  last_scale_ = now.scale;
+  now.scale = std::max(now.scale, smallest_scale * largest_scale_);
+  return now;
+}
+
+void Equilibrium::linearise() {
+  static Teuchos::Time& timer = phase("Tangents");
+  const Timed timed(timer);
+  tangents_ = point_tangents(body_, committed_, dt_);
+}
+
+void Equilibrium::apply(const Field& field, Field& result) {
+  static Teuchos::Time& timer = phase("Products");
+  const Timed timed(timer);
+  for (int i = 0; i < body_.owned(); ++i) directions_[i].current.head<3>() = field[i].array();
+  apply_tangent(body_, body_.domain.halo, directions_, &tangents_, body_.force_states, result);
+  for (int i = 0; i < body_.owned(); ++i) result[i] *= body_.domain.volumes[i];
+  contact_.add_stiffness(field, result);
+}
+
+void Equilibrium::commit() {
+  largest_scale_ = std::max(largest_scale_, last_scale_);
+  for (int i = 0; i < body_.owned(); ++i) {
+    body_.velocity[i] = (body_.current(i) - committed_.place(i)) / dt_;
+    body_.previous_velocity[i] = body_.velocity[i];
+  }
+  committed_.take(body_);
+  outer_before_ = outer_;
+}
+
+void Equilibrium::go_back() { committed_.restore(body_); }
+
+double Equilibrium::external_work() const {
+  double sum = 0;
+  for (int i = 0; i < body_.owned(); ++i) {
+    sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
+  }
+  return sum;
+}
+
+std::string Equilibrium::weakest_point() const {
+  const Communicator& ranks = body_.domain.communicator;
+  double largest = 0;
+  int worst = -1;
+  for (int i = 0; i < body_.owned(); ++i) {
+    if (residual_[i].norm() > largest || worst < 0) largest = residual_[i].norm(), worst = i;
+  }
+  // A failure counts above any force.
+  const double rating = failure_ ? HUGE_VAL : largest;
+  const double highest = ranks.max(rating);
+  std::string text;
+  if (rating == highest && worst >= 0) {
+    const PointCloud& cloud = body_.domain.cloud;
+    const Vector X = cloud.positions[worst], y = body_.current(worst);
+    std::ostringstream line;
+    line << "the largest force that is left, " << largest << " N, is at " << word(cloud.at) << " "
+         << cloud.element_ids[worst] << " of block " << cloud.block_names[cloud.blocks[worst]]
+         << ", reference position (" << X[0] << ", " << X[1] << ", " << X[2] << ") m, now at (" << y[0] << ", " << y[1]
+         << ", " << y[2] << ") m";
+    text = failure_ ? describe(*failure_, body_) : line.str();
+  }
+  return text;
+}
+
+}  // namespace strut

@@ -1,0 +1,69 @@
+// The forces of one load step that must vanish, at any places of the points, and how they change with these. What a
+// step has come to is kept in a committed state; trials start from there, so a trial leaves nothing behind.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "contact/contact.hpp"
+#include "mechanics/mechanics.hpp"
+#include "mechanics/tangent.hpp"
+#include "solvers/held.hpp"
+
+namespace strut {
+
+// How far the forces of a trial are from balance, the same on all ranks.
+struct Imbalance {
+  double norm = 0;      // N, root of the sum of squares of what is not held
+  double scale = 0;     // N, the same of reactions, loads and contact: what `norm` is small against
+  bool failed = false;  // a point was turned inside out or found no stress; the numbers mean nothing then
+};
+
+class Equilibrium {
+ public:
+  // Collective. Computes the forces of the undeformed state.
+  Equilibrium(Body& body, Conditions conditions, contact::Contact contact);
+
+  // Collective. A load step from t over dt (s) begins, at the committed places.
+  void begin(double t, double dt);
+
+  // Collective. Forces at the present places of body().sites.
+  Imbalance evaluate(bool with_views = false);
+  const Field& residual() const { return residual_; }  // N, what is not held of the forces of the last trial
+  // Where the last trial failed, or where its residual is largest: a sentence with point, block and place. Collective.
+  std::string weakest_point() const;
+
+  // Collective. The tangent at the last trial, for apply(): result = K field, N; held parts included.
+  void linearise();
+  void apply(const Field& field, Field& result);
+  const std::vector<PointTangent>& tangents() const { return tangents_; }
+
+  void commit();   // the last trial is where the next step begins
+  void go_back();  // the places of the committed state
+
+  Body& body() { return body_; }
+  const Held& held() const { return *held_; }
+  Vector start(int i) const { return committed_.place(i); }
+  const contact::Contact& contact() const { return contact_; }
+  // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J on
+  // this rank.
+  double external_work() const;
+
+ private:
+  void add_contact();
+  Imbalance measure(bool failed);
+
+  Body& body_;
+  Conditions conditions_;
+  contact::Contact contact_;
+  Committed committed_;
+  std::optional<Held> held_;
+  double t_ = 0, dt_ = 0, last_scale_ = 0, largest_scale_ = 0;
+  std::optional<Failure> failure_;
+  Field residual_, outer_, outer_before_;  // outer: loads and reactions, N
+  std::vector<Vector> looked_at_;          // places that contact has last been asked about
+  std::vector<PointTangent> tangents_;
+  std::vector<Site> directions_;
+};
+
+}  // namespace strut

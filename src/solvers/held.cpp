@@ -1,0 +1,59 @@
+#include "solvers/held.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of the length of a direction: what others at its point hold already leaves no more than this of it.
+constexpr double smallest_part = 1e-8;
+
+// Where the motion takes its component of the place of point i, m.
+double place_of(const PrescribedMotion& motion, const Body& body, int i, double t, double dt) {
+  const Vector& X = body.domain.positions[i];
+  const auto value = [&](double time) { return motion.value(X[0], X[1], X[2], time); };
+  if (motion.is_velocity) return body.current(i)[motion.component] + dt * value(t + 0.5 * dt);
+  return X[motion.component] + value(t + dt);
+}
+
+}  // namespace
+
+Held::Held(const Conditions& conditions, const Body& body, double t, double dt)
+    : freedom_(body.owned(), Tensor::Identity()), places_(body.owned(), Vector::Zero()) {
+  for (const PrescribedMotion& motion : conditions.motions) {
+    const Vector along = Vector::Unit(motion.component);
+    for (const int i : motion.points) hold(i, along, place_of(motion, body, i, t, dt));
+  }
+  for (const Plane& plane : conditions.planes) {
+    if (plane.one_sided) continue;
+    for (const int i : plane.points) hold(i, plane.normal, plane.normal.dot(body.current(i)));
+  }
+}
+
+// With y·d = place, in the directions that are still free: y·(F d) = place − (d − F d)·y, and the rest of d is held.
+void Held::hold(int point, const Vector& direction, double place) {
+  Tensor& freedom = freedom_[point];
+  const Vector free = freedom * direction;
+  const double length = free.norm();
+  if (length < smallest_part) return;
+  const Vector along = free / length;
+  const double left = place - direction.dot(places_[point]);
+  places_[point] += left / length * along;
+  freedom -= along * along.transpose();
+}
+
+void Held::remove(Field& field) const {
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] = freedom_[i] * field[i];
+}
+
+void Held::keep(Field& field) const {
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] -= freedom_[i] * field[i];
+}
+
+Field Held::way_left(const Body& body) const {
+  Field left(body.owned());
+  for (int i = 0; i < body.owned(); ++i) left[i] = places_[i] - body.current(i);
+  keep(left);
+  return left;
+}
+
+}  // namespace strut

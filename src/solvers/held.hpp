@@ -1,0 +1,31 @@
+// The directions in which conditions hold points during one load step: prescribed motion and symmetry planes.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/conditions.hpp"
+#include "solvers/krylov.hpp"
+
+namespace strut {
+
+class Held {
+ public:
+  // Of the step from t over dt (s); points are where it begins.
+  Held(const Conditions& conditions, const Body& body, double t, double dt);
+
+  void remove(Field& field) const;  // the held parts, from a field
+  void keep(Field& field) const;    // them only
+  // The projection of point i on its free directions.
+  const Tensor& freedom(int i) const { return freedom_[i]; }
+
+  // What is left of the way of each held point over the step (m); 0 along free directions.
+  Field way_left(const Body& body) const;
+
+ private:
+  void hold(int point, const Vector& direction, double place);
+
+  std::vector<Tensor> freedom_;
+  Field places_;  // where the held directions of a point lead to: m, 0 along free ones
+};
+
+}  // namespace strut

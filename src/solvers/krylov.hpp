@@ -1,0 +1,57 @@
+// The linear systems of implicit steps: GMRES (Belos) with algebraic multigrid (MueLu) as its preconditioner.
+// Written in C++17, as its .cpp must be: Trilinos' parameter validators are not C++20.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace Teuchos {
+template <class Ordinal>
+class Comm;
+template <class T>
+class RCP;
+}  // namespace Teuchos
+
+namespace strut {
+
+// One vector a point that this rank owns.
+using Field = std::vector<Eigen::Vector3d>;
+
+// Rows of 3×3 blocks, one for each point that this rank owns.
+struct BlockRows {
+  std::vector<std::size_t> start{0};  // row i: entries start[i] … start[i + 1] − 1
+  std::vector<std::int64_t> columns;  // points as Krylov::first() counts them
+  std::vector<Eigen::Matrix3d> blocks;
+};
+
+class Krylov {
+ public:
+  // Collective. For fields of `owned` points on this rank.
+  Krylov(const Teuchos::RCP<const Teuchos::Comm<int>>& ranks, int owned);
+  ~Krylov();
+
+  std::int64_t first() const;  // of all points, the number of the first one here
+
+  // Collective. A hierarchy of grids for a matrix that resembles the system. `kernel`: the fields that its stiffness
+  // does not see where nothing holds it, the rigid motions.
+  void precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
+  bool is_preconditioned() const;
+
+  struct Outcome {
+    int iterations;
+    bool converged;
+  };
+  // Collective. K x = right from x = 0, until the residual is `tolerance` times that of x = 0. The best x found, also
+  // where it did not converge in `most` iterations.
+  using Product = std::function<void(const Field&, Field&)>;
+  Outcome solve(const Product& K, const Field& right, double tolerance, int most, Field& x);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace strut

@@ -1,0 +1,112 @@
+#include "solvers/near_matrix.hpp"
+
+#include <algorithm>
+
+namespace strut {
+
+namespace {
+
+// Neighbours up to the corner of the cube around a point are near.
+constexpr double reach = 1.8;  // spacings
+
+// A matrix of springs along bonds alone lets chains of points buckle freely.
+constexpr double across = 0.1;  // of a spring's stiffness along its bond
+
+// The least that counts of the elastic shear modulus where a material flows: below, the matrix is no better a guess.
+constexpr double smallest_share = 1e-2;
+
+// What both ends of a spring are asked, of owned points and ghosts.
+struct End {
+  double number;     // of the point among those of all ranks
+  double stiffness;  // 15 μ/Σ V |ξ|² over near neighbours, Pa/m⁵ (isotropic springs of shear modulus μ)
+  double spacing;    // m
+  Tensor freedom;
+};
+constexpr int end_width = sizeof(End) / sizeof(double);
+
+bool near(const End& a, const End& b, const Vector& xi) { return xi.norm() <= 0.5 * reach * (a.spacing + b.spacing); }
+
+// The shear modulus of the isotropic tensor that has the same two traces.
+double shear_modulus(const PointTangent& tangent) {
+  double bulk = 0;
+  for (const int i : {0, 4, 8}) {
+    for (const int j : {0, 4, 8}) bulk += tangent.by_gradient(i, j) / 9;
+  }
+  return (tangent.by_gradient.trace() - 3 * bulk) / 10;
+}
+
+double spread(const Body& body, const std::vector<End>& ends, int i) {
+  double sum = 0;
+  body.domain.families.for_each(i, [&](int j) {
+    const Vector xi = body.domain.positions[j] - body.domain.positions[i];
+    if (near(ends[i], ends[j], xi)) sum += body.domain.volumes[j] * xi.squaredNorm();
+  });
+  return sum;
+}
+
+std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, const Held& held, std::int64_t first) {
+  std::vector<End> ends(body.sites.size());
+  for (int i = 0; i < body.owned(); ++i) {
+    ends[i] = {static_cast<double>(first + i), 0, body.domain.cloud.spacings[i], held.freedom(i)};
+  }
+  Halo& halo = body.domain.halo;
+  halo.exchange(reinterpret_cast<double*>(ends.data()), end_width, end_width);
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const int i = block.points[k];
+      const double elastic = block.moduli(k).shear;
+      const double now = block.is_ordinary() ? elastic : shear_modulus(tangents[i]);
+      ends[i].stiffness = 15 * std::max(now, smallest_share * elastic) / std::max(spread(body, ends, i), 1e-300);
+    }
+  }
+  halo.exchange(reinterpret_cast<double*>(ends.data()), end_width, end_width);
+  return ends;
+}
+
+}  // namespace
+
+BlockRows near_matrix(Body& body, const std::vector<PointTangent>& tangents, const Held& held,
+                      const std::vector<Tensor>& extra, std::int64_t first) {
+  const std::vector<End> ends = ends_of(body, tangents, held, first);
+  BlockRows rows;
+  for (int i = 0; i < body.owned(); ++i) {
+    Tensor diagonal = extra.empty() ? Tensor::Zero() : extra[i];
+    const std::size_t at = rows.columns.size();
+    rows.columns.push_back(first + i), rows.blocks.emplace_back();
+    body.domain.families.for_each(i, [&](int j) {
+      const Vector xi = body.domain.positions[j] - body.domain.positions[i];
+      if (!near(ends[i], ends[j], xi)) return;
+      const Vector e = (body.sites[j].current - body.sites[i].current).head<3>().matrix().stableNormalized();
+      const double k = body.domain.volumes[i] * body.domain.volumes[j] * (ends[i].stiffness + ends[j].stiffness) *
+                       xi.squaredNorm();
+      const Tensor spring = k * ((1 - across) * e * e.transpose() + across * Tensor::Identity());
+      diagonal += spring;
+      rows.columns.push_back(static_cast<std::int64_t>(ends[j].number));
+      rows.blocks.push_back(-(held.freedom(i) * spring * ends[j].freedom));
+    });
+    const Tensor& freedom = held.freedom(i);
+    const double scale = diagonal.trace() > 0 ? diagonal.trace() / 3 : 1;
+    rows.blocks[at] = freedom * diagonal * freedom + scale * (Tensor::Identity() - freedom);
+    rows.start.push_back(rows.columns.size());
+  }
+  return rows;
+}
+
+std::vector<Field> rigid_motions(const Body& body) {
+  double sums[] = {0, 0, 0, static_cast<double>(body.owned())};
+  for (int i = 0; i < body.owned(); ++i) {
+    for (int c = 0; c < 3; ++c) sums[c] += body.current(i)[c];
+  }
+  body.domain.communicator.sum(sums);
+  const Vector middle = Vector(sums[0], sums[1], sums[2]) / sums[3];
+  std::vector<Field> motions(6, Field(body.owned()));
+  for (int i = 0; i < body.owned(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      motions[c][i] = Vector::Unit(c);
+      motions[3 + c][i] = Vector::Unit(c).cross(body.current(i) - middle);
+    }
+  }
+  return motions;
+}
+
+}  // namespace strut

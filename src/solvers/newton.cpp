@@ -1,0 +1,124 @@
+#include "solvers/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/timing.hpp"
+#include "solvers/near_matrix.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of the linear systems. Near the solution Newton's own convergence is the limit of what is worth solving for: the
+// residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
+constexpr double coarsest = 1e-1, finest = 1e-4;
+constexpr int most_products = 400;
+
+constexpr int most_halvings = 4;  // of a step, in the search along it
+
+// A hierarchy is kept until systems take so much longer than just after it was made.
+constexpr double wear = 1.5;
+
+bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
+  return !now.failed && now.norm <= tolerance.relative * now.scale;
+}
+
+double squared_norm(const Field& field) {
+  double sum = 0;
+  for (const Vector& v : field) sum += v.squaredNorm();
+  return sum;
+}
+
+void move_by(Body& body, double factor, const Field& step) {
+  for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * step[i].array();
+}
+
+}  // namespace
+
+Newton::Newton(Equilibrium& equilibrium)
+    : equilibrium_(equilibrium),
+      krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
+
+void Newton::renew_preconditioner() {
+  static Teuchos::Time& timer = phase("Preconditioner");
+  const Timed timed(timer);
+  Body& body = equilibrium_.body();
+  krylov_.precondition(near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), {}, krylov_.first()),
+                       rigid_motions(body));
+  preconditioner_due_ = false;
+  products_when_new_ = 0;
+}
+
+// The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
+int Newton::correct(const Imbalance&, const Field& way, double accuracy, Field& step) {
+  equilibrium_.linearise();
+  if (preconditioner_due_) renew_preconditioner();
+  const Held& held = equilibrium_.held();
+  Field right = equilibrium_.residual();
+  const bool moves = equilibrium_.body().domain.communicator.sum(squared_norm(way)) > 0;
+  if (moves) {
+    Field pull(way.size());
+    equilibrium_.apply(way, pull);
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] -= pull[i];
+    held.remove(right);
+  }
+  const auto product = [&](const Field& in, Field& out) {
+    Field free = in;
+    held.remove(free);
+    equilibrium_.apply(free, out);
+    held.remove(out);
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] += in[i] - free[i];
+  };
+  const Krylov::Outcome outcome = krylov_.solve(product, right, accuracy, most_products, step);
+  held.remove(step);
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];
+  if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
+  preconditioner_due_ = outcome.iterations > wear * products_when_new_;
+  return outcome.iterations;
+}
+
+// Along the step to where fewer forces are left: the whole of it, or a half, a quarter … . The first one is taken
+// wherever it can be, for it moves what is held: there is nothing to compare with.
+Imbalance Newton::advance(const Imbalance& now, const Field& step, bool is_first) {
+  Body& body = equilibrium_.body();
+  double taken = 1;
+  move_by(body, taken, step);
+  Imbalance next = equilibrium_.evaluate();
+  double best = taken;
+  Imbalance least = next;
+  for (int n = 0; n < most_halvings && !is_first; ++n) {
+    if (!next.failed && next.norm < (1 - 1e-4 * taken) * now.norm) return next;
+    move_by(body, -0.5 * taken, step);
+    taken *= 0.5;
+    next = equilibrium_.evaluate();
+    if (least.failed || (!next.failed && next.norm < least.norm)) least = next, best = taken;
+  }
+  if (best == taken) return next;
+  move_by(body, best - taken, step);
+  return equilibrium_.evaluate();
+}
+
+Search Newton::solve(const Tolerance& tolerance) {
+  Search search;
+  search.left = equilibrium_.evaluate();
+  Field way = equilibrium_.held().way_left(equilibrium_.body()), step;
+  double before = 0;
+  for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
+    const bool is_first = search.iterations == 0;
+    if (!is_first && is_balanced(search.left, tolerance)) {
+      search.converged = true;
+      return search;
+    }
+    const double gain = is_first ? 1 : search.left.norm / before;
+    const double accuracy = std::clamp(0.5 * gain * gain, finest, coarsest);
+    before = search.left.norm;
+    search.products += correct(search.left, way, is_first ? 1e-3 : accuracy, step);
+    search.left = advance(search.left, step, is_first);
+    std::fill(way.begin(), way.end(), Vector::Zero());
+  }
+  search.converged = is_balanced(search.left, tolerance);
+  return search;
+}
+
+}  // namespace strut

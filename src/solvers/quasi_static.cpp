@@ -1,0 +1,96 @@
+#include "solvers/quasi_static.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
+constexpr int easily = 6;                // iterations of a step after which the next may be longer
+constexpr double round_off = 1e-9;
+
+}  // namespace
+
+QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
+                         double initial_time, double final_time, std::function<void(const std::string&)> say)
+    : equilibrium_(body, std::move(conditions), std::move(contact)),
+      newton_(equilibrium_),
+      control_(control),
+      say_(std::move(say)),
+      time_(initial_time),
+      final_time_(final_time),
+      longest_((final_time - initial_time) / control.load_steps),
+      dt_(longest_) {}
+
+// What moved over the last step goes on at its rate.
+void QuasiStatic::extrapolate() {
+  if (last_step_.empty()) return;
+  Body& body = equilibrium_.body();
+  const double factor = dt_ / last_dt_;
+  for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * last_step_[i].array();
+}
+
+bool QuasiStatic::attempt() {
+  equilibrium_.begin(time_, dt_);
+  extrapolate();
+  const Search search = newton_.solve(control_.tolerance);
+  if (!search.converged) return false;
+  commit(search);
+  return true;
+}
+
+void QuasiStatic::advance() {
+  dt_ = std::min(dt_, final_time_ - time_);
+  while (!attempt()) {
+    const std::string where = equilibrium_.weakest_point();
+    equilibrium_.go_back();
+    last_step_.clear();
+    dt_ *= 0.5;
+    if (dt_ < shortest * longest_) {
+      std::ostringstream text;
+      text << "no equilibrium after t = " << time_ << " s, by load steps down to " << 2 * dt_ << " s: ";
+      raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
+    }
+  }
+}
+
+void QuasiStatic::commit(const Search& search) {
+  Body& body = equilibrium_.body();
+  equilibrium_.evaluate(true);
+  external_ += body.domain.communicator.sum(equilibrium_.external_work());
+  last_step_.resize(body.owned());
+  for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
+  equilibrium_.commit();
+  last_dt_ = dt_;
+  ++steps_;
+  const double left = final_time_ - time_ - dt_;
+  time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
+  char line[160];
+  std::snprintf(line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d products, %.1e of the load left",
+                steps_, time_, dt_, search.iterations, search.products,
+                search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
+  say_(line);
+  if (search.iterations <= easily) dt_ = std::min(2 * dt_, longest_);
+}
+
+Ledger QuasiStatic::ledger() {
+  const Body& body = equilibrium_.body();
+  const Energies stored = stored_energies(body);
+  Ledger now{.time = time_, .dt = last_dt_};
+  now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
+  now.external = external_;
+  now.contact = -body.domain.communicator.sum(contact().energy());
+  const double held = now.elastic + now.dissipated + now.stabilization;
+  const double put_in = now.external + now.contact;
+  largest_energy_ = std::max({largest_energy_, held, std::abs(put_in)});
+  now.balance_error = largest_energy_ > 0 ? std::abs(held - put_in) / largest_energy_ : 0;
+  return now;
+}
+
+}  // namespace strut

@@ -1,0 +1,51 @@
+// Slow loading: a series of equilibria, without inertia. Time is that of the loads.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "solvers/ledger.hpp"
+#include "solvers/newton.hpp"
+
+namespace strut {
+
+struct QuasiStaticControl {
+  enum class Method { newton, relaxation };
+  Method method = Method::newton;
+  int load_steps = 10;  // of equal length; shorter ones where one of these finds no equilibrium
+  Tolerance tolerance;
+};
+
+class QuasiStatic {
+ public:
+  // `say`: where each step's convergence is told; rank 0 only.
+  QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
+              double initial_time, double final_time, std::function<void(const std::string&)> say);
+
+  double time() const { return time_; }
+  double dt() const { return dt_; }
+  int steps() const { return steps_; }
+  const contact::Contact& contact() const { return equilibrium_.contact(); }
+
+  // Collective. One load step. Throws Error on all ranks where none is found, however short; the body is then at its
+  // last equilibrium.
+  void advance();
+
+  Ledger ledger();  // collective
+
+ private:
+  bool attempt();
+  void extrapolate();
+  void commit(const Search& search);
+
+  Equilibrium equilibrium_;
+  Newton newton_;
+  QuasiStaticControl control_;
+  std::function<void(const std::string&)> say_;
+  double time_, final_time_, longest_, dt_, last_dt_ = 0;
+  Field last_step_;  // m, of the last load step
+  int steps_ = 0;
+  double external_ = 0, largest_energy_ = 0;
+};
+
+}  // namespace strut
