@@ -151,6 +151,10 @@ void Contact::add_stiffness(std::span<const Vector> field, std::span<Vector> res
   }
 }
 
+void Contact::add_springs(std::span<Tensor> springs) const {
+  for (const Meeting& meeting : meetings_) contact::add_springs(meeting.model, meeting.pairs, springs);
+}
+
 void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const {
   if (!any()) return;
   for (const Meeting& meeting : meetings_) numbers.push_back(meeting.tally.stiffness);

@@ -35,6 +35,7 @@ class Contact {
   // Collective, after add_forces. Adds the stiffness of what touches, times a field of the owned points, to result (N/m
   // times the field's unit). Without friction.
   void add_stiffness(std::span<const Vector> field, std::span<Vector> result);
+  void add_springs(std::span<Tensor> springs) const;  // what of it acts on a point by its own motion, N/m
 
   // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
   // with its own, and hands it back.

@@ -129,6 +129,14 @@ void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pair
   }
 }
 
+void add_springs(const Model& model, const Pairs& pairs, std::span<Tensor> springs) {
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    for_each_touch(pairs, model, k, [&](const Touch& touch) {
+      springs[pairs.owned[k]] += touch.stiffness * touch.direction * touch.direction.transpose();
+    });
+  }
+}
+
 void add_stiffness(const Model& model, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
   std::vector<Vector> values(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) values[k] = field[pairs.owned[k]];

@@ -27,4 +27,7 @@ void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pair
 // points, to result (N/m times the field's unit). The turning of a pair's direction is left out.
 void add_stiffness(const Model& model, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);
 
+// Of each owned point alone, N/m.
+void add_springs(const Model& model, const Pairs& pairs, std::span<Tensor> springs);
+
 }  // namespace strut::contact

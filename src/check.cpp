@@ -32,6 +32,13 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
   views_of(deck, scene.body);
+  if (scene.quasi_static) {
+    const std::string text = describe_scene(scene);
+    if (communicator.rank() == 0) {
+      std::cout << text << scene.quasi_static->load_steps << " load steps\n" << deck_file.string() << ": no errors\n";
+    }
+    return;
+  }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
   const double limit = solver.stable_step();

@@ -99,29 +99,52 @@ std::string step_warning(const StepControl& control, double limit, double time) 
       control.fixed_dt, limit, time);
 }
 
-std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds) {
+namespace {
+
+std::string table_of_phases(const Scene& scene, double seconds) {
   std::ostringstream text;
   text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");
   for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
     text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
   }
+  text << formatted("%-26s %10.3f\n", "whole run", seconds);
+  return text.str();
+}
+
+std::string searches(const contact::Contact& contact) {
+  if (!contact.any()) return "";
+  return formatted("%d searches for contact, %d about single points\n", contact.searches(), contact.renewals());
+}
+
+std::string energies(const Ledger& ledger) {
+  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n",
+                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization) +
+         formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
+                   ledger.external, ledger.contact, ledger.balance_error);
+}
+
+}  // namespace
+
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds) {
+  std::ostringstream text;
+  text << table_of_phases(scene, seconds) << searches(solver.contact());
   const double point_steps = static_cast<double>(scene.points) * solver.steps();
   const double core_seconds = seconds * scene.body.domain.communicator.size();
-  text << formatted("%-26s %10.3f\n", "whole run", seconds);
-  if (const contact::Contact& contact = solver.contact(); contact.any()) {
-    text << contact.searches() << " searches for contact, " << contact.renewals() << " about single points\n";
-  }
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
                     point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
   if (solver.most_substeps() > 1) {
     text << formatted("the stiffest points were stepped alone, up to %d times a step: %.2f updates a point and step\n",
                       solver.most_substeps(), solver.updates() / solver.steps());
   }
-  text << formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilisation %.5g;\n",
-                    ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization);
-  text << formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
-                    ledger.external, ledger.contact, ledger.balance_error);
-  return text.str();
+  return text.str() + energies(ledger);
+}
+
+std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds) {
+  const double point_evaluations = static_cast<double>(scene.points) * solver.evaluations();
+  return table_of_phases(scene, seconds) + searches(solver.contact()) +
+         formatted("%d load steps, %d iterations, %d evaluations of forces or tangent, %.3g points*evaluations/s\n",
+                   solver.steps(), solver.iterations(), solver.evaluations(), point_evaluations / seconds) +
+         energies(ledger);
 }
 
 }  // namespace strut

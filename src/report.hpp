@@ -36,6 +36,7 @@ std::string step_warning(const StepControl& control, double limit, double time);
 
 // Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end.
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds);
+std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds);
 
 // "1.3 s", "4 min 10 s", "2 h 3 min"
 std::string as_duration(double seconds);

@@ -325,6 +325,12 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
   return interactions;
 }
 
+std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
+  if (!solver.quasi_static) return std::nullopt;
+  const auto& [with_tangent, load_steps, tolerance, most_iterations] = *solver.quasi_static;
+  return QuasiStaticControl{with_tangent, load_steps, {tolerance, most_iterations}};
+}
+
 Influence influence_of(deck::Influence influence) {
   switch (influence) {
     case deck::Influence::one:
@@ -359,6 +365,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
               {},
               {},
               {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling},
+              quasi_static_of(deck.solver),
               0,
               0,
               dropped};

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 
+#include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "deck/deck.hpp"
 #include "io/exodus.hpp"
@@ -123,6 +124,31 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
   return solver.ledger();
 }
 
+// The same by load steps. One that fails leaves the last equilibrium in the files.
+Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Frames& frames, History& history) {
+  const Communicator& ranks = scene.body.domain.communicator;
+  const auto record = [&](bool last) {
+    const double now = solver.time();
+    if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
+    if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
+      history.write(solver.ledger(), scene.body);
+    }
+  };
+  bool ending = false;
+  for (;;) {
+    const bool last = ending || solver.time() >= deck.solver.final_time;
+    record(last);
+    if (last) return solver.ledger();
+    try {
+      solver.advance();
+    } catch (const Error&) {
+      record(true);
+      throw;
+    }
+    ending = ranks.max(signalled ? 1.0 : 0.0) > 0;
+  }
+}
+
 }  // namespace
 
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator) {
@@ -134,12 +160,20 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   Frames frames(deck, scene.body, views);
   History history(deck, scene.body, views);
   catch_signals();
+  const auto close = [&](const auto& solver, const Ledger& ledger) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    say(communicator, closing_report(scene, solver, ledger, seconds));
+    return solver.time() >= deck.solver.final_time;
+  };
+  if (scene.quasi_static) {
+    QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
+                       deck.solver.initial_time, deck.solver.final_time,
+                       [&](const std::string& line) { say(communicator, line + "\n"); });
+    return close(solver, load_through(deck, scene, solver, frames, history));
+  }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
-  const Ledger ledger = step_through(deck, scene, solver, frames, history);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  say(communicator, closing_report(scene, solver, ledger, seconds));
-  return solver.time() >= deck.solver.final_time;
+  return close(solver, step_through(deck, scene, solver, frames, history));
 }
 
 }  // namespace strut

@@ -82,17 +82,17 @@ class Checker {
       const bool as_good_as_empty = std::none_of(section.keys.begin(), section.keys.end(), required) &&
                                     std::none_of(section.sections.begin(), section.sections.end(), required);
       if (list) {
-        values_.add(check(*list, section, path_to(path_, section.name), problems_));
+        values_.add(check(*list, section, path_to(path_, section.name), problems_), true);
       } else if (section.required) {
         problems_.add(path_to(path_, section.name), "missing section");
       } else if (as_good_as_empty) {
-        values_.add(check({section.name, {}, {}}, section, path_to(path_, section.name), problems_));
+        values_.add(check({section.name, {}, {}}, section, path_to(path_, section.name), problems_), false);
       }
     }
   }
 
   void read_any_sections(const Section& section) {
-    for (const List& list : list_.lists) values_.add(check(list, section, path_to(path_, list.name), problems_));
+    for (const List& list : list_.lists) values_.add(check(list, section, path_to(path_, list.name), problems_), true);
     if (section.required && list_.lists.empty()) {
       problems_.add(path_, "empty; expected at least one section, named as you like");
     }

@@ -234,6 +234,13 @@ std::vector<Condition> conditions(const Values& values, Problems& problems) {
   return all;
 }
 
+QuasiStatic quasi_static(const Values& values) {
+  return {.with_tangent = values.text("Method") == "Newton",
+          .load_steps = values.integer("Number of Load Steps"),
+          .tolerance = values.real("Tolerance"),
+          .most_iterations = values.integer("Maximum Solver Iterations")};
+}
+
 Solver solver(const Values& values, Problems& problems) {
   const Values& verlet = values.section("Verlet");
   Solver solver{.initial_time = values.real("Initial Time"),
@@ -241,6 +248,12 @@ Solver solver(const Values& values, Problems& problems) {
                 .safety_factor = verlet.real("Safety Factor"),
                 .subcycling = verlet.flag("Subcycling")};
   solver.fixed_dt = real_if_given(verlet, "Fixed dt");
+  if (values.has_section("QuasiStatic")) {
+    solver.quasi_static = quasi_static(values.section("QuasiStatic"));
+    if (values.has_section("Verlet")) {
+      problems.add(values.path(), "'Verlet' and 'QuasiStatic' are both given; expected one of them");
+    }
+  }
   check_one_of(verlet, "Fixed dt", "Safety Factor", problems);
   if (values.has("Initial Time") && values.has("Final Time") && solver.final_time <= solver.initial_time) {
     problems.add(
@@ -287,6 +300,25 @@ History history(const Values* values, const Solver& solver, Problems& problems) 
   return history;
 }
 
+// What has no meaning where nothing has inertia.
+void check_quasi_static(const Deck& deck, Problems& problems) {
+  if (!deck.solver.quasi_static) return;
+  for (const Condition& condition : deck.conditions) {
+    const bool is_velocity = condition.type == ConditionType::initial_velocity;
+    if (!is_velocity && condition.type != ConditionType::open_end) continue;
+    problems.add("Boundary Conditions > " + condition.name + " > Type",
+                 std::string(is_velocity ? "'Initial Velocity'" : "'Non-Reflecting End'") +
+                     " has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed "
+                     "motion, a load, a plane or a tool");
+  }
+  for (const ContactModel& model : deck.contact_models) {
+    if (model.friction == 0) continue;
+    problems.add("Contact > Models > " + model.name + " > Friction Coefficient",
+                 "'" + to_text(model.friction) + "'; expected 0 with Solver > QuasiStatic: there, friction is that of "
+                 "rigid planes and tools");
+  }
+}
+
 Deck build(const Values& values, const fs::path& file, Problems& problems) {
   Deck deck;
   deck.file = file;
@@ -300,6 +332,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   }
   deck.conditions = conditions(values.section("Boundary Conditions"), problems);
   deck.solver = solver(values.section("Solver"), problems);
+  check_quasi_static(deck, problems);
   deck.output = output(values.find("Output"), deck.solver, problems);
   deck.history = history(values.find("History"), deck.solver, problems);
   return deck;

@@ -94,8 +94,17 @@ struct Condition {
   double friction = 0;  // of a rigid plane
 };
 
+// Loads without inertia.
+struct QuasiStatic {
+  bool with_tangent = true;  // Newton; else dynamic relaxation
+  int load_steps = 10;
+  double tolerance = 1e-6;
+  int most_iterations = 20;
+};
+
 struct Solver {
   double initial_time = 0, final_time = 0;  // s
+  std::optional<QuasiStatic> quasi_static;  // else explicit steps:
   std::optional<double> fixed_dt;           // s; else from the stable step
   double safety_factor = 0.8;
   bool subcycling = true;

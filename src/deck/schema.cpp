@@ -238,6 +238,32 @@ Section conditions() {
                plane("Symmetry Plane", "The points keep their distance to the plane."), rigid_plane(), open_end()})}};
 }
 
+Section quasi_static() {
+  return {.name = "QuasiStatic",
+          .meaning = "Slow loading in the place of Verlet: a series of equilibria, without inertia. Times are those of "
+                     "the conditions; rates follow from them.",
+          .keys = {{.name = "Method",
+                    .kind = Kind::choice,
+                    .choices = {"Newton", "Dynamic Relaxation"},
+                    .fallback = "Newton",
+                    .meaning = "How an equilibrium is found: with the tangent, or by damped motion without it. Newton "
+                               "falls back on the other where it fails."},
+                   {.name = "Number of Load Steps",
+                    .kind = Kind::integer,
+                    .range = {.low = 1},
+                    .fallback = "10",
+                    .meaning = "Of equal length. One that finds no equilibrium is cut in halves."},
+                   {.name = "Tolerance",
+                    .range = {.low = 0, .high = 1, .with_low = false, .with_high = false},
+                    .fallback = "1e-6",
+                    .meaning = "The forces that may be left, as a part of reactions, loads and contact."},
+                   {.name = "Maximum Solver Iterations",
+                    .kind = Kind::integer,
+                    .range = {.low = 1},
+                    .fallback = "20",
+                    .meaning = "Newton's, of one load step, before it is cut."}}};
+}
+
 Section solver() {
   return {
       .name = "Solver",
@@ -258,9 +284,9 @@ Section solver() {
                               .kind = Kind::boolean,
                               .fallback = "true",
                               .meaning = "Few points that would limit the step of all are stepped alone, more often. "
-                                         "None are with a fixed step."}}}},
-      .hints = {{"QuasiStatic", "unknown section; this version has 'Verlet' only"},
-                {"Implicit", "unknown section; this version has 'Verlet' only"}}};
+                                         "None are with a fixed step."}}},
+                   quasi_static()},
+      .hints = {{"Implicit", "unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia"}}};
 }
 
 Section output() {

@@ -32,6 +32,11 @@ const Values* Values::find(const std::string& section) const {
   return nullptr;
 }
 
+bool Values::has_section(const std::string& name) const {
+  const Values* found = find(name);
+  return found && found->given_;
+}
+
 const Values& Values::section(const std::string& name) const {
   static const Values nothing("", "");
   const Values* found = find(name);

@@ -39,9 +39,13 @@ class Values {
   // A section that the deck has, or that has no required keys: an absent one is then as good as an empty one.
   const Values* find(const std::string& section) const;
   const Values& section(const std::string& name) const;  // an empty one where find() finds nothing
+  bool has_section(const std::string& name) const;       // in the deck
 
   void set(const std::string& key, Value value, bool given) { entries_.push_back({key, std::move(value), given}); }
-  void add(Values section) { sections_.push_back(std::move(section)); }
+  void add(Values section, bool given) {
+    sections_.push_back(std::move(section));
+    sections_.back().given_ = given;
+  }
 
  private:
   struct Entry {
@@ -60,6 +64,7 @@ class Values {
   }
 
   std::string name_, path_;
+  bool given_ = true;
   std::vector<Entry> entries_;
   std::vector<Values> sections_;
 };

@@ -106,7 +106,16 @@ void Equilibrium::commit() {
   outer_before_ = outer_;
 }
 
-void Equilibrium::go_back() { committed_.restore(body_); }
+std::vector<Tensor> Equilibrium::contact_springs() {
+  std::vector<Tensor> springs(body_.owned(), Tensor::Zero());
+  contact_.add_springs(springs);
+  return springs;
+}
+
+void Equilibrium::go_back() {
+  committed_.restore(body_);
+  advance_by_any_step(body_, 0, true);
+}
 
 double Equilibrium::external_work() const {
   double sum = 0;

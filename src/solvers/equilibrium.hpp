@@ -38,8 +38,11 @@ class Equilibrium {
   void apply(const Field& field, Field& result);
   const std::vector<PointTangent>& tangents() const { return tangents_; }
 
+  // What contact adds to the stiffness of each point alone, N/m.
+  std::vector<Tensor> contact_springs();
+
   void commit();   // the last trial is where the next step begins
-  void go_back();  // the places of the committed state
+  void go_back();  // to the committed state
 
   Body& body() { return body_; }
   const Held& held() const { return *held_; }

@@ -6,8 +6,8 @@ namespace strut {
 
 namespace {
 
-// Neighbours up to the corner of the cube around a point are near.
-constexpr double reach = 1.8;  // spacings
+// Neighbours up to the middle of an edge of the cube around a point are near.
+constexpr double reach = 1.5;  // spacings
 
 // A matrix of springs along bonds alone lets chains of points buckle freely.
 constexpr double across = 0.1;  // of a spring's stiffness along its bond

@@ -20,10 +20,6 @@ constexpr int most_halvings = 4;  // of a step, in the search along it
 // A hierarchy is kept until systems take so much longer than just after it was made.
 constexpr double wear = 1.5;
 
-bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
-  return !now.failed && now.norm <= tolerance.relative * now.scale;
-}
-
 double squared_norm(const Field& field) {
   double sum = 0;
   for (const Vector& v : field) sum += v.squaredNorm();
@@ -44,14 +40,14 @@ void Newton::renew_preconditioner() {
   static Teuchos::Time& timer = phase("Preconditioner");
   const Timed timed(timer);
   Body& body = equilibrium_.body();
-  krylov_.precondition(near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), {}, krylov_.first()),
+  krylov_.precondition(near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), equilibrium_.contact_springs(), krylov_.first()),
                        rigid_motions(body));
   preconditioner_due_ = false;
   products_when_new_ = 0;
 }
 
 // The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
-int Newton::correct(const Imbalance&, const Field& way, double accuracy, Field& step) {
+int Newton::correct(const Field& way, double accuracy, Field& step) {
   equilibrium_.linearise();
   if (preconditioner_due_) renew_preconditioner();
   const Held& held = equilibrium_.held();
@@ -113,7 +109,7 @@ Search Newton::solve(const Tolerance& tolerance) {
     const double gain = is_first ? 1 : search.left.norm / before;
     const double accuracy = std::clamp(0.5 * gain * gain, finest, coarsest);
     before = search.left.norm;
-    search.products += correct(search.left, way, is_first ? 1e-3 : accuracy, step);
+    search.evaluations += correct(way, is_first ? 1e-3 : accuracy, step);
     search.left = advance(search.left, step, is_first);
     std::fill(way.begin(), way.end(), Vector::Zero());
   }

@@ -12,6 +12,7 @@ namespace strut {
 namespace {
 
 constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
+constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried where Newton fails
 constexpr int easily = 6;                // iterations of a step after which the next may be longer
 constexpr double round_off = 1e-9;
 
@@ -21,6 +22,7 @@ QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact con
                          double initial_time, double final_time, std::function<void(const std::string&)> say)
     : equilibrium_(body, std::move(conditions), std::move(contact)),
       newton_(equilibrium_),
+      relaxation_(equilibrium_),
       control_(control),
       say_(std::move(say)),
       time_(initial_time),
@@ -36,18 +38,28 @@ void QuasiStatic::extrapolate() {
   for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * last_step_[i].array();
 }
 
-bool QuasiStatic::attempt() {
+Search QuasiStatic::search_from_start(bool with_tangent) {
   equilibrium_.begin(time_, dt_);
   extrapolate();
-  const Search search = newton_.solve(control_.tolerance);
-  if (!search.converged) return false;
-  commit(search);
-  return true;
+  const Search search = with_tangent ? newton_.solve(control_.tolerance) : relaxation_.solve(control_.tolerance);
+  iterations_ += search.iterations;
+  evaluations_ += search.evaluations;
+  return search;
+}
+
+// Relaxation takes many times as long as Newton: it is left for steps that Newton could not make by being cut.
+Search QuasiStatic::attempt() {
+  const Search search = search_from_start(control_.with_tangent);
+  if (search.converged || !control_.with_tangent || dt_ > patience * longest_) return search;
+  equilibrium_.go_back();
+  return search_from_start(false);
 }
 
 void QuasiStatic::advance() {
   dt_ = std::min(dt_, final_time_ - time_);
-  while (!attempt()) {
+  for (;;) {
+    const Search search = attempt();
+    if (search.converged) return commit(search);
     const std::string where = equilibrium_.weakest_point();
     equilibrium_.go_back();
     last_step_.clear();
@@ -72,8 +84,8 @@ void QuasiStatic::commit(const Search& search) {
   const double left = final_time_ - time_ - dt_;
   time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
   char line[160];
-  std::snprintf(line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d products, %.1e of the load left",
-                steps_, time_, dt_, search.iterations, search.products,
+  std::snprintf(line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",
+                steps_, time_, dt_, search.iterations, search.evaluations,
                 search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
   say_(line);
   if (search.iterations <= easily) dt_ = std::min(2 * dt_, longest_);

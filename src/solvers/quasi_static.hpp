@@ -6,12 +6,12 @@
 
 #include "solvers/ledger.hpp"
 #include "solvers/newton.hpp"
+#include "solvers/relaxation.hpp"
 
 namespace strut {
 
 struct QuasiStaticControl {
-  enum class Method { newton, relaxation };
-  Method method = Method::newton;
+  bool with_tangent = true;  // Newton, and relaxation where it fails; else relaxation alone
   int load_steps = 10;  // of equal length; shorter ones where one of these finds no equilibrium
   Tolerance tolerance;
 };
@@ -25,6 +25,8 @@ class QuasiStatic {
   double time() const { return time_; }
   double dt() const { return dt_; }
   int steps() const { return steps_; }
+  int iterations() const { return iterations_; }    // so far, those in vain too
+  int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
 
   // Collective. One load step. Throws Error on all ranks where none is found, however short; the body is then at its
@@ -34,17 +36,19 @@ class QuasiStatic {
   Ledger ledger();  // collective
 
  private:
-  bool attempt();
+  Search attempt();
+  Search search_from_start(bool with_tangent);
   void extrapolate();
   void commit(const Search& search);
 
   Equilibrium equilibrium_;
   Newton newton_;
+  Relaxation relaxation_;
   QuasiStaticControl control_;
   std::function<void(const std::string&)> say_;
   double time_, final_time_, longest_, dt_, last_dt_ = 0;
   Field last_step_;  // m, of the last load step
-  int steps_ = 0;
+  int steps_ = 0, iterations_ = 0, evaluations_ = 0;
   double external_ = 0, largest_energy_ = 0;
 };
 

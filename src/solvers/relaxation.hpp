@@ -1,0 +1,26 @@
+// Equilibrium by dynamic relaxation: motion under the forces that are left, with masses that let all parts of the body
+// keep pace with each other and a damping that adapts to the slowest of them. It needs no tangent.
+#pragma once
+
+#include "solvers/search.hpp"
+#include "solvers/stable_step.hpp"
+
+namespace strut {
+
+class Relaxation {
+ public:
+  explicit Relaxation(Equilibrium& equilibrium) : equilibrium_(equilibrium) {}
+
+  // Collective. From the present places, within the step that the equilibrium has begun. Its own count of iterations
+  // is some thousand times Newton's.
+  Search solve(const Tolerance& tolerance);
+
+ private:
+  void renew_masses();
+
+  Equilibrium& equilibrium_;
+  StableStep stable_;
+  std::vector<double> masses_;  // N/m: of points, in a time whose unit is one iteration
+};
+
+}  // namespace strut
