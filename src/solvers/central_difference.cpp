@@ -93,7 +93,8 @@ void CentralDifference::kick(double final_time) {
     body_.previous_velocity[i] = body_.velocity[i];
     body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
   });
-  constrain(conditions_, time_, point_steps(), body_, kick_work_);
+  Impulses none;
+  constrain(conditions_, time_, point_steps(), body_, kick_work_, none);
   add_work_of_body_forces(conditions_, time_, kick, body_, kick_work_);
   add_work_of_friction(kick);
   if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
@@ -153,7 +154,8 @@ StepReport CentralDifference::substep(int order, double t) {
     body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
   });
   KickWork work;
-  constrain(conditions_of_order_[order - 1], t, steps, body_, work);
+  Impulses none;
+  constrain(conditions_of_order_[order - 1], t, steps, body_, work, none);
   work_ = work_ + work.before + work.after;
   return report;
 }
