@@ -346,12 +346,14 @@ Section history() {
                 .unit = "s",
                 .range = positive,
                 .meaning = "Every so much time. Where neither is given: 1/1000 of the run."}},
-      .sections = {{.name = "Variables",
-                    .meaning = "The columns.",
-                    .any_key = Key{
-                        .name = any_name,
-                        .kind = Kind::boolean,
-                        .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block."}}}};
+      .sections = {
+          {.name = "Variables",
+           .meaning = "The columns.",
+           .any_key = Key{.name = any_name,
+                          .kind = Kind::boolean,
+                          .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block; "
+                                     "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body: "
+                                     "prescribed motion, a symmetry plane or a rigid tool."}}}};
 }
 
 }  // namespace
