@@ -40,9 +40,9 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
     if (conditions[place].name == wanted) return static_cast<int>(place);
     valid.push_back(conditions[place].name);
   }
-  throw Error(path + ": '" + wanted +
-              "' is no section of Boundary Conditions with prescribed motion, a symmetry plane " + "or a rigid tool" +
-              did_you_mean(wanted, valid) + "; there " + (valid.empty() ? "is none" : "are " + joined(valid)));
+  const std::string expected = "' is no section of Boundary Conditions with prescribed motion, symmetry plane or tool";
+  throw Error(path + ": '" + wanted + expected + did_you_mean(wanted, valid) + "; there " +
+              (valid.empty() ? "is none" : "are " + joined(valid)));
 }
 
 ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const std::string& name) {

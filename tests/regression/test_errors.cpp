@@ -270,7 +270,8 @@ TEST_F(Mistake, UnknownReactions) {
   EXPECT_EQ(outcome(with("Reaction_Z(wall)")).value_or("no error"), "no error");
   expect_error(with("Reaction_Z(wal)"), {"History > Variables > Reaction_Z(wal): 'wal' is no section",
                                          "(did you mean 'wall'?); there are wall, floor"});
-  expect_error(with("Reaction_Z(flight)"), {"'flight' is no section of Boundary Conditions with prescribed motion"});
+  expect_error(with("Reaction_Z(flight)"),
+               {"'flight' is no section of Boundary Conditions with prescribed motion, symmetry plane or tool"});
   for (const std::string name : {"Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
     expect_error(with(name), {"History > Variables > " + name + ": expected one of Reaction_X, Reaction_Y, Reaction_Z",
                               "in brackets the name of a section of Boundary Conditions"});
