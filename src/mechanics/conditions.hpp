@@ -76,7 +76,7 @@ struct PointSteps {
   const std::vector<std::uint8_t>* halvings = nullptr;  // of owned points; none if null or empty
 
   int halved(int i) const { return !halvings || halvings->empty() ? 0 : (*halvings)[i]; }
-  double of(int i) const { return std::ldexp(whole, -halved(i)); }
+  double of(int i) const { return halved(i) == 0 ? whole : std::ldexp(whole, -halved(i)); }
 };
 
 // Adds the body forces at time t (s) to the force density.
