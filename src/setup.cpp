@@ -259,7 +259,19 @@ void set_initial_velocity(const deck::Condition& condition, const std::vector<in
   }
 }
 
-void add_condition(const deck::Condition& condition, double t, Scene& scene) {
+Shape shape_of(const deck::Condition& condition) {
+  switch (condition.type) {
+    case deck::ConditionType::rigid_cylinder:
+      return Cylinder{condition.point, condition.axis.normalized(), condition.radius};
+    case deck::ConditionType::rigid_box:
+      return Box{condition.lower, condition.upper};
+    default:
+      return HalfSpace{condition.point, condition.normal.normalized()};
+  }
+}
+
+// `place`: of the condition in the deck.
+void add_condition(const deck::Condition& condition, int place, double t, Scene& scene) {
   std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
   Conditions& all = scene.conditions;
   const Vector normal = condition.normal.normalized();
@@ -269,18 +281,20 @@ void add_condition(const deck::Condition& condition, double t, Scene& scene) {
     case deck::ConditionType::prescribed_displacement:
     case deck::ConditionType::prescribed_velocity: {
       const bool is_velocity = condition.type == deck::ConditionType::prescribed_velocity;
-      all.motions.push_back({std::move(points), condition.component, condition.value, is_velocity});
+      all.motions.push_back({std::move(points), condition.component, condition.value, is_velocity, place});
       return;
     }
     case deck::ConditionType::body_force:
       all.body_forces.push_back({std::move(points), condition.component, condition.value});
       return;
     case deck::ConditionType::symmetry_plane:
-    case deck::ConditionType::rigid_plane: {
-      const bool one_sided = condition.type == deck::ConditionType::rigid_plane;
-      all.planes.push_back({std::move(points), condition.point, normal, one_sided, condition.friction});
+      all.symmetry_planes.push_back({std::move(points), normal, place});
       return;
-    }
+    case deck::ConditionType::rigid_plane:
+    case deck::ConditionType::rigid_cylinder:
+    case deck::ConditionType::rigid_box:
+      all.tools.push_back({std::move(points), shape_of(condition), condition.travel, condition.friction, place});
+      return;
     case deck::ConditionType::open_end:
       all.open_ends.push_back(open_end(points, normal, scene.body));
   }
@@ -289,9 +303,10 @@ void add_condition(const deck::Condition& condition, double t, Scene& scene) {
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
   deck::Problems problems;
   if (scene.dropped > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
-  for (const deck::Condition& condition : deck.conditions) {
+  for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
+    const deck::Condition& condition = deck.conditions[place];
     try {
-      add_condition(condition, deck.solver.initial_time, scene);
+      add_condition(condition, place, deck.solver.initial_time, scene);
     } catch (const Error& error) {
       problems.add("Boundary Conditions > " + condition.name + " > Value", error.what());
     }

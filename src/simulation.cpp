@@ -55,21 +55,23 @@ class Frames {
   std::optional<io::ExodusWriter> writer_;
 };
 
-// The table of the ledger and of asked-for extremes over time.
+// The table of the ledger and of asked-for extremes and reactions over time.
 class History {
  public:
   History(const deck::Deck& deck, const Body& body, const Views& views)
       : schedule(deck.history.enabled, deck.history.frequency, deck.history.interval, deck.solver.initial_time),
-        extremes_(views.extremes) {
+        extremes_(views.extremes),
+        reactions_(views.reactions) {
     if (!deck.history.enabled) return;
     std::vector<std::string> names{
         "Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy",
         "Contact_Work", "External_Work", "Balance_Error",  "Momentum_X",     "Momentum_Y",   "Momentum_Z"};
     for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
+    for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
     file_.emplace(deck.history.file, body.domain.communicator, names);
   }
 
-  void write(const Ledger& now, const Body& body) {
+  void write(const Ledger& now, const Reactions& reactions, const Body& body) {
     static Teuchos::Time& timer = phase("History");
     const Timed timed(timer);
     std::vector<double> row{now.time,          now.dt,         now.kinetic,  now.elastic,       now.dissipated,
@@ -79,6 +81,7 @@ class History {
     for (const Extreme& e : extremes_) row.push_back(e.local(body));
     body.domain.communicator.max(std::span(row).subspan(fixed));
     for (std::size_t k = 0; k < extremes_.size(); ++k) row[fixed + k] = extremes_[k].value(row[fixed + k]);
+    for (const ReactionComponent& reaction : reactions_) row.push_back(reaction.of(reactions));
     file_->write(row);
     schedule.done(now.time);
   }
@@ -87,6 +90,7 @@ class History {
 
  private:
   std::vector<Extreme> extremes_;
+  std::vector<ReactionComponent> reactions_;
   std::optional<io::HistoryFile> file_;
 };
 
@@ -110,7 +114,7 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
     }
     if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
     if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
-      history.write(solver.ledger(), scene.body);
+      history.write(solver.ledger(), solver.reactions(), scene.body);
     }
     progress.show(solver.steps(), now, solver.dt());
     if (last) break;
@@ -126,12 +130,13 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
 
 // The same by load steps. One that fails leaves the last equilibrium in the files.
 Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Frames& frames, History& history) {
+  const int conditions = static_cast<int>(deck.conditions.size());
   const Communicator& ranks = scene.body.domain.communicator;
   const auto record = [&](bool last) {
     const double now = solver.time();
     if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
     if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
-      history.write(solver.ledger(), scene.body);
+      history.write(solver.ledger(), solver.reactions(conditions), scene.body);
     }
   };
   bool ending = false;
@@ -173,6 +178,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
+  if (!views.reactions.empty()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
   return close(solver, step_through(deck, scene, solver, frames, history));
 }
 

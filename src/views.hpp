@@ -3,15 +3,25 @@
 
 #include "deck/deck.hpp"
 #include "mechanics/observables.hpp"
+#include "mechanics/reactions.hpp"
 
 namespace strut {
 
-struct Views {
-  std::vector<Observable> frame;  // Output > Output Variables
-  std::vector<Extreme> extremes;  // History > Variables
+// "Reaction_X(wall)": a component of the force of the condition `wall` on the body, N.
+struct ReactionComponent {
+  std::string name;
+  int condition, component;
+
+  double of(const Reactions& reactions) const { return reactions.forces[condition][component]; }
 };
 
-// Collective. Throws one Error for all unknown names, and extremes over no point.
+struct Views {
+  std::vector<Observable> frame;             // Output > Output Variables
+  std::vector<Extreme> extremes;             // History > Variables
+  std::vector<ReactionComponent> reactions;  // History > Variables
+};
+
+// Collective. Throws one Error for all unknown names, extremes over no point, and reactions of what has none.
 Views views_of(const deck::Deck& deck, const Body& body);
 
 }  // namespace strut

@@ -59,6 +59,7 @@ Function Function::parse(const std::string& text) {
   }
   function.program_ = program;
   function.depends_on_time_ = mentions(text, "t");
+  function.depends_on_place_ = mentions(text, "[xyz]");
   return function;
 }
 

@@ -22,13 +22,14 @@ class Function {
 
   bool is_constant() const { return program_ == nullptr; }  // the same everywhere and always
   bool depends_on_time() const { return depends_on_time_; }
+  bool depends_on_place() const { return depends_on_place_; }
   const std::string& text() const { return text_; }
 
  private:
   struct Program;
   std::shared_ptr<Program> program_;
   double constant_ = 0;
-  bool depends_on_time_ = false;
+  bool depends_on_time_ = false, depends_on_place_ = false;
   std::string text_;
 };
 

@@ -211,20 +211,52 @@ Vector to_vector(const std::vector<double>& numbers, const Vector& otherwise) {
   return numbers.size() == 3 ? Vector(numbers[0], numbers[1], numbers[2]) : otherwise;
 }
 
-Condition condition(const Values& values, Problems& problems) {
-  Condition condition{.name = values.name(),
-                      .type = to_enum<ConditionType>(
-                          values.text("Type"), {"Initial Velocity", "Prescribed Displacement", "Prescribed Velocity",
-                                                "Body Force", "Symmetry Plane", "Rigid Plane", "Non-Reflecting End"}),
-                      .node_set = values.text("Node Set"),
-                      .component = to_enum<int>(values.text("Coordinate"), {"x", "y", "z"}),
-                      .value = values.function("Value")};
-  condition.point = to_vector(values.reals("Point"), condition.point);
-  condition.normal = to_vector(values.reals("Normal"), condition.normal);
-  condition.friction = values.real("Friction Coefficient");
-  if (condition.normal.isZero(0)) {
-    problems.add(path_to(values.path(), "Normal"), "is zero; expected a direction");
+// A direction of any length but zero.
+Vector direction(const Values& values, const std::string& key, const Vector& otherwise, Problems& problems) {
+  const Vector found = to_vector(values.reals(key), otherwise);
+  if (found.isZero(0)) problems.add(path_to(values.path(), key), "is zero; expected a direction");
+  return found;
+}
+
+std::array<std::optional<Function>, 3> travel(const Values& values, Problems& problems) {
+  std::array<std::optional<Function>, 3> all;
+  const char* const keys[] = {"Travel X", "Travel Y", "Travel Z"};
+  for (int c = 0; c < 3; ++c) {
+    if (!values.has(keys[c])) continue;
+    all[c] = values.function(keys[c]);
+    if (!all[c]->depends_on_place()) continue;
+    problems.add(path_to(values.path(), keys[c]),
+                 "'" + all[c]->text() + "' depends on x, y or z; expected a number or an expression in t, in m");
   }
+  return all;
+}
+
+void check_corners(const Values& values, const Vector& lower, const Vector& upper, Problems& problems) {
+  const std::string higher = "Upper Corner", low = "Lower Corner";
+  if (!values.has(higher) || !values.has(low) || (lower.array() < upper.array()).all()) return;
+  const auto text = [](const Vector& v) { return to_text(v[0]) + " " + to_text(v[1]) + " " + to_text(v[2]); };
+  problems.add(path_to(values.path(), higher),
+               "'" + text(upper) + "'; expected > Lower Corner (" + text(lower) + ") in each component, in m");
+}
+
+Condition condition(const Values& values, Problems& problems) {
+  Condition condition{
+      .name = values.name(),
+      .type = to_enum<ConditionType>(
+          values.text("Type"), {"Initial Velocity", "Prescribed Displacement", "Prescribed Velocity", "Body Force",
+                                "Symmetry Plane", "Rigid Plane", "Rigid Cylinder", "Rigid Box", "Non-Reflecting End"}),
+      .node_set = values.text("Node Set"),
+      .component = to_enum<int>(values.text("Coordinate"), {"x", "y", "z"}),
+      .value = values.function("Value")};
+  condition.point = to_vector(values.reals("Point"), condition.point);
+  condition.normal = direction(values, "Normal", condition.normal, problems);
+  condition.axis = direction(values, "Axis", condition.axis, problems);
+  condition.radius = values.real("Radius");
+  condition.lower = to_vector(values.reals("Lower Corner"), condition.lower);
+  condition.upper = to_vector(values.reals("Upper Corner"), condition.upper);
+  condition.friction = values.real("Friction Coefficient");
+  condition.travel = travel(values, problems);
+  check_corners(values, condition.lower, condition.upper, problems);
   return condition;
 }
 

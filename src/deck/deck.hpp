@@ -2,6 +2,7 @@
 // SI units throughout. Every default and meaning stands in the schema (deck/schema.cpp) and on the page made from it.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -79,19 +80,26 @@ enum class ConditionType {
   prescribed_velocity,
   body_force,      // N per m³ of reference volume
   symmetry_plane,  // the points of the set keep their distance to the plane through them with this normal
-  rigid_plane,     // one-sided: points of the set stay on the side the normal points to
-  open_end         // waves leave through the layer of points as if the body went on behind it
+  rigid_plane,     // tools: points of the set stay outside
+  rigid_cylinder,
+  rigid_box,
+  open_end  // waves leave through the layer of points as if the body went on behind it
 };
 
 struct Condition {
   std::string name;
   ConditionType type = ConditionType::initial_velocity;
-  std::string node_set;  // of mesh or deck, a block's name, or "all"
-  int component = 0;     // 0 x, 1 y, 2 z; unused for planes
-  Function value;        // m/s, m, m/s, N/m³; unused for planes
-  Vector point = Vector::Zero();
-  Vector normal = Vector::UnitX();
-  double friction = 0;  // of a rigid plane
+  std::string node_set;             // of mesh or deck, a block's name, or "all"
+  int component = 0;                // 0 x, 1 y, 2 z; unused for planes and tools
+  Function value;                   // m/s, m, m/s, N/m³; unused for planes and tools
+  Vector point = Vector::Zero();    // m, on a plane or an axis
+  Vector normal = Vector::UnitX();  // of any length but zero
+  // Of tools:
+  Vector axis = Vector::UnitX();                          // of any length but zero
+  double radius = 0;                                      // m
+  Vector lower = Vector::Zero(), upper = Vector::Ones();  // corners, m
+  double friction = 0;                                    // Coulomb's coefficient
+  std::array<std::optional<Function>, 3> travel;          // along x, y, z, of t only, m
 };
 
 // Loads without inertia.

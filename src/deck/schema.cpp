@@ -201,11 +201,50 @@ Section plane(const std::string& type, const std::string& meaning) {
                    {.name = "Normal", .kind = Kind::vector, .required = true, .meaning = "Of any length but zero."}}};
 }
 
-Section rigid_plane() {
-  Section section = plane("Rigid Plane", "A wall: the points stay on the side the normal points to.");
+// A section of a tool: its shape's keys, and those that all have.
+Section tool(Section section) {
   section.keys.push_back(
       {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."});
+  for (const std::string axis : {"X", "Y", "Z"}) {
+    section.keys.push_back({.name = "Travel " + axis,
+                            .kind = Kind::expression,
+                            .unit = "m",
+                            .meaning = "How far it has gone along " + axis +
+                                       " at the time t (s), from where the other "
+                                       "keys put it. Without: nowhere."});
+  }
   return section;
+}
+
+Section rigid_plane() {
+  return tool(plane("Rigid Plane", "A wall: the points stay on the side the normal points to."));
+}
+
+Section rigid_cylinder() {
+  return tool(
+      {.name = "Rigid Cylinder",
+       .meaning = "A roll without ends: the points stay outside.",
+       .keys = {{.name = "Point", .kind = Kind::vector, .unit = "m", .required = true, .meaning = "On the axis."},
+                {.name = "Axis",
+                 .kind = Kind::vector,
+                 .required = true,
+                 .meaning = "Its direction, of any length but zero."},
+                {.name = "Radius", .unit = "m", .range = positive, .required = true, .meaning = "Of the roll."}}});
+}
+
+Section rigid_box() {
+  return tool({.name = "Rigid Box",
+               .meaning = "A solid block with faces across the axes and sharp edges: the points stay outside.",
+               .keys = {{.name = "Lower Corner",
+                         .kind = Kind::vector,
+                         .unit = "m",
+                         .required = true,
+                         .meaning = "The smallest x, y, z."},
+                        {.name = "Upper Corner",
+                         .kind = Kind::vector,
+                         .unit = "m",
+                         .required = true,
+                         .meaning = "The largest x, y, z, each larger than that of the lower corner."}}});
 }
 
 Section open_end() {
@@ -229,13 +268,13 @@ Section conditions() {
   Key type = {.name = "Type", .kind = Kind::choice, .required = true, .meaning = "It decides on further keys."};
   return {.name = "Boundary Conditions",
           .meaning = "What is imposed on points, initial conditions included.",
-          .sections = {with_cases(
-              std::move(one), std::move(type),
-              {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
-               along_axis("Prescribed Displacement", "m", "The displacement at every time."),
-               along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
-               along_axis("Body Force", "N/m³", "A force per reference volume."),
-               plane("Symmetry Plane", "The points keep their distance to the plane."), rigid_plane(), open_end()})}};
+          .sections = {with_cases(std::move(one), std::move(type),
+                                  {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
+                                   along_axis("Prescribed Displacement", "m", "The displacement at every time."),
+                                   along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
+                                   along_axis("Body Force", "N/m³", "A force per reference volume."),
+                                   plane("Symmetry Plane", "The points keep their distance to the plane."),
+                                   rigid_plane(), rigid_cylinder(), rigid_box(), open_end()})}};
 }
 
 Section quasi_static() {
@@ -333,12 +372,14 @@ Section history() {
                 .unit = "s",
                 .range = positive,
                 .meaning = "Every so much time. Where neither is given: 1/1000 of the run."}},
-      .sections = {{.name = "Variables",
-                    .meaning = "The columns.",
-                    .any_key = Key{
-                        .name = any_name,
-                        .kind = Kind::boolean,
-                        .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block."}}}};
+      .sections = {
+          {.name = "Variables",
+           .meaning = "The columns.",
+           .any_key = Key{.name = any_name,
+                          .kind = Kind::boolean,
+                          .meaning = "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block; "
+                                     "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body: "
+                                     "prescribed motion, a symmetry plane or a rigid tool."}}}};
 }
 
 }  // namespace

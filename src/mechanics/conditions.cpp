@@ -19,15 +19,43 @@ double motion_velocity(const PrescribedMotion& motion, const Body& body, int i, 
   return (target - body.sites[i].current[motion.component]) / dt;
 }
 
-void constrain_motion(const PrescribedMotion& motion, double t, const PointSteps& steps, Body& body, KickWork& work) {
-  const int c = motion.component;
+struct Push {
+  int point;
+  Vector half_impulse;  // N s
+  double Work::*share;  // of the ledger
+};
+
+// What conditions do to the velocities of one kick, at the time t.
+struct Kick {
+  double t;
+  const PointSteps& steps;
+  Body& body;
+  Impulses& impulses;
+  std::vector<Push> pushes = {};
+
+  // After the velocity of point i was changed.
+  void record(int i, const Vector& change, double Work::*share, int condition = -1) {
+    const Vector half_impulse = 0.5 * body.mass(i) * change;
+    pushes.push_back({i, half_impulse, share});
+    impulses.add(condition, 2 * half_impulse);
+  }
+};
+
+// With the velocities that all conditions together leave.
+void add_work(const Kick& kick, KickWork& work) {
+  for (const auto& [i, half_impulse, share] : kick.pushes) {
+    work.before.*share += half_impulse.dot(kick.body.previous_velocity[i]);
+    work.after.*share += half_impulse.dot(kick.body.velocity[i]);
+  }
+}
+
+void constrain_motion(const PrescribedMotion& motion, Kick& kick) {
   for (const int i : motion.points) {
-    double& v = body.velocity[i][c];
-    const double imposed = motion_velocity(motion, body, i, t, steps.of(i));
-    const double half_impulse = 0.5 * body.mass(i) * (imposed - v);
-    work.before.external += half_impulse * body.previous_velocity[i][c];
-    work.after.external += half_impulse * imposed;
+    double& v = kick.body.velocity[i][motion.component];
+    const double imposed = motion_velocity(motion, kick.body, i, kick.t, kick.steps.of(i));
+    const double change = imposed - v;
     v = imposed;
+    kick.record(i, change * Vector::Unit(motion.component), &Work::external, motion.condition);
   }
 }
 
@@ -36,50 +64,75 @@ double dragged(double before, double kick, double rate, double dt) {
   return (before * (1 - 0.5 * rate * dt) + kick) / (1 + 0.5 * rate * dt);
 }
 
-struct Impulse {
-  int point;
-  Vector half;  // N s
-};
-
-void drag(const OpenEnd& end, const PointSteps& steps, Body& body, std::vector<Impulse>& impulses) {
+void drag(const OpenEnd& end, Kick& kick) {
   for (const auto& [i, along, across, gain] : end.drags) {
-    const Vector before = body.previous_velocity[i], kick = gain * (body.velocity[i] - before);
-    const double speed = end.normal.dot(before), push = end.normal.dot(kick), dt = steps.of(i);
-    const Vector sliding = before - speed * end.normal, shear = kick - push * end.normal;
-    Vector& v = body.velocity[i];
+    const Vector before = kick.body.previous_velocity[i], change = gain * (kick.body.velocity[i] - before);
+    const double speed = end.normal.dot(before), push = end.normal.dot(change), dt = kick.steps.of(i);
+    const Vector sliding = before - speed * end.normal, shear = change - push * end.normal;
+    Vector& v = kick.body.velocity[i];
     const Vector kicked = v;
     v = dragged(speed, push, along, dt) * end.normal;
     for (int c = 0; c < 3; ++c) v[c] += dragged(sliding[c], shear[c], across, dt);
-    impulses.push_back({i, 0.5 * body.mass(i) * (v - kicked)});
+    kick.record(i, v - kicked, &Work::external);
   }
 }
 
-// The change of velocity by which a plane allows `velocity`, at a gap (m) in front of it.
-Vector correction(const Plane& plane, double gap, const Vector& velocity, double dt) {
-  const double speed = plane.normal.dot(velocity);
-  double allowed = 0;
-  if (plane.one_sided) {
-    if (gap + dt * speed >= 0) return Vector::Zero();
-    allowed = -gap / dt;  // lands on the plane; one found behind it comes back
+void constrain_plane(const SymmetryPlane& plane, Kick& kick) {
+  for (const int i : plane.points) {
+    const Vector change = -plane.normal.dot(kick.body.velocity[i]) * plane.normal;
+    kick.body.velocity[i] += change;
+    kick.record(i, change, &Work::external, plane.condition);
   }
-  const Vector push = (allowed - speed) * plane.normal;
-  if (plane.friction == 0) return push;
-  const Vector sliding = velocity - speed * plane.normal;
+}
+
+// Where a tool is, and how fast over the steps of its points, which differ by how often they are halved.
+class ToolMotion {
+ public:
+  ToolMotion(const Tool& tool, double t, double whole_step)
+      : tool_(tool), t_(t), whole_step_(whole_step), offset_(tool.offset(t)) {}
+
+  const Vector& offset() const { return offset_; }
+  const Vector& velocity(int halvings) {
+    while (static_cast<int>(velocities_.size()) <= halvings) {
+      const double dt = std::ldexp(whole_step_, -static_cast<int>(velocities_.size()));
+      velocities_.push_back((tool_.offset(t_ + dt) - offset_) / dt);
+    }
+    return velocities_[halvings];
+  }
+
+ private:
+  const Tool& tool_;
+  double t_, whole_step_;
+  Vector offset_;
+  std::vector<Vector> velocities_;  // by halvings
+};
+
+// The change of velocity that keeps a point which has this one, relative to the tool, out of it over dt.
+Vector correction(const Surface& at, double friction, const Vector& velocity, double dt) {
+  const double speed = at.normal.dot(velocity);
+  const double allowed = -at.gap / dt;  // lands on the surface; one found inside comes back
+  const Vector push = (allowed - speed) * at.normal;
+  if (friction == 0) return push;
+  const Vector sliding = velocity - speed * at.normal;
   const double length = sliding.norm();
-  const double grip = plane.friction * std::abs(allowed - speed);
+  const double grip = friction * std::abs(allowed - speed);
   return grip < length ? push - grip / length * sliding : Vector(push - sliding);
 }
 
-void constrain_plane(const Plane& plane, const PointSteps& steps, Body& body, KickWork& work) {
-  const auto share = plane.one_sided ? &Work::contact : &Work::external;
-  for (const int i : plane.points) {
-    const double gap = plane.normal.dot(body.current(i) - plane.point);
-    const Vector change = correction(plane, gap, body.velocity[i], steps.of(i));
-    body.velocity[i] += change;
-    const Vector half_impulse = 0.5 * body.mass(i) * change;
-    work.before.*share += half_impulse.dot(body.previous_velocity[i]);
-    work.after.*share += half_impulse.dot(body.velocity[i]);
-  }
+void constrain_tool(const Tool& tool, Kick& kick) {
+  ToolMotion motion(tool, kick.t, kick.steps.whole);
+  const auto keep_out = [&](const auto& shape) {
+    for (const int i : tool.points) {
+      const double dt = kick.steps.of(i);
+      const Surface at = surface(shape, kick.body.current(i) - motion.offset());
+      const Vector relative = kick.body.velocity[i] - motion.velocity(kick.steps.halved(i));
+      if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
+      const Vector change = correction(at, tool.friction, relative, dt);
+      kick.body.velocity[i] += change;
+      kick.record(i, change, &Work::contact, tool.condition);
+    }
+  };
+  std::visit(keep_out, tool.shape);
 }
 
 }  // namespace
@@ -91,22 +144,21 @@ void add_body_forces(const Conditions& conditions, double t, Body& body) {
 }
 
 void start_motions(const Conditions& conditions, double t, double dt, Body& body) {
-  KickWork none;
-  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, {dt}, body, none);
-  for (const Plane& plane : conditions.planes) {
-    if (!plane.one_sided) constrain_plane(plane, {dt}, body, none);
-  }
+  Impulses none;
+  const PointSteps steps{dt};
+  Kick kick{t, steps, body, none};
+  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, kick);
+  for (const SymmetryPlane& plane : conditions.symmetry_planes) constrain_plane(plane, kick);
 }
 
-void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work) {
-  std::vector<Impulse> drags;
-  for (const OpenEnd& end : conditions.open_ends) drag(end, steps, body, drags);
-  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, t, steps, body, work);
-  for (const Plane& plane : conditions.planes) constrain_plane(plane, steps, body, work);
-  for (const auto& [i, half] : drags) {  // with the velocity that the others leave
-    work.before.external += half.dot(body.previous_velocity[i]);
-    work.after.external += half.dot(body.velocity[i]);
-  }
+void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work,
+               Impulses& impulses) {
+  Kick kick{t, steps, body, impulses};
+  for (const OpenEnd& end : conditions.open_ends) drag(end, kick);
+  for (const PrescribedMotion& motion : conditions.motions) constrain_motion(motion, kick);
+  for (const SymmetryPlane& plane : conditions.symmetry_planes) constrain_plane(plane, kick);
+  for (const Tool& tool : conditions.tools) constrain_tool(tool, kick);
+  add_work(kick, work);
 }
 
 Conditions restricted_to(const Conditions& conditions, const std::vector<std::uint8_t>& halvings, int order) {
@@ -120,7 +172,8 @@ Conditions restricted_to(const Conditions& conditions, const std::vector<std::ui
     some.open_ends.push_back(end);
   }
   for (const PrescribedMotion& motion : conditions.motions) some.motions.push_back(restrict(motion));
-  for (const Plane& plane : conditions.planes) some.planes.push_back(restrict(plane));
+  for (const SymmetryPlane& plane : conditions.symmetry_planes) some.symmetry_planes.push_back(restrict(plane));
+  for (const Tool& tool : conditions.tools) some.tools.push_back(restrict(tool));
   return some;
 }
 

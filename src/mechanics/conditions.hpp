@@ -1,4 +1,4 @@
-// What acts on points from outside: loads, prescribed motion, planes, open ends; and the work that each does.
+// What acts on points from outside: loads, prescribed motion, planes, tools, open ends; and the work that each does.
 #pragma once
 
 #include <cmath>
@@ -7,6 +7,8 @@
 
 #include "base/function.hpp"
 #include "mechanics/body.hpp"
+#include "mechanics/reactions.hpp"
+#include "mechanics/tool.hpp"
 
 namespace strut {
 
@@ -16,6 +18,7 @@ struct PrescribedMotion {
   int component;
   Function value;  // of the reference position and time: m, or m/s
   bool is_velocity;
+  int condition = -1;  // its place in the deck
 };
 
 struct BodyForce {
@@ -24,14 +27,11 @@ struct BodyForce {
   Function value;  // N/m³ of reference volume
 };
 
-// Two-sided (symmetry): points keep their distance to the plane. One-sided (rigid wall): points stay on the side that
-// the normal points to; one that would pass is stopped on the plane, and is free to leave. While it is stopped, Coulomb
-// friction takes up to `friction` times the impulse of the wall from its sliding.
-struct Plane {
+// Points keep their distance to a plane.
+struct SymmetryPlane {
   std::vector<int> points;
-  Vector point, normal;  // the normal of unit length
-  bool one_sided;
-  double friction = 0;
+  Vector normal;       // of unit length
+  int condition = -1;  // its place in the deck
 };
 
 // An end that waves leave as if the body went on behind it: the viscous traction −ρ c_p v_n − ρ c_s v_t (Lysmer &
@@ -52,13 +52,14 @@ struct Conditions {
   std::vector<BodyForce> body_forces;
   std::vector<OpenEnd> open_ends;
   std::vector<PrescribedMotion> motions;
-  std::vector<Plane> planes;  // applied last: nothing passes a wall
+  std::vector<SymmetryPlane> symmetry_planes;
+  std::vector<Tool> tools;  // applied last: nothing enters a tool
 };
 
 // J done on this rank's points.
 struct Work {
   double external = 0;  // by loads and prescribed motion
-  double contact = 0;   // by one-sided planes and friction (negative: what a plastic impact takes)
+  double contact = 0;   // by tools and friction (negative: what a plastic impact takes)
 
   Work operator+(const Work& other) const { return {external + other.external, contact + other.contact}; }
 };
@@ -74,7 +75,8 @@ struct PointSteps {
   double whole;                                         // s
   const std::vector<std::uint8_t>* halvings = nullptr;  // of owned points; none if null or empty
 
-  double of(int i) const { return !halvings || halvings->empty() ? whole : std::ldexp(whole, -(*halvings)[i]); }
+  int halved(int i) const { return !halvings || halvings->empty() ? 0 : (*halvings)[i]; }
+  double of(int i) const { return halved(i) == 0 ? whole : std::ldexp(whole, -halved(i)); }
 };
 
 // Adds the body forces at time t (s) to the force density.
@@ -84,8 +86,9 @@ void add_body_forces(const Conditions& conditions, double t, Body& body);
 void start_motions(const Conditions& conditions, double t, double dt, Body& body);
 
 // Changes the velocities after the kick at time t, which carry each point on for its step, to what the conditions
-// allow.
-void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work);
+// allow. Adds the impulses of motions, symmetry planes and tools to `impulses`.
+void constrain(const Conditions& conditions, double t, const PointSteps& steps, Body& body, KickWork& work,
+               Impulses& impulses);
 
 // The open end that these points are, by the moduli of their undeformed blocks.
 OpenEnd open_end(const std::vector<int>& points, const Vector& normal, const Body& body);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -93,7 +94,9 @@ void CentralDifference::kick(double final_time) {
     body_.previous_velocity[i] = body_.velocity[i];
     body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
   });
-  constrain(conditions_, time_, point_steps(), body_, kick_work_);
+  Impulses impulses(static_cast<int>(reactions_.size()));
+  constrain(conditions_, time_, point_steps(), body_, kick_work_, impulses);
+  take_reactions(impulses, kick);
   add_work_of_body_forces(conditions_, time_, kick, body_, kick_work_);
   add_work_of_friction(kick);
   if (steps_ == 0) put_in_ = 0, put_in_ = imbalance(ledger());
@@ -111,6 +114,27 @@ void CentralDifference::add_work_of_friction(double kick) {
   const contact::FrictionWork work = contact_.friction_work(kick, body_.previous_velocity, body_.velocity);
   kick_work_.before.contact += work.before;
   kick_work_.after.contact += work.after;
+}
+
+void CentralDifference::gather_reactions(int conditions) {
+  reactions_.assign(conditions, Vector::Zero());
+  between_ = Impulses(conditions);
+}
+
+// What a substep gives belongs to the step before this kick. The first kick begins half a step back, with velocities
+// that conditions have not changed, and so they answer for half of it.
+void CentralDifference::take_reactions(const Impulses& now, double kick) {
+  const double length = steps_ == 0 ? 0.5 * kick : kick;
+  for (std::size_t c = 0; c < reactions_.size(); ++c) {
+    reactions_[c] = now.sums()[c] / length + between_.sums()[c] / previous_dt_;
+  }
+  between_ = Impulses(static_cast<int>(reactions_.size()));
+}
+
+Reactions CentralDifference::reactions() const {
+  Reactions all{reactions_};
+  if (!all.forces.empty()) body_.domain.communicator.sum(std::span(all.forces[0].data(), 3 * all.forces.size()));
+  return all;
 }
 
 // Initial velocities belong to the initial time: the mid-step before it is half a step back.
@@ -153,7 +177,7 @@ StepReport CentralDifference::substep(int order, double t) {
     body_.velocity[i] += kick / body_.density[i] * body_.force_density[i];
   });
   KickWork work;
-  constrain(conditions_of_order_[order - 1], t, steps, body_, work);
+  constrain(conditions_of_order_[order - 1], t, steps, body_, work, between_);
   work_ = work_ + work.before + work.after;
   return report;
 }

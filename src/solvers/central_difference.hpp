@@ -42,6 +42,11 @@ class CentralDifference {
 
   Ledger ledger();  // collective; after kick()
 
+  // From now on, impulses are gathered of as many conditions as the deck has.
+  void gather_reactions(int conditions);
+  // Collective; after kick(). Forces at time(): impulses over the times that they stand for.
+  Reactions reactions() const;
+
   // Set by a signal on any rank: agreed upon by all at the end of move().
   bool stop_agreed() const { return stop_agreed_; }
   void request_stop() { stop_requested_ = true; }
@@ -49,6 +54,7 @@ class CentralDifference {
  private:
   contact::Crowd crowd() const;
   void add_work_of_friction(double kick);
+  void take_reactions(const Impulses& now, double kick);
   void choose_step(double final_time);
   void estimate_step();
   void regroup(StepReport& report);
@@ -68,6 +74,8 @@ class CentralDifference {
   std::vector<Conditions> conditions_of_order_;  // of the points that move at times between steps
   Work work_;                                    // up to the mid-step before time()
   KickWork kick_work_;                           // of the impulses at time()
+  std::vector<Vector> reactions_;  // N, on this rank's points at time(), by condition; empty: not asked for
+  Impulses between_;               // of the substeps since the last kick
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double limit_ = 0, pace_ = 0, pace_at_estimate_ = 0, damping_ = 0;
   double put_in_ = 0, largest_energy_ = 0;

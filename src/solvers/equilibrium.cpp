@@ -14,16 +14,14 @@ namespace {
 // body is round-off of its loading.
 constexpr double smallest_scale = 1e-4;
 
-double squared_norm(const Field& field) {
-  double sum = 0;
-  for (const Vector& v : field) sum += v.squaredNorm();
-  return sum;
-}
-
 }  // namespace
 
 Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact)
-    : body_(body), conditions_(std::move(conditions)), contact_(std::move(contact)), committed_(body) {
+    : body_(body),
+      conditions_(std::move(conditions)),
+      contact_(std::move(contact)),
+      tools_(conditions_.tools, body),
+      committed_(body) {
   residual_.assign(body.owned(), Vector::Zero());
   outer_ = outer_before_ = residual_;
   directions_ = body.sites;
@@ -34,6 +32,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
 void Equilibrium::begin(double t, double dt) {
   t_ = t, dt_ = dt;
   held_.emplace(conditions_, body_, t, dt);
+  tools_.begin(body_, t, dt);
 }
 
 Imbalance Equilibrium::evaluate(bool with_views) {
@@ -46,7 +45,8 @@ Imbalance Equilibrium::evaluate(bool with_views) {
   add_body_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volumes[i] * (body_.force_density[i] - residual_[i]);
   add_contact();
-  for (int i = 0; i < body_.owned(); ++i) residual_[i] = body_.domain.volumes[i] * body_.force_density[i];
+  forces_.resize(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volumes[i] * body_.force_density[i];
   return measure(report.failure.has_value());
 }
 
@@ -68,11 +68,16 @@ void Equilibrium::add_contact() {
 
 // The reactions are what balances the forces in held directions.
 Imbalance Equilibrium::measure(bool failed) {
-  Field reactions = residual_;
-  held_->keep(reactions);
-  held_->remove(residual_);
-  for (int i = 0; i < body_.owned(); ++i) outer_[i] -= reactions[i];
-  double sums[] = {squared_norm(residual_), squared_norm(outer_), failed ? 1.0 : 0.0};
+  Field of_tools(body_.owned(), Vector::Zero());
+  tools_.add_forces(body_, of_tools);
+  double sums[] = {0, 0, failed ? 1.0 : 0.0};
+  for (int i = 0; i < body_.owned(); ++i) {
+    forces_[i] += of_tools[i];
+    residual_[i] = held_->freedom(i) * forces_[i];
+    outer_[i] -= forces_[i] - residual_[i];
+    sums[0] += residual_[i].squaredNorm();
+    sums[1] += (outer_[i] + of_tools[i]).squaredNorm();
+  }
   body_.domain.communicator.sum(sums);
   Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1]), sums[2] > 0};
   if (!std::isfinite(now.norm + now.scale)) now.failed = true;
@@ -80,6 +85,8 @@ Imbalance Equilibrium::measure(bool failed) {
   now.scale = std::max(now.scale, smallest_scale * largest_scale_);
   return now;
 }
+
+double Equilibrium::violation() const { return body_.domain.communicator.max(tools_.violation()); }
 
 void Equilibrium::linearise() {
   static Teuchos::Time& timer = phase("Tangents");
@@ -94,6 +101,7 @@ void Equilibrium::apply(const Field& field, Field& result) {
   apply_tangent(body_, body_.domain.halo, directions_, &tangents_, body_.force_states, result);
   for (int i = 0; i < body_.owned(); ++i) result[i] *= body_.domain.volumes[i];
   contact_.add_stiffness(field, result);
+  tools_.add_stiffness(field, result);
 }
 
 void Equilibrium::commit() {
@@ -103,12 +111,14 @@ void Equilibrium::commit() {
     body_.previous_velocity[i] = body_.velocity[i];
   }
   committed_.take(body_);
+  tools_.commit();
   outer_before_ = outer_;
 }
 
 std::vector<Tensor> Equilibrium::contact_springs() {
   std::vector<Tensor> springs(body_.owned(), Tensor::Zero());
   contact_.add_springs(springs);
+  tools_.add_springs(springs);
   return springs;
 }
 
@@ -123,6 +133,15 @@ double Equilibrium::external_work() const {
     sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
   }
   return sum;
+}
+
+Reactions Equilibrium::reactions(int conditions) const {
+  Reactions all{std::vector<Vector>(conditions, Vector::Zero())};
+  if (conditions == 0 || !held_) return all;
+  held_->add_reactions(forces_, all.forces);
+  tools_.add_reactions(all.forces);
+  body_.domain.communicator.sum(std::span(all.forces.data()->data(), 3 * all.forces.size()));
+  return all;
 }
 
 std::string Equilibrium::weakest_point() const {

@@ -9,6 +9,7 @@
 #include "mechanics/mechanics.hpp"
 #include "mechanics/tangent.hpp"
 #include "solvers/held.hpp"
+#include "solvers/tool_contact.hpp"
 
 namespace strut {
 
@@ -38,6 +39,10 @@ class Equilibrium {
   void apply(const Field& field, Field& result);
   const std::vector<PointTangent>& tangents() const { return tangents_; }
 
+  // Collective. The largest violation of contact with tools, in spacings; and a round of its multipliers.
+  double violation() const;
+  void augment() { tools_.augment(); }
+
   // What contact adds to the stiffness of each point alone, N/m.
   std::vector<Tensor> contact_springs();
 
@@ -51,6 +56,9 @@ class Equilibrium {
   // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J on
   // this rank.
   double external_work() const;
+  double tool_work() const { return tools_.work(body_); }
+  // Collective. Of the last trial, for so many conditions of the deck.
+  Reactions reactions(int conditions) const;
 
  private:
   void add_contact();
@@ -59,11 +67,13 @@ class Equilibrium {
   Body& body_;
   Conditions conditions_;
   contact::Contact contact_;
+  ToolContact tools_;
   Committed committed_;
   std::optional<Held> held_;
   double t_ = 0, dt_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
-  Field residual_, outer_, outer_before_;  // outer: loads and reactions, N
+  Field forces_, residual_;      // N: all; those that nothing holds
+  Field outer_, outer_before_;   // loads and reactions, N
   std::vector<Vector> looked_at_;          // places that contact has last been asked about
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;

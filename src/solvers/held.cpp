@@ -21,16 +21,15 @@ Held::Held(const Conditions& conditions, const Body& body, double t, double dt)
     : freedom_(body.owned(), Tensor::Identity()), places_(body.owned(), Vector::Zero()) {
   for (const PrescribedMotion& motion : conditions.motions) {
     const Vector along = Vector::Unit(motion.component);
-    for (const int i : motion.points) hold(i, along, place_of(motion, body, i, t, dt));
+    for (const int i : motion.points) hold(motion.condition, i, along, place_of(motion, body, i, t, dt));
   }
-  for (const Plane& plane : conditions.planes) {
-    if (plane.one_sided) continue;
-    for (const int i : plane.points) hold(i, plane.normal, plane.normal.dot(body.current(i)));
+  for (const SymmetryPlane& plane : conditions.symmetry_planes) {
+    for (const int i : plane.points) hold(plane.condition, i, plane.normal, plane.normal.dot(body.current(i)));
   }
 }
 
 // With y·d = place, in the directions that are still free: y·(F d) = place − (d − F d)·y, and the rest of d is held.
-void Held::hold(int point, const Vector& direction, double place) {
+void Held::hold(int condition, int point, const Vector& direction, double place) {
   Tensor& freedom = freedom_[point];
   const Vector free = freedom * direction;
   const double length = free.norm();
@@ -39,6 +38,7 @@ void Held::hold(int point, const Vector& direction, double place) {
   const double left = place - direction.dot(places_[point]);
   places_[point] += left / length * along;
   freedom -= along * along.transpose();
+  directions_.push_back({condition, point, along});
 }
 
 void Held::remove(Field& field) const {
@@ -47,6 +47,13 @@ void Held::remove(Field& field) const {
 
 void Held::keep(Field& field) const {
   for (std::size_t i = 0; i < field.size(); ++i) field[i] -= freedom_[i] * field[i];
+}
+
+void Held::add_reactions(const Field& forces, std::vector<Vector>& by_condition) const {
+  for (const auto& [condition, point, along] : directions_) {
+    if (static_cast<std::size_t>(condition) >= by_condition.size()) continue;  // −1, too
+    by_condition[condition] -= along.dot(forces[point]) * along;
+  }
 }
 
 Field Held::way_left(const Body& body) const {

@@ -18,11 +18,20 @@ class Held {
   // The projection of point i on its free directions.
   const Tensor& freedom(int i) const { return freedom_[i]; }
 
+  // Adds what forces the holding conditions put against `forces` (N), by condition.
+  void add_reactions(const Field& forces, std::vector<Vector>& by_condition) const;
+
   // What is left of the way of each held point over the step (m); 0 along free directions.
   Field way_left(const Body& body) const;
 
  private:
-  void hold(int point, const Vector& direction, double place);
+  void hold(int condition, int point, const Vector& direction, double place);
+
+  struct Direction {
+    int condition, point;
+    Vector along;  // of unit length, across the earlier ones of its point
+  };
+  std::vector<Direction> directions_;
 
   std::vector<Tensor> freedom_;
   Field places_;  // where the held directions of a point lead to: m, 0 along free ones

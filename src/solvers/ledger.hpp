@@ -9,7 +9,7 @@ struct Ledger {
   double time = 0, dt = 0;                                             // s
   double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
   double external = 0;  // J, work of loads and prescribed motion on the points so far
-  // J, work of walls and contact on the points so far: what penalties store and friction and walls take is negative.
+  // J, work of tools and contact on the points so far: what penalties store and friction and walls take is negative.
   double contact = 0;
   double balance_error = 0;          // |stored + dissipated − put in| over the largest sum of energies so far
   Vector momentum = Vector::Zero();  // kg m/s

@@ -12,7 +12,7 @@ namespace {
 
 // Of the linear systems. Near the solution Newton's own convergence is the limit of what is worth solving for: the
 // residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
-constexpr double coarsest = 1e-1, finest = 1e-4;
+constexpr double of_first = 1e-3, coarsest = 1e-1, finest = 1e-4;
 constexpr int most_products = 400;
 
 constexpr int most_halvings = 4;  // of a step, in the search along it
@@ -47,12 +47,11 @@ void Newton::renew_preconditioner() {
 }
 
 // The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
-int Newton::correct(const Field& way, double accuracy, Field& step) {
+int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
   equilibrium_.linearise();
   if (preconditioner_due_) renew_preconditioner();
   const Held& held = equilibrium_.held();
   Field right = equilibrium_.residual();
-  const bool moves = equilibrium_.body().domain.communicator.sum(squared_norm(way)) > 0;
   if (moves) {
     Field pull(way.size());
     equilibrium_.apply(way, pull);
@@ -74,16 +73,16 @@ int Newton::correct(const Field& way, double accuracy, Field& step) {
   return outcome.iterations;
 }
 
-// Along the step to where fewer forces are left: the whole of it, or a half, a quarter … . The first one is taken
-// wherever it can be, for it moves what is held: there is nothing to compare with.
-Imbalance Newton::advance(const Imbalance& now, const Field& step, bool is_first) {
+// Along the step to where fewer forces are left: the whole of it, or a half, a quarter … . A step that moves what
+// is held is taken whole: there is nothing to compare with.
+Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   Body& body = equilibrium_.body();
   double taken = 1;
   move_by(body, taken, step);
   Imbalance next = equilibrium_.evaluate();
   double best = taken;
   Imbalance least = next;
-  for (int n = 0; n < most_halvings && !is_first; ++n) {
+  for (int n = 0; n < most_halvings && !moves; ++n) {
     if (!next.failed && next.norm < (1 - 1e-4 * taken) * now.norm) return next;
     move_by(body, -0.5 * taken, step);
     taken *= 0.5;
@@ -99,19 +98,17 @@ Search Newton::solve(const Tolerance& tolerance) {
   Search search;
   search.left = equilibrium_.evaluate();
   Field way = equilibrium_.held().way_left(equilibrium_.body()), step;
-  double before = 0;
+  bool moves = equilibrium_.body().domain.communicator.sum(squared_norm(way)) > 0;
+  double before = search.left.norm;
   for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
-    const bool is_first = search.iterations == 0;
-    if (!is_first && is_balanced(search.left, tolerance)) {
-      search.converged = true;
-      return search;
-    }
-    const double gain = is_first ? 1 : search.left.norm / before;
-    const double accuracy = std::clamp(0.5 * gain * gain, finest, coarsest);
+    if (!moves && is_balanced(search.left, tolerance)) break;
+    const double gain = search.left.norm / before;
+    const double accuracy = moves ? of_first : std::clamp(0.5 * gain * gain, finest, coarsest);
     before = search.left.norm;
-    search.evaluations += correct(way, is_first ? 1e-3 : accuracy, step);
-    search.left = advance(search.left, step, is_first);
+    search.evaluations += correct(way, moves, accuracy, step);
+    search.left = advance(search.left, step, moves);
     std::fill(way.begin(), way.end(), Vector::Zero());
+    moves = false;
   }
   search.converged = is_balanced(search.left, tolerance);
   return search;

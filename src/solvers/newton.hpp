@@ -14,8 +14,8 @@ class Newton {
   Search solve(const Tolerance& tolerance);
 
  private:
-  int correct(const Field& way, double accuracy, Field& step);
-  Imbalance advance(const Imbalance& now, const Field& step, bool is_first);
+  int correct(const Field& way, bool moves, double accuracy, Field& step);
+  Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void renew_preconditioner();
 
   Equilibrium& equilibrium_;

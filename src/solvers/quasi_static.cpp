@@ -13,6 +13,8 @@ namespace {
 
 constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
 constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried where Newton fails
+constexpr double largest_violation = 1e-4;  // of contact with tools, in spacings
+constexpr int most_rounds = 30;             // of its multipliers, in a step
 constexpr int easily = 6;                // iterations of a step after which the next may be longer
 constexpr double round_off = 1e-9;
 
@@ -41,10 +43,23 @@ void QuasiStatic::extrapolate() {
 Search QuasiStatic::search_from_start(bool with_tangent) {
   equilibrium_.begin(time_, dt_);
   extrapolate();
-  const Search search = with_tangent ? newton_.solve(control_.tolerance) : relaxation_.solve(control_.tolerance);
-  iterations_ += search.iterations;
-  evaluations_ += search.evaluations;
-  return search;
+  // Rounds of the multipliers of tools, each from the equilibrium of the last.
+  Search whole;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Search last = search(with_tangent);
+    whole = {last.converged, whole.iterations + last.iterations, whole.evaluations + last.evaluations, last.left};
+    if (!last.converged || equilibrium_.violation() <= largest_violation) return whole;
+    equilibrium_.augment();
+  }
+  whole.converged = false;
+  return whole;
+}
+
+Search QuasiStatic::search(bool with_tangent) {
+  const Search found = with_tangent ? newton_.solve(control_.tolerance) : relaxation_.solve(control_.tolerance);
+  iterations_ += found.iterations;
+  evaluations_ += found.evaluations;
+  return found;
 }
 
 // Relaxation takes many times as long as Newton: it is left for steps that Newton could not make by being cut.
@@ -76,6 +91,7 @@ void QuasiStatic::commit(const Search& search) {
   Body& body = equilibrium_.body();
   equilibrium_.evaluate(true);
   external_ += body.domain.communicator.sum(equilibrium_.external_work());
+  by_tools_ += body.domain.communicator.sum(equilibrium_.tool_work());
   last_step_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
   equilibrium_.commit();
@@ -97,7 +113,7 @@ Ledger QuasiStatic::ledger() {
   Ledger now{.time = time_, .dt = last_dt_};
   now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
   now.external = external_;
-  now.contact = -body.domain.communicator.sum(contact().energy());
+  now.contact = by_tools_ - body.domain.communicator.sum(contact().energy());
   const double held = now.elastic + now.dissipated + now.stabilization;
   const double put_in = now.external + now.contact;
   largest_energy_ = std::max({largest_energy_, held, std::abs(put_in)});

@@ -33,10 +33,12 @@ class QuasiStatic {
   // last equilibrium.
   void advance();
 
-  Ledger ledger();  // collective
+  Ledger ledger();                                // collective
+  Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
 
  private:
   Search attempt();
+  Search search(bool with_tangent);
   Search search_from_start(bool with_tangent);
   void extrapolate();
   void commit(const Search& search);
@@ -49,7 +51,7 @@ class QuasiStatic {
   double time_, final_time_, longest_, dt_, last_dt_ = 0;
   Field last_step_;  // m, of the last load step
   int steps_ = 0, iterations_ = 0, evaluations_ = 0;
-  double external_ = 0, largest_energy_ = 0;
+  double external_ = 0, by_tools_ = 0, largest_energy_ = 0;
 };
 
 }  // namespace strut

@@ -262,6 +262,22 @@ TEST_F(Mistake, UnknownVariables) {
                {"Output > Output Variables > Displacment", "History > Variables > Max_Displacment"});
 }
 
+TEST_F(Mistake, UnknownReactions) {
+  Parts parts = right_parts();
+  parts.conditions += plane("floor", "Rigid Plane", "all", "0 0 -1", "0 0 1");
+  const std::string deck = parts.text();
+  const auto with = [&](const std::string& name) { return changed(deck, "Max_Displacement", name); };
+  EXPECT_EQ(outcome(with("Reaction_Z(wall)")).value_or("no error"), "no error");
+  expect_error(with("Reaction_Z(wal)"), {"History > Variables > Reaction_Z(wal): 'wal' is no section",
+                                         "(did you mean 'wall'?); there are wall, floor"});
+  expect_error(with("Reaction_Z(flight)"),
+               {"'flight' is no section of Boundary Conditions with prescribed motion, symmetry plane or tool"});
+  for (const std::string name : {"Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
+    expect_error(with(name), {"History > Variables > " + name + ": expected one of Reaction_X, Reaction_Y, Reaction_Z",
+                              "in brackets the name of a section of Boundary Conditions"});
+  }
+}
+
 // What a run has written is lost only to a run that begins.
 TEST_F(Mistake, LeavesEarlierResultsAlone) {
   const std::string deck = right_parts().text();

@@ -133,6 +133,11 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
 </ParameterList>
 )xml";
 
+// What full_deck says of the shape of its wall, to be replaced by another tool's.
+inline const std::string wall_shape = R"x("Rigid Plane"/>
+      <Parameter name="Point" type="string" value="0 0 -1e-3"/>
+      <Parameter name="Normal" type="Array(int)" value="{0, 0, 2}"/>)x";
+
 // Only what has no default.
 inline const std::string small_deck = R"xml(<ParameterList>
   <ParameterList name="Discretization">

@@ -116,6 +116,13 @@ TEST(Function, KnowsWhetherItDependsOnTime) {
   EXPECT_FALSE(Function::parse("sqrt(x)").depends_on_time());  // the t of sqrt is none
 }
 
+TEST(Function, KnowsWhetherItDependsOnThePlace) {
+  for (const char* text : {"x", "2*y*t", "value = 0; if (z > 1) { value = 1; }"}) {
+    EXPECT_TRUE(Function::parse(text).depends_on_place()) << text;
+  }
+  for (const char* text : {"3", "exp(-t)", "value = t"}) EXPECT_FALSE(Function::parse(text).depends_on_place()) << text;
+}
+
 TEST(Function, WhatDoesNotCompileIsAnError) {
   for (const char* text : {"3*q", "x +", "sin(", "1e999"}) EXPECT_THROW(Function::parse(text), Error) << text;
 }

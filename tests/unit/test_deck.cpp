@@ -134,6 +134,34 @@ TEST(Deck, ReadsEveryTypeOfCondition) {
   EXPECT_EQ(deck.conditions[2].type, ConditionType::symmetry_plane);
 }
 
+TEST(Deck, ReadsTools) {
+  const DeckFolder folder;
+  EXPECT_FALSE(folder.read(full_deck).conditions[2].travel[0]) << "without travel it stays";
+  const Condition roll = folder
+                             .read(changed(full_deck, wall_shape, R"("Rigid Cylinder"/>
+      <Parameter name="Point" type="string" value="0 0 -1e-3"/> <Parameter name="Axis" type="string" value="0 2 0"/>
+      <Parameter name="Radius" type="double" value="0.5"/> <Parameter name="Travel Y" type="string" value="3*t"/>
+      <Parameter name="Friction Coefficient" type="double" value="0.1"/>)"))
+                             .conditions[2];
+  EXPECT_EQ(roll.type, ConditionType::rigid_cylinder);
+  EXPECT_EQ(roll.point, Vector(0, 0, -1e-3));
+  EXPECT_EQ(roll.axis, Vector(0, 2, 0));
+  EXPECT_EQ(roll.radius, 0.5);
+  EXPECT_EQ(roll.friction, 0.1);
+  EXPECT_FALSE(roll.travel[0] || roll.travel[2]);
+  EXPECT_EQ(roll.travel[1].value()(0, 0, 0, 2), 6);
+  const Condition block = folder
+                              .read(changed(full_deck, wall_shape, R"("Rigid Box"/>
+      <Parameter name="Lower Corner" type="string" value="0 -1 2"/>
+      <Parameter name="Upper Corner" type="string" value="1 0 3"/> <Parameter name="Travel Z" type="double" value="4"/>)"))
+                              .conditions[2];
+  EXPECT_EQ(block.type, ConditionType::rigid_box);
+  EXPECT_EQ(block.lower, Vector(0, -1, 2));
+  EXPECT_EQ(block.upper, Vector(1, 0, 3));
+  EXPECT_EQ(block.friction, 0);
+  EXPECT_EQ(block.travel[2].value()(0, 0, 0, 2), 4);
+}
+
 TEST(Deck, ReadsSolverOutputAndHistory) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);

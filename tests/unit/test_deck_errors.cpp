@@ -85,6 +85,10 @@ const std::vector<Case> values = {
      "History > Filename: ' ' is empty; expected a text (type string)"},
     {"TwoNumbersForPoint", "0 0 -1e-3", "0 0",
      "Boundary Conditions > wall > Point: '0 0'; expected three real numbers, in m"},
+    {"RadiusZero", wall_shape,
+     R"("Rigid Cylinder"/> <Parameter name="Point" type="string" value="0 0 -1e-3"/>
+      <Parameter name="Axis" type="string" value="0 0 1"/> <Parameter name="Radius" type="double" value="0"/>)",
+     "Boundary Conditions > wall > Radius: '0'; expected a real number > 0, in m"},
     {"ExpressionOfUnknown", "1e-3*y*t", "1e-3*q",
      "Boundary Conditions > pull > Value: '1e-3*q' is not an expression in x, y, z, t: Error at line 1: Use of "
      "undeclared variable: q; expected a number or an expression in x, y, z, t, in m"},
@@ -210,6 +214,18 @@ const std::vector<Case> pairs = {
     {"OneAndAll", R"(value="block_1 block_3")", R"(value="all")",
      "Blocks > plate > Block Names: 'block_2' is named twice: here and in Blocks > foam; expected once"},
     {"ZeroNormal", "{0, 0, 2}", "{0, 0, 0}", "Boundary Conditions > wall > Normal: is zero; expected a direction"},
+    {"ZeroAxis", wall_shape,
+     R"("Rigid Cylinder"/> <Parameter name="Point" type="string" value="0 0 -1e-3"/>
+      <Parameter name="Axis" type="string" value="0 0 0"/> <Parameter name="Radius" type="double" value="1"/>)",
+     "Boundary Conditions > wall > Axis: is zero; expected a direction"},
+    {"BoxWithoutHeight", wall_shape,
+     R"("Rigid Box"/> <Parameter name="Lower Corner" type="string" value="0 0 0.5"/>
+      <Parameter name="Upper Corner" type="string" value="1 1 0.5"/>)",
+     "Boundary Conditions > wall > Upper Corner: '1 1 0.5'; expected > Lower Corner (0 0 0.5) in each component, in m"},
+    {"TravelInSpace", R"(value="{0, 0, 2}"/>)",
+     R"(value="{0, 0, 2}"/><Parameter name="Travel Z" type="string" value="-z*t"/>)",
+     "Boundary Conditions > wall > Travel Z: '-z*t' depends on x, y or z; expected a number or an expression in t, in "
+     "m"},
     {"NodeSetNamedAll", R"(name="low")", R"(name="all")",
      "Node Sets > all: is the set of all points; expected another name"},
     {"NodeSetInTime", "z &lt; 1e-3", "z &lt; t", "Node Sets > low: depends on t; expected an expression in x, y, z"},

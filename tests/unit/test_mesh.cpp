@@ -89,6 +89,23 @@ TEST_F(MeshTool, FittedCylindersHaveTheVolumeOfTheirPolygon) {
   }
 }
 
+// A frustum of a regular polygon, up or down, layers alike or graded; volume and centre of mass are exact.
+TEST_F(MeshTool, ConesAreFrustumsOfTheirPolygon) {
+  for (const auto& [low, high] : {std::pair(0.5, 1.0), std::pair(1.0, 0.25)}) {
+    for (const std::string more : {"", "grading = 1.2\n", "elements = sphere\n"}) {
+      const PointCloud cloud = made("shape = cone\nlength = 3\nradius = " + std::to_string(low) +
+                                    "\ntop_radius = " + std::to_string(high) + "\nspacing = 0.11\n" + more);
+      const double sides = 4 * std::round((low + high) / 2 * std::sqrt(pi) / 0.11 / 2) * 2;
+      const double squares = low * low + low * high + high * high;
+      const double exact = sides / 2 * std::sin(2 * pi / sides) * 3 * squares / 3;
+      EXPECT_NEAR(volume(cloud), exact, 1e-9 * exact);
+      const double height = 3 * (low * low + 2 * low * high + 3 * high * high) / (4 * squares);
+      EXPECT_NEAR((centre_of_mass(cloud) - Vector(0, 0, height)).norm(), 0, 1e-9);
+      expect_fourfold(cloud);
+    }
+  }
+}
+
 TEST_F(MeshTool, AxisThroughAPoint) {
   // Squares whose centres lie within 1.5 spacings of one: it and its eight neighbours.
   const PointCloud cloud = made("shape = cylinder\ncentred = point\nlength = 3\nradius = 1.5\nspacing = 1\n");
@@ -111,6 +128,7 @@ TEST_F(MeshTool, BoxFillsItsSizeAndHasSixFaces) {
 
 TEST_F(MeshTool, SpheresAreTheSamePointsAsHexahedra) {
   for (const std::string shape : {"shape = cylinder\nmethod = fitted\nlength = 2\nradius = 1\nspacing = 0.3\n",
+                                  "shape = cone\nlength = 2\nradius = 1\ntop_radius = 0.6\nspacing = 0.3\n",
                                   "shape = box\nsize = 1 2 3\nspacing = 0.4\norigin = 5 6 7\n"}) {
     const PointCloud hexahedra = made(shape);
     const PointCloud spheres = made(shape + "elements = sphere\n");
@@ -198,12 +216,26 @@ TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
   const testing::Outcome outcome = make("shape = cylindre\nspaceing = 1\nlength = -2\nspacing = 1\nsize = 1 2 3\n");
   EXPECT_EQ(outcome.status, 1);
   for (const char* expected :
-       {"line 1: shape is 'cylindre', expected cylinder or box or foam or file (did you mean 'cylinder'?)",
+       {"line 1: shape is 'cylindre', expected cylinder or cone or box or foam or file (did you mean 'cylinder'?)",
         "line 2: unknown key 'spaceing' (did you mean 'spacing'?)", "line 3: length is '-2', expected a length > 0",
         "line 5: a cylinder has no key 'size'", "lacks the key 'radius'"}) {
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
   }
   EXPECT_FALSE(std::filesystem::exists(path("mesh.g")));
+}
+
+TEST_F(MeshTool, WrongConesAreRefused) {
+  const std::string cone = "shape = cone\nlength = 1\nspacing = 0.1\nradius = 1\n";
+  for (const auto& [recipe, expected] :
+       {std::pair(cone, "lacks the key 'top_radius'"), std::pair(cone + "top_radius = 0\n", "expected a length > 0"),
+        std::pair(cone + "top_radius = 1\nmethod = lattice\n", "line 6: a cone has only the method fitted"),
+        std::pair(cone + "top_radius = 1\ncentred = point\n", "line 6: a cone has no key 'centred'"),
+        std::pair("shape = cylinder\ntop_radius = 1\n" + cone.substr(cone.find("length")),
+                  "line 2: a cylinder has no key 'top_radius'")}) {
+    const testing::Outcome outcome = make(recipe);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;
+  }
 }
 
 TEST_F(MeshTool, OtherErrorsEndWithStatusOne) {

@@ -95,9 +95,9 @@ struct Bar {
     const auto middle = [](const Vector& X) { return X[0] < 2e-3 && X[1] < 2e-3; };
     conditions.motions.push_back({low, 2, Function(0), false});
     conditions.motions.push_back({high, 2, Function::parse(std::to_string(strain * (last - first)) + " * t"), false});
-    conditions.planes.push_back({points_where(body, [&](const Vector& X) { return middle(X) && X[0] > 1e-3 && X[1] > 1e-3; }),
-                                 Vector::Zero(), Vector::UnitX(), false});
-    conditions.planes.push_back({conditions.planes[0].points, Vector::Zero(), Vector::UnitY(), false});
+    const auto axis = points_where(body, [&](const Vector& X) { return middle(X) && X[0] > 1e-3 && X[1] > 1e-3; });
+    conditions.symmetry_planes.push_back({axis, Vector::UnitX()});
+    conditions.symmetry_planes.push_back({axis, Vector::UnitY()});
   }
 };
 

@@ -16,9 +16,15 @@ namespace {
 
 constexpr double most_cells = 1e8;
 
+// The radius at zmax over that at zmin.
+double taper_of(const Body& body) { return body.shape == Body::Shape::cone ? body.top_radius / body.radius : 1; }
+
+// Of the area of cross-sections that grow linearly by factors from `a` to `b`: its mean over the one at factor 1.
+double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3; }
+
 double exact_volume(const Body& body) {
   if (body.shape == Body::Shape::box) return body.size.prod();
-  return std::numbers::pi * body.radius * body.radius * body.length;
+  return std::numbers::pi * body.radius * body.radius * body.length * mean_square(1, taper_of(body));
 }
 
 double height(const Body& body) { return body.shape == Body::Shape::box ? body.size.z() : body.length; }
@@ -30,26 +36,30 @@ void check_cells(const Body& body, const Vector& extent) {
 }
 
 void check_size(const Body& body) {
-  const double across = 2 * body.radius;
+  const double across = 2 * std::max(body.radius, body.top_radius);
   check_cells(body, body.shape == Body::Shape::box ? body.size : Vector(across, across, body.length));
   // A lattice's cubes take the thickness of a layer, which must not be far from what was asked for.
-  if (body.shape == Body::Shape::cylinder && body.length < body.spacing / 2) {
+  if (body.shape != Body::Shape::box && body.length < body.spacing / 2) {
     throw Error("body '" + body.name + "' is shorter than half a cell: the spacing is too large");
   }
 }
 
 Section section_of(const Body& body, double layer) {
   if (body.shape == Body::Shape::box) return rectangle(body.size.x(), body.size.y(), body.spacing);
-  if (body.method == Body::Method::fitted) return fitted_disc(body.radius, layer);
+  // The cells of a cone are as wide as wanted halfway up.
+  if (body.method == Body::Method::fitted) return fitted_disc(body.radius, layer / (0.5 + 0.5 * taper_of(body)));
   return lattice_disc(body.radius, layer, body.centred);  // cubes: the fitted spacing in the plane, too
 }
 
-// A body in the making: a section and the heights of its layers' faces, in the body's own coordinates.
+// A body in the making: a section, the heights of its layers' faces, in the body's own coordinates, and how much wider
+// the section is at the last than at the first.
 struct Extrusion {
   const Section& section;
   const std::vector<double>& levels;
+  double taper;
   int layers = static_cast<int>(levels.size()) - 1;
 
+  double width(int level) const { return 1 + (taper - 1) * (levels[level] / levels.back()); }
   io::Mesh hexahedra() const;
   io::Mesh spheres() const;
   std::vector<int> cells_touching(const std::vector<int>& nodes) const;
@@ -75,7 +85,8 @@ io::Mesh Extrusion::hexahedra() const {
   io::Mesh mesh;
   const int stride = static_cast<int>(section.nodes.size());
   for (int k = 0; k <= layers; ++k) {
-    for (const Point& p : section.nodes) mesh.nodes.emplace_back(p.x(), p.y(), levels[k]);
+    const double w = width(k);
+    for (const Point& p : section.nodes) mesh.nodes.emplace_back(w * p.x(), w * p.y(), levels[k]);
   }
   io::Mesh::Block& block = mesh.blocks.emplace_back();
   block.type = "HEX8";
@@ -98,11 +109,15 @@ io::Mesh Extrusion::spheres() const {
   io::Mesh::Block& block = mesh.blocks.emplace_back();
   block.type = "SPHERE";
   for (int k = 0; k < layers; ++k) {
+    const double a = width(k), b = width(k + 1), h = levels[k + 1] - levels[k];
+    const double volume = mean_square(a, b) * h;                        // ∫ w² dz, of a cell of area 1
+    const double outward = (a + b) * (a * a + b * b) / 4 * h / volume;  // ∫ w³ dz over it
+    const double height = (levels[k] + levels[k + 1]) / 2 + h * (b * b - a * a) / (12 * mean_square(a, b));
     for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
       const Section::Shape shape = section.shape(cell);
       block.nodes.push_back(static_cast<int>(mesh.nodes.size()));
-      block.volumes.push_back(shape.area * (levels[k + 1] - levels[k]));
-      mesh.nodes.emplace_back(shape.centroid.x(), shape.centroid.y(), (levels[k] + levels[k + 1]) / 2);
+      block.volumes.push_back(shape.area * volume);
+      mesh.nodes.emplace_back(outward * shape.centroid.x(), outward * shape.centroid.y(), height);
     }
   }
   mesh.node_sets = {{"zmin", range(0, stride)}, {"zmax", range((layers - 1) * stride, layers * stride)}};
@@ -137,6 +152,11 @@ std::string thickness_of(const std::vector<double>& levels) {
   return text;
 }
 
+const char* shape_name(const Body& body) {
+  if (body.shape == Body::Shape::box) return "box";
+  return body.shape == Body::Shape::cone ? "cone" : "cylinder";
+}
+
 std::string summary_of(const Body& body, const Section& section, const std::vector<double>& levels) {
   const int layers = static_cast<int>(levels.size()) - 1;
   double area = 0;
@@ -145,6 +165,9 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
     area += section.shape(cell).area;
     smallest = std::min(smallest, section.shape(cell).area);
   }
+  const double taper = taper_of(body);
+  area *= mean_square(1, taper);
+  smallest *= std::min(1.0, taper * taper);
   const double cells = static_cast<double>(section.cells.size());
   const double volume = area * height(body);
   const double exact = exact_volume(body);
@@ -153,7 +176,7 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
                 "%s: %s, %s: %.0f points = %.0f in a layer x %d layers\n"
                 "  spacing along z %s, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
                 "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
-                body.name.c_str(), body.shape == Body::Shape::box ? "box" : "cylinder",
+                body.name.c_str(), shape_name(body),
                 body.method == Body::Method::fitted     ? "fitted"
                 : body.shape == Body::Shape::box        ? "lattice"
                 : body.centred == Body::Centred::corner ? "lattice, axis through a corner"
@@ -184,7 +207,7 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   // The cells of a uniform cylinder are as wide as its layers are thick; where layers grow, as the spacing.
   const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
   const Section section = section_of(body, across);
-  const Extrusion extrusion{section, levels};
+  const Extrusion extrusion{section, levels, taper_of(body)};
   summary = summary_of(body, section, levels);
   return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
 }

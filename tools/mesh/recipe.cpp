@@ -17,7 +17,8 @@ namespace {
 
 const std::vector<std::string> keys = {"name",         "shape", "method",  "centred", "elements", "length",
                                        "radius",       "size",  "spacing", "origin",  "cell",     "relative_density",
-                                       "irregularity", "seed",  "file",    "grading", "uniform",  "coarsest"};
+                                       "irregularity", "seed",  "file",    "grading", "uniform",  "coarsest",
+                                       "top_radius"};
 
 const std::vector<std::string> foam_keys = {"cell", "relative_density", "irregularity", "seed"};
 const std::vector<std::string> grading_keys = {"grading", "uniform", "coarsest"};
@@ -107,7 +108,7 @@ class Converter {
 
   Body convert() {
     Body body;
-    body.shape = choice<Body::Shape>("shape", {"cylinder", "box", "foam", "file"}, std::nullopt);
+    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "file"}, std::nullopt);
     if (const Entry* entry = entries_.find("origin")) body.origin = vector(*entry);
     if (body.shape == Body::Shape::file) {
       convert_file(body);
@@ -123,7 +124,7 @@ class Converter {
 
  private:
   void convert_file(Body& body) {
-    refuse({"method", "elements", "spacing", "length", "radius", "centred", "size"}, "file");
+    refuse({"method", "elements", "spacing", "length", "radius", "top_radius", "centred", "size"}, "file");
     refuse(foam_keys, "file");
     refuse(grading_keys, "file");
     const Entry* entry = required("file");
@@ -133,9 +134,11 @@ class Converter {
   }
 
   void convert_made(Body& body) {
-    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, "lattice");
+    const bool cone = body.shape == Body::Shape::cone;
+    body.method = choice<Body::Method>("method", {"lattice", "fitted"}, cone ? "fitted" : "lattice");
     body.elements = choice<Body::Elements>("elements", {"hex", "sphere"}, "hex");
     body.spacing = length("spacing");
+    if (cone) return convert_cone(body);
     if (body.shape == Body::Shape::cylinder) return convert_cylinder(body);
     convert_box(body, body.shape == Body::Shape::foam ? "foam" : "box");
     if (body.shape == Body::Shape::foam) convert_foam(body);
@@ -145,7 +148,7 @@ class Converter {
     body.length = length("length");
     body.radius = length("radius");
     body.centred = choice<Body::Centred>("centred", {"point", "corner"}, "corner");
-    refuse({"size", "file"}, "cylinder");
+    refuse({"size", "file", "top_radius"}, "cylinder");
     refuse(foam_keys, "cylinder");
     if (body.method == Body::Method::fitted) {
       refuse({"centred"}, "fitted cylinder");
@@ -155,8 +158,18 @@ class Converter {
     }
   }
 
+  void convert_cone(Body& body) {
+    body.length = length("length");
+    body.radius = length("radius");
+    body.top_radius = length("top_radius");
+    refuse({"size", "file", "centred"}, "cone");
+    refuse(foam_keys, "cone");
+    if (body.method == Body::Method::lattice) fail(*entries_.find("method"), "a cone has only the method fitted");
+    convert_grading(body);
+  }
+
   void convert_box(Body& body, const std::string& shape) {
-    refuse({"length", "radius", "centred", "file"}, shape);
+    refuse({"length", "radius", "top_radius", "centred", "file"}, shape);
     if (shape == "box") {
       refuse(foam_keys, shape);
       convert_grading(body);

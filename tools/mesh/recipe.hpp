@@ -11,7 +11,7 @@
 namespace strut::mesh {
 
 struct Body {
-  enum class Shape { cylinder, box, foam, file };
+  enum class Shape { cylinder, cone, box, foam, file };
   enum class Method { lattice, fitted };
   enum class Centred { point, corner };  // what of the lattice lies on a cylinder's axis
   enum class Elements { hexahedra, spheres };
@@ -26,10 +26,11 @@ struct Body {
   double grading = 1;              // largest ratio of the thicknesses of neighbouring layers; 1: all alike
   double uniform = 0;              // m, at zmin, where layers are not yet growing
   double coarsest = 0;             // m, largest thickness of a layer; 0: no limit
-  double length = 0;               // m, of a cylinder, along z
+  double length = 0;               // m, of a cylinder or cone, along z
   double radius = 0;               // m
+  double top_radius = 0;           // m, of a cone, at zmax
   Vector size = Vector::Zero();    // m, of a box
-  Vector origin = Vector::Zero();  // m, centre of a cylinder's lower face, lower corner of a box, shift of a file
+  Vector origin = Vector::Zero();  // m, centre of a round body's lower face, lower corner of a box, shift of a file
   double cell = 0;                 // m, mean diameter of a foam's cells
   double relative_density = 0;     // volume of a foam's struts in that of its box
   double irregularity = 0.5;       // 0: all cells alike, 1: as random as they get

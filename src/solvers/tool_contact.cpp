@@ -1,0 +1,118 @@
+#include "solvers/tool_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace strut {
+
+namespace {
+
+// ε in units of M s, the stiffness of a cube of the material as large as a spacing: a round leaves about 1/(1 + 20) of
+// the penetration, and GMRES does not notice, for the preconditioner knows ε.
+constexpr double penalty_factor = 20;
+
+}  // namespace
+
+ToolContact::ToolContact(std::vector<Tool> tools, const Body& body) : tools_(std::move(tools)) {
+  for (std::size_t t = 0; t < tools_.size(); ++t) {
+    for (const int i : tools_[t].points) {
+      grips_.push_back({.tool = static_cast<int>(t), .point = i, .spacing = body.domain.cloud.spacings[i]});
+    }
+  }
+  offsets_.resize(tools_.size(), Vector::Zero());
+  travels_ = offsets_;
+}
+
+void ToolContact::begin(const Body& body, double t, double dt) {
+  for (std::size_t n = 0; n < tools_.size(); ++n) {
+    offsets_[n] = tools_[n].offset(t + dt);
+    travels_[n] = offsets_[n] - tools_[n].offset(t);
+  }
+  std::vector<double> moduli(body.owned(), 0);
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) moduli[block.points[k]] = block.moduli(k).longitudinal();
+  }
+  for (Grip& grip : grips_) {
+    grip.start = body.current(grip.point);
+    grip.penalty = penalty_factor * moduli[grip.point] * grip.spacing;
+    grip.multiplier = grip.at_start.pressure;
+    grip.tangential = grip.at_start.drag;
+  }
+}
+
+void ToolContact::add_forces(const Body& body, Field& forces) {
+  for (Grip& grip : grips_) {
+    const Vector place = body.current(grip.point);
+    const Surface at = surface(tools_[grip.tool].shape, place - offsets_[grip.tool]);
+    const Vector way = place - grip.start - travels_[grip.tool];
+    press(at, way - way.dot(at.normal) * at.normal, grip);
+    forces[grip.point] += grip.now.force;
+  }
+}
+
+void ToolContact::press(const Surface& at, const Vector& sliding, Grip& grip) const {
+  const double e = grip.penalty;
+  const Vector& n = at.normal;
+  grip.gap = at.gap;
+  const double pressure = std::max(0.0, grip.multiplier - e * at.gap);
+  grip.now = {pressure, Vector::Zero(), pressure * n};
+  grip.sliding = 0, grip.stiffness.setZero();
+  if (pressure == 0) return;
+  grip.stiffness = e * n * n.transpose() - pressure * at.curvature;
+  const double friction = tools_[grip.tool].friction;
+  if (friction == 0) return;
+  const Tensor along = Tensor::Identity() - n * n.transpose();
+  const Vector trial = along * grip.tangential - e * sliding;
+  const double length = trial.norm(), most = friction * pressure;
+  if (length <= most) {
+    grip.now.drag = trial, grip.sliding = sliding.norm();
+    grip.stiffness += e * along;
+  } else {
+    const Vector direction = trial / length;
+    grip.now.drag = most * direction;
+    grip.stiffness += most * e / length * (along - direction * direction.transpose()) +
+                      friction * e * direction * n.transpose();
+  }
+  grip.now.force += grip.now.drag;
+}
+
+void ToolContact::add_stiffness(const Field& field, Field& result) const {
+  for (const Grip& grip : grips_) result[grip.point] += grip.stiffness * field[grip.point];
+}
+
+void ToolContact::add_springs(std::vector<Tensor>& springs) const {
+  for (const Grip& grip : grips_) springs[grip.point] += 0.5 * (grip.stiffness + grip.stiffness.transpose());
+}
+
+double ToolContact::violation() const {
+  double largest = 0;
+  for (const Grip& grip : grips_) {
+    if (grip.now.pressure > 0) largest = std::max({largest, std::abs(grip.gap) / grip.spacing, grip.sliding / grip.spacing});
+  }
+  return largest;
+}
+
+void ToolContact::augment() {
+  for (Grip& grip : grips_) grip.multiplier = grip.now.pressure, grip.tangential = grip.now.drag;
+}
+
+void ToolContact::commit() {
+  for (Grip& grip : grips_) grip.at_start = grip.now;
+}
+
+void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
+  for (const Grip& grip : grips_) {
+    const int condition = tools_[grip.tool].condition;
+    if (static_cast<std::size_t>(condition) < by_condition.size()) by_condition[condition] += grip.now.force;
+  }
+}
+
+double ToolContact::work(const Body& body) const {
+  double sum = 0;
+  for (const Grip& grip : grips_) {
+    sum += 0.5 * (grip.at_start.force + grip.now.force).dot(body.current(grip.point) - grip.start);
+  }
+  return sum;
+}
+
+}  // namespace strut
