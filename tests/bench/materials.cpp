@@ -49,7 +49,7 @@ struct Block {
   bool advance(double factor) {
     bool converged = true;
     for (int i = 0; i < points; ++i) {
-      const auto [next, good] = law.step({factor * rates[i], dt, 1.0}, stress[i], state[i]);
+      const auto [next, good] = law.step({factor * rates[i], dt, 1.0, spherical(1)}, stress[i], state[i]);
       stress[i] = next;
       converged &= good;
     }
