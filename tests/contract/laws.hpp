@@ -70,9 +70,8 @@ inline std::vector<NamedLaw> table_of_laws() {
   for (const double poisson : {0.0, 0.2}) {
     const std::string of_poisson = "polymer_foam_" + std::to_string(static_cast<int>(10 * poisson));
     for (const bool hardens : {false, true}) {
-      materials::PolymerFoam foam = hardens ? Polyurethane::hardening() : Polyurethane::perfect();
-      foam.plastic_poisson = poisson;
-      table.push_back({of_poisson + (hardens ? "_hardening" : ""), foam});
+      table.push_back({of_poisson + (hardens ? "_hardening" : ""),
+                       hardens ? Polyurethane::hardening(poisson) : Polyurethane::perfect(poisson)});
     }
   }
   return table;

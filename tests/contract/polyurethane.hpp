@@ -23,31 +23,32 @@ struct Polyurethane {
     const double J = std::exp(-strain);
     return J * (strength + air * (1 - J) / (J - density)) - strength;
   }
-  // In steps that follow the curve to 1 % of the stress; to four fifths and more of all pores.
-  static materials::TableHardening table(double strength) {
+  // In steps that follow the curve to 1 % of the stress; to J = 0.061. `axial`: ε_a/ε_v, by which a uniaxial curve is
+  // read.
+  static materials::TableHardening table(double strength, double axial = 1) {
     materials::TableHardening result;
     for (const double strain : {0.0, 0.1,  0.2, 0.35, 0.5, 0.7, 0.9,  1.1,  1.3,  1.5,  1.7,
                                 1.9, 2.05, 2.2, 2.3,  2.4, 2.5, 2.58, 2.65, 2.71, 2.76, 2.8}) {
-      result.strains.push_back(strain);
+      result.strains.push_back(axial * strain);
       result.stresses.push_back(hardening(strength, strain));
     }
     return result;
   }
 
-  static materials::PolymerFoam perfect() {
+  static materials::PolymerFoam perfect(double plastic_poisson = 0) {
     return {.solid = {young / (3 * (1 - 2 * poisson)), young / (2 * (1 + poisson))},
             .initial_density = density,
             .density_exponent = exponent,
-            .plastic_poisson = 0,
+            .plastic_poisson = plastic_poisson,
             .tension_ratio = tension_ratio,
             .uniaxial_yield = uniaxial,
             .hydrostatic_yield = hydrostatic,
             .uniaxial_hardening = {},
             .hydrostatic_hardening = {}};
   }
-  static materials::PolymerFoam hardening() {
-    materials::PolymerFoam law = perfect();
-    law.uniaxial_hardening = table(uniaxial);
+  static materials::PolymerFoam hardening(double plastic_poisson = 0) {
+    materials::PolymerFoam law = perfect(plastic_poisson);
+    law.uniaxial_hardening = table(uniaxial, 1 / (1 - 2 * plastic_poisson));
     law.hydrostatic_hardening = table(hydrostatic);
     return law;
   }
