@@ -92,6 +92,14 @@ struct PolymerFoam {
   }
   double dissipation(const State& state) const { return state.plastic_work; }
 
+  struct YieldStresses {
+    double uniaxial, hydrostatic;  // τ_y, p_c, Kirchhoff, Pa
+  };
+  YieldStresses yield_stresses(double compaction) const {
+    const Surface y = surface(compaction);
+    return {y.uniaxial, y.hydrostatic};
+  }
+
   // The uniaxial compression that is as near to yield: τ_y/J times the factor by which the yield surface, shrunk
   // towards zero stress, passes through the stress.
   double equivalent_stress(const Symmetric& stress, const State& state) const {
