@@ -268,12 +268,13 @@ Ledger mixed_ledger(int steps) {
   return sum;
 }
 
-// A step that flows closes to round-off. What the elastic steps leave open is what E(ρ*) gives or takes, γ ε_e of the
-// energy that they store (a hundredth of that of the path), or 3e-4 of the work.
+// A step that flows closes to round-off. What elastic steps leave open is what E(ρ*) gives or takes: at most γ ε_e,
+// 1.5 %, of what is stored at first yield, 400 J/m³ of a work of 2.3e5. The dissipation is of the first order in the
+// step where the flow turns.
 TEST(PolymerFoam, TheLedgerCloses) {
   const Ledger coarse = mixed_ledger(400), fine = mixed_ledger(4000);
-  for (const Ledger& sum : {coarse, fine}) EXPECT_NEAR(sum.stored + sum.lost, sum.work, 3e-4 * sum.work);
-  EXPECT_NEAR(coarse.lost, fine.lost, 1e-2 * fine.lost);  // of the first order: turns of the flow
+  for (const Ledger& sum : {coarse, fine}) EXPECT_NEAR(sum.stored + sum.lost, sum.work, 3e-5 * sum.work);
+  EXPECT_NEAR(coarse.lost, fine.lost, 1e-3 * fine.lost);
 }
 
 // Uniaxial compression without lateral flow: ∫ τ_y dε_a, the table's own integral. The step in which it yields counts
