@@ -18,6 +18,7 @@
 #include "base/tensors.hpp"
 #include "materials/elastic.hpp"
 #include "materials/law.hpp"
+#include "materials/step_work.hpp"
 
 namespace strut::materials {
 
@@ -58,7 +59,7 @@ struct DeshpandeFleck {
     State reached = state;
     reached.equivalent_plastic_strain += flow.increment;
     reached.volumetric_plastic_strain += flow.increment * alpha * alpha * flow.mean * at.mean / (form() * flow.stress);
-    reached.plastic_work += std::max(0.0, work(step, stress, next) - stored_more(step, stress, state, next, reached));
+    reached.plastic_work += lost(step, stress, state, next, reached);
     if (!std::isfinite(reached.plastic_work)) return {trial, false};
     state = reached;
     return {next, true};
@@ -79,7 +80,9 @@ struct DeshpandeFleck {
     return Elastic{now.bulk, now.shear}.elastic_energy(stress);
   }
   double dissipation(const State& state) const { return state.plastic_work; }
-  double equivalent_stress(const Symmetric& stress) const { return equivalent({trace(stress) / 3, von_mises(stress)}); }
+  double equivalent_stress(const Symmetric& stress, const State&) const {
+    return equivalent({trace(stress) / 3, von_mises(stress)});
+  }
   // None of a point that has become solid.
   double flow_stress(const State& state) const {
     const bool is_solid = state.equivalent_plastic_strain >= (1 - 1e-9) * solid * densification;
@@ -133,8 +136,9 @@ struct DeshpandeFleck {
   // σ̂ of the trial, returned with Δε̂/Y, less Y: positive at the left end of the bracket, negative at the right one.
   Flow solve(const Invariants& trial, double equivalent, double strain, const Moduli& now) const {
     const double f = form(), per_mean = now.bulk * alpha * alpha / f, per_mises = 3 * now.shear / f;
-    double last_step = never, left = 0,
-           right = std::min(solid * densification - strain, equivalent / std::min(per_mises, slowest(now)));
+    // No direction of flow takes less stress for a strain than this, Pa; without the mean part where none flows.
+    const double slowest = alpha > 0 ? std::min(per_mises, per_mean) : per_mises;
+    double last_step = never, left = 0, right = std::min(solid * densification - strain, equivalent / slowest);
     double x = 0;
     for (int i = 0; i < most_iterations; ++i) {
       const Hardening Y = hardening(strain + x);
@@ -157,35 +161,19 @@ struct DeshpandeFleck {
     return {0, 0, 1, 1, false};
   }
 
-  // No direction of flow takes less stress for a strain than this, Pa; without the mean part where none flows.
-  double slowest(const Moduli& now) const {
-    const double f = form();
-    return alpha > 0 ? std::min(3 * now.shear / f, now.bulk * alpha * alpha / f) : 3 * now.shear / f;
-  }
-
-  // Per volume of the reference state: ½ (P₀ + P₁) : ΔF, which is what the forces do on points that move evenly through
-  // the step. With e = d Δt = ΔU U_mid⁻¹ the stretches at its ends are (1 ∓ ½ e) U_mid.
-  static double old_J(const PointStep& step) {
-    const Tensor half = 0.5 * step.dt * to_tensor(step.rate), one = Tensor::Identity();
-    return step.J * (one - half).determinant() / (one + half).determinant();
-  }
-  static double work(const PointStep& step, const Symmetric& before, const Symmetric& after) {
-    const Tensor half = 0.5 * step.dt * to_tensor(step.rate), one = Tensor::Identity();
-    const Symmetric from_old = symmetric_part(half * (one - half).inverse());
-    const Symmetric from_new = symmetric_part(half * (one + half).inverse());
-    return old_J(step) * double_dot(before, from_old) + step.J * double_dot(after, from_new);
-  }
-  // What a compacted point gives up as its moduli grow is stored no more.
-  double stored_more(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
-                     const State& state) const {
-    return step.J * elastic_energy(after, state) - old_J(step) * elastic_energy(before, old_state);
+  // What the step has done and does not store: with what a compacted point gives up as its moduli grow.
+  double lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
+              const State& state) const {
+    const double old_J = old_determinant(step);
+    const double stored_more = step.J * elastic_energy(after, state) - old_J * elastic_energy(before, old_state);
+    return std::max(0.0, step_work(step, old_J, before, after) - stored_more);
   }
 
   PointStress fail(const PointStep& step, const Symmetric& stress, State& state) const {
     State reached = state;
     reached.failed = 1;
     const Symmetric none = Symmetric::Zero();
-    reached.plastic_work += std::max(0.0, work(step, stress, none) - stored_more(step, stress, state, none, reached));
+    reached.plastic_work += lost(step, stress, state, none, reached);
     state = reached;
     return {none, true};
   }

@@ -46,7 +46,7 @@ struct Elastic {
   }
 
   double dissipation(const State&) const { return 0; }
-  double equivalent_stress(const Symmetric& stress) const { return von_mises(stress); }
+  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
 };
 

@@ -56,7 +56,7 @@ struct J2 {
     return Elastic{bulk, shear}.elastic_energy(stress);
   }
   double dissipation(const State& state) const { return state.plastic_work; }
-  double equivalent_stress(const Symmetric& stress) const { return von_mises(stress); }
+  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State& state) const {
     return flow(state.equivalent_plastic_strain, state.plastic_strain_rate).stress;
   }

@@ -1,12 +1,20 @@
 // The contract of a constitutive law: one pure step of one material point in the unrotated frame.
 //
 // A law is a plain struct of parameters. It sees no bonds, halos, files or decks.
-//   step      takes the unrotated rate of deformation d = Rᵀ D R over a step of length dt, the old unrotated Cauchy
-//             stress (Pa) and its own State, which it updates; it returns the new unrotated Cauchy stress.
-//   State     a struct of doubles only; state_names names them in order, as they appear in output.
-//   moduli    the elastic moduli that bound the stable step; of the state, where they change with it.
+//   step      takes a step of length dt, the old unrotated Cauchy stress (Pa) and its own State, which it updates; it
+//             returns the new unrotated Cauchy stress. A law of the first form goes by the unrotated rate of
+//             deformation d = Rᵀ D R, one of the second form by the stretch reached. A step is inline: what a law does
+//             not ask for is not computed.
+//   State     a struct of doubles only; state_names names them in order, as they appear in output. State{} is that of
+//   an
+//             undeformed point; a law whose output should begin with other numbers says so in virgin_state().
+//   moduli    the elastic moduli that bound the stable step, of the Cauchy stress; of the state, where they change.
 //   energies  elastic_energy and dissipation feed the ledger of a run.
 //   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
+//   tangent   if it has one: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
+//   with
+//             its mirror image, and J with it (J = det U). NaN where the step does not converge. tangent_of
+//             (tangent.hpp) finds it by differences for laws that have none.
 #pragma once
 
 #include <array>
@@ -19,9 +27,10 @@
 namespace strut::materials {
 
 struct PointStep {
-  Symmetric rate;  // unrotated rate of deformation at mid-step, 1/s
-  double dt;       // s
-  double J;        // det F at the end of the step
+  Symmetric rate;     // unrotated rate of deformation at mid-step, 1/s
+  double dt;          // s
+  double J;           // det F at the end of the step
+  Symmetric stretch;  // U at the end of the step: R is taken out of F = R U, so F = U in the unrotated frame
 };
 
 struct PointStress {
@@ -42,10 +51,10 @@ concept Law = std::copyable<L> && std::default_initializable<typename L::State> 
              const typename L::State& committed) {
   { law.step(step, stress, state) } -> std::same_as<PointStress>;
   { law.moduli() } -> std::same_as<Moduli>;
-  { law.elastic_energy(stress, committed) } -> std::same_as<double>;  // J per m³ of current volume
-  { law.dissipation(committed) } -> std::same_as<double>;             // J per m³ of reference volume, so far
-  { law.equivalent_stress(stress) } -> std::same_as<double>;          // Pa
-  { law.flow_stress(committed) } -> std::same_as<double>;             // Pa
+  { law.elastic_energy(stress, committed) } -> std::same_as<double>;     // J per m³ of current volume
+  { law.dissipation(committed) } -> std::same_as<double>;                // J per m³ of reference volume, so far
+  { law.equivalent_stress(stress, committed) } -> std::same_as<double>;  // Pa
+  { law.flow_stress(committed) } -> std::same_as<double>;                // Pa
   { L::state_names.size() } -> std::convertible_to<std::size_t>;
 };
 
@@ -63,6 +72,26 @@ Moduli moduli_of(const L& law, const typename L::State& state) {
     return law.moduli();
   }
 }
+
+// Of an undeformed point, as output begins with it.
+template <class L>
+typename L::State virgin_state_of(const L& law) {
+  if constexpr (requires { law.virgin_state(); }) {
+    return law.virgin_state();
+  } else {
+    return {};
+  }
+}
+
+// ∂σ_c/∂U_d, rows and columns xx yy zz xy yz zx, Pa.
+using StretchTangent = Eigen::Matrix<double, 6, 6>;
+
+// Whether a law has a tangent of its own.
+template <class L>
+inline constexpr bool has_tangent = requires(const L law, const PointStep& step, const Symmetric& stress,
+                                             const typename L::State& state) {
+  { law.tangent(step, stress, state) } -> std::same_as<StretchTangent>;
+};
 
 // The number of doubles in a law's State.
 template <class L>

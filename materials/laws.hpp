@@ -7,9 +7,10 @@
 #include "materials/elastic.hpp"
 #include "materials/j2.hpp"
 #include "materials/law.hpp"
+#include "materials/polymer_foam.hpp"
 
 namespace strut::materials {
 
-using AnyLaw = std::variant<Elastic, J2, DeshpandeFleck>;
+using AnyLaw = std::variant<Elastic, J2, DeshpandeFleck, PolymerFoam>;
 
 }  // namespace strut::materials

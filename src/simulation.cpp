@@ -145,13 +145,20 @@ Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, F
     record(last);
     if (last) return solver.ledger();
     try {
-      solver.advance();
+      ending = !solver.advance();
     } catch (const Error&) {
       record(true);
       throw;
     }
-    ending = ranks.max(signalled ? 1.0 : 0.0) > 0;
+    ending = ending || ranks.max(signalled ? 1.0 : 0.0) > 0;
   }
+}
+
+Audience audience(const deck::Deck& deck, const Communicator& communicator) {
+  const auto tell = [&communicator](const std::string& line) { say(communicator, line + "\n"); };
+  Audience audience{tell, {}, [] { return signalled != 0; }};
+  if (deck.solver.verbose) audience.iterations = tell;
+  return audience;
 }
 
 }  // namespace
@@ -173,7 +180,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                        deck.solver.initial_time, deck.solver.final_time,
-                       [&](const std::string& line) { say(communicator, line + "\n"); });
+                       audience(deck, communicator));
     return close(solver, load_through(deck, scene, solver, frames, history));
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,

@@ -1,6 +1,7 @@
 // One material point, driven along a path of strain, of stress, or of some components of each: the same driver serves
 // strut-point and the contract tests of the laws.
-// Physics: small logarithmic strain in the unrotated frame, d = Δε/Δt, J = exp(tr ε). Method: where stress is
+// Physics: logarithmic strain in the unrotated frame, U = exp ε, J = det U = exp(tr ε), d = Δε/Δt, which is ΔU U_mid⁻¹
+// to the square of Δε where ε keeps its axes, as a law of finite stretches needs it. Method: where stress is
 // prescribed, Newton on the strain increments with a numerical tangent. Units: Pa, 1/s, s, strain -.
 #pragma once
 
@@ -12,6 +13,7 @@
 
 #include "base/tensors.hpp"
 #include "materials/law.hpp"
+#include "materials/spectral.hpp"
 
 namespace strut::point {
 
@@ -25,12 +27,12 @@ inline constexpr StressPrescribed lateral_stress{false, true, true, false, false
 template <materials::Law L>
 class Driver {
  public:
-  explicit Driver(L law) : law_(std::move(law)) {}
+  explicit Driver(L law) : state(materials::virgin_state_of(law)), law_(std::move(law)) {}
 
   double time = 0;
   Symmetric strain = Symmetric::Zero();  // logarithmic
   Symmetric stress = Symmetric::Zero();  // unrotated Cauchy
-  typename L::State state{};
+  typename L::State state;
 
   const L& law() const { return law_; }
 
@@ -101,7 +103,8 @@ class Driver {
   Outcome evaluate(const Symmetric& increment, double dt) const {
     Outcome outcome{stress, state, true};
     const double J = std::exp(trace(strain + increment));
-    const auto [next, converged] = law_.step({increment / dt, dt, J}, stress, outcome.state);
+    const auto [next, converged] =
+        law_.step({increment / dt, dt, J, materials::exponential(strain + increment)}, stress, outcome.state);
     outcome.stress = next;
     outcome.converged = converged && next.allFinite();
     return outcome;

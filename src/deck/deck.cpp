@@ -277,6 +277,7 @@ Solver solver(const Values& values, Problems& problems) {
   const Values& verlet = values.section("Verlet");
   Solver solver{.initial_time = values.real("Initial Time"),
                 .final_time = values.real("Final Time"),
+                .verbose = values.flag("Verbose"),
                 .safety_factor = verlet.real("Safety Factor"),
                 .subcycling = verlet.flag("Subcycling")};
   solver.fixed_dt = real_if_given(verlet, "Fixed dt");

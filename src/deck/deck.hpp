@@ -112,6 +112,7 @@ struct QuasiStatic {
 
 struct Solver {
   double initial_time = 0, final_time = 0;  // s
+  bool verbose = false;                     // each iteration of an equilibrium is told
   std::optional<QuasiStatic> quasi_static;  // else explicit steps:
   std::optional<double> fixed_dt;           // s; else from the stable step
   double safety_factor = 0.8;

@@ -103,22 +103,6 @@ auto make_one_of(const std::vector<Entry>& entries, const Values& values) {
   return entries.front().make(values);
 }
 
-void check_table(const Values& hardening, Problems& problems) {
-  if (!hardening.has("Strains") || !hardening.has("Stresses")) return;
-  const std::vector<double>& strains = hardening.reals("Strains");
-  const std::vector<double>& stresses = hardening.reals("Stresses");
-  const std::string path = path_to(hardening.path(), "Strains");
-  if (strains.size() != stresses.size()) {
-    problems.add(path, std::to_string(strains.size()) + " strains for " + std::to_string(stresses.size()) +
-                           " stresses; expected as many");
-  }
-  if (strains.front() != 0) problems.add(path, "the first is " + to_text(strains.front()) + "; expected 0");
-  for (std::size_t i = 1; i < strains.size(); ++i) {
-    if (strains[i] > strains[i - 1]) continue;
-    problems.add(path, to_text(strains[i]) + " follows " + to_text(strains[i - 1]) + "; expected rising strains");
-  }
-}
-
 // A table brings its own yield stress; every other curve needs the key.
 double yield_stress(const Values& material, const Values& hardening, Problems& problems) {
   const std::string path = path_to(material.path(), "Yield Stress");
@@ -137,6 +121,28 @@ double yield_stress(const Values& material, const Values& hardening, Problems& p
 }
 
 }  // namespace
+
+bool check_table(const Values& hardening, Problems& problems) {
+  if (!hardening.has("Strains") || !hardening.has("Stresses")) return false;
+  const std::vector<double>& strains = hardening.reals("Strains");
+  const std::vector<double>& stresses = hardening.reals("Stresses");
+  const std::string path = path_to(hardening.path(), "Strains");
+  bool good = true;
+  const auto wrong = [&](const std::string& what) {
+    problems.add(path, what);
+    good = false;
+  };
+  if (strains.size() != stresses.size()) {
+    wrong(std::to_string(strains.size()) + " strains for " + std::to_string(stresses.size()) +
+          " stresses; expected as many");
+  }
+  if (strains.front() != 0) wrong("the first is " + to_text(strains.front()) + "; expected 0");
+  for (std::size_t i = 1; i < strains.size(); ++i) {
+    if (strains[i] > strains[i - 1]) continue;
+    wrong(to_text(strains[i]) + " follows " + to_text(strains[i - 1]) + "; expected rising strains");
+  }
+  return good;
+}
 
 Section flow_stress_section() {
   return {

@@ -64,6 +64,10 @@ materials::AnyLaw make_foam(const Values& material, Problems& problems) {
   return make_metal_foam(material, checked_moduli(material, problems), problems);
 }
 
+materials::AnyLaw make_polymer(const Values& material, Problems& problems) {
+  return make_polymer_foam(material, checked_moduli(material, problems), problems);
+}
+
 // Of every law by correspondence.
 Section with_common_keys(Section law) {
   law.keys.push_back({.name = "Stabilization",
@@ -117,6 +121,7 @@ const std::vector<LawEntry>& laws() {
       {elastic(), Formulation::correspondence, make_elastic},
       {elastic_plastic(), Formulation::correspondence, make_j2},
       {with_common_keys(metal_foam_section()), Formulation::correspondence, make_foam},
+      {with_common_keys(polymer_foam_section()), Formulation::correspondence, make_polymer},
   };
   return entries;
 }

@@ -29,6 +29,13 @@ materials::Moduli moduli_from(double E, double nu);
 Section metal_foam_section();
 materials::AnyLaw make_metal_foam(const Values& material, const materials::Moduli& foam, Problems& problems);
 
+// Of a polymeric foam; `solid`: the moduli of its polymer.
+Section polymer_foam_section();
+materials::AnyLaw make_polymer_foam(const Values& material, const materials::Moduli& solid, Problems& problems);
+
+// Whether the keys Strains and Stresses of a section make a table, with strains that rise from 0; says so where not.
+bool check_table(const Values& hardening, Problems& problems);
+
 // The keys "Yield Stress", Hardening and Rate of a law with a flow stress.
 Section flow_stress_section();
 materials::FlowStress make_flow_stress(const Values& material, Problems& problems);

@@ -309,7 +309,10 @@ Section solver() {
       .required = true,
       .meaning = "The time that is simulated, and its steps.",
       .keys =
-          {verbose,
+          {{.name = "Verbose",
+            .kind = Kind::boolean,
+            .fallback = "false",
+            .meaning = "With QuasiStatic, each iteration is told."},
            {.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."},
            {.name = "Final Time", .unit = "s", .required = true, .meaning = "When it ends: after the initial time."}},
       .sections = {{.name = "Verlet",

@@ -22,8 +22,8 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
     if (i < domain.interior) ++block.interior;
   }
   for (MaterialBlock& block : blocks) {
-    const auto fresh_state = [&block]<class L>(const L&) {
-      const auto columns = materials::to_columns<L>({});
+    const auto fresh_state = [&block]<class L>(const L& law) {
+      const auto columns = materials::to_columns<L>(materials::virgin_state_of(law));
       for (const double value : columns) block.state.insert(block.state.end(), block.points.size(), value);
     };
     std::visit(fresh_state, block.material.law);

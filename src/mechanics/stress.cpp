@@ -115,11 +115,12 @@ struct Update {
   FirstFailure& failure;
 
   // Stress and state of one point.
-  void advance(const Group& g, int l, const LaneSymmetric& rates, double dt, double J) const {
-    Symmetric rate;
-    for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l];
+  void advance(const Group& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
+               double J) const {
+    Symmetric rate, stretch;
+    for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l], stretch[c] = stretches.c[c][l];
     typename L::State state = block.state_of<L>(g.k[l]);
-    const auto [stress, converged] = law.step({rate, dt, J}, g.points[l]->stress, state);
+    const auto [stress, converged] = law.step({rate, dt, J, stretch}, g.points[l]->stress, state);
     if (!converged) return failure.report(g.k[l], Failure::Kind::no_stress);
     g.points[l]->stress = stress;
     store<L>(block, g.k[l], state);
@@ -235,7 +236,7 @@ struct Update {
     if (pass.dt > 0) {
       const LaneSymmetric rates = strain_rate(g, polar.stretch, pass.dt * share);
       for (int l = 0; l < g.count; ++l) {
-        if (J[l] > 0) advance(g, l, rates, pass.dt * share[l], J[l]);
+        if (J[l] > 0) advance(g, l, rates, polar.stretch, pass.dt * share[l], J[l]);
       }
       if constexpr (materials::has_changing_moduli<L>) stiffness = stiffness_of(g);
       if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, stiffness, J, pass.dt * share);

@@ -49,14 +49,14 @@ Unrotated unrotated(const MaterialPoint& point) {
   return {U, inverse_U, J * to_tensor(point.stress) * inverse_U, (U.trace() * Tensor::Identity() - U).inverse(), J};
 }
 
-Tensor change_of_stress(const Unrotated& at, const materials::Tangent& by_stretch, const Tensor& dG) {
+Tensor change_of_stress(const Unrotated& at, const materials::StretchTangent& by_stretch, const Tensor& dG) {
   const Tensor spin = cross(at.turning * twice_axial(dG));
   const Tensor dU = dG - spin * at.U;
   const Tensor dS = to_tensor(Symmetric(by_stretch * symmetric_part(dU)));
   return spin * at.Q + (at.inverse_U * dU).trace() * at.Q + at.J * dS * at.inverse_U - at.Q * dU * at.inverse_U;
 }
 
-PointTangent point_tangent(const MaterialPoint& point, const materials::Tangent& by_stretch) {
+PointTangent point_tangent(const MaterialPoint& point, const materials::StretchTangent& by_stretch) {
   const Unrotated at = unrotated(point);
   PointTangent tangent;
   for (int n = 0; n < 9; ++n) {
@@ -76,10 +76,11 @@ typename L::State state_of(const std::vector<double>& columns, std::size_t point
 }
 
 template <class L>
-materials::Tangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
+materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
                               const typename L::State& state) {
   const auto stretch = [](const MaterialPoint& p) { return symmetric_part(p.rotation.transpose() * p.deformation_gradient); };
-  return materials::tangent_of(law, stretch(old), stretch(now), dt, old.stress, state);
+  const materials::PointStep step = materials::step_between(stretch(old), stretch(now), dt);
+  return materials::tangent_of(law, step, old.stress, state, stretch(old));
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ void Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kerne
 }
 
 Krylov::Outcome Krylov::solve(const Product& K, const Field& right, double tolerance, int most, Field& x) {
-  constexpr int kept = 100;  // directions before a restart
+  constexpr int kept = 50;  // directions before a restart
   const RCP<const Map>& map = implementation_->map;
   const RCP<Operator> product = rcp(new ProductOperator(K, map, implementation_->owned));
   const RCP<Vectors> solution = rcp(new Vectors(map, 1)), wanted = rcp(new Vectors(map, 1));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "base/timing.hpp"
 #include "solvers/near_matrix.hpp"
@@ -32,8 +33,9 @@ void move_by(Body& body, double factor, const Field& step) {
 
 }  // namespace
 
-Newton::Newton(Equilibrium& equilibrium)
+Newton::Newton(Equilibrium& equilibrium, const Audience& audience)
     : equilibrium_(equilibrium),
+      audience_(audience),
       krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
 
 void Newton::renew_preconditioner() {
@@ -94,6 +96,14 @@ Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   return equilibrium_.evaluate();
 }
 
+void Newton::tell(const Search& search, int products) const {
+  if (!audience_.iterations) return;
+  char line[120];
+  std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N%s", search.iterations + 1, products,
+                search.left.norm, search.left.scale, search.left.failed ? "  failed" : "");
+  audience_.iterations(line);
+}
+
 Search Newton::solve(const Tolerance& tolerance) {
   Search search;
   search.left = equilibrium_.evaluate();
@@ -105,8 +115,12 @@ Search Newton::solve(const Tolerance& tolerance) {
     const double gain = search.left.norm / before;
     const double accuracy = moves ? of_first : std::clamp(0.5 * gain * gain, finest, coarsest);
     before = search.left.norm;
-    search.evaluations += correct(way, moves, accuracy, step);
+    const int products = correct(way, moves, accuracy, step);
+    search.evaluations += products;
     search.left = advance(search.left, step, moves);
+    tell(search, products);
+    search.interrupted = equilibrium_.body().domain.communicator.max(audience_.leaves() ? 1.0 : 0.0) > 0;
+    if (search.interrupted) return search;
     std::fill(way.begin(), way.end(), Vector::Zero());
     moves = false;
   }

@@ -8,7 +8,7 @@ namespace strut {
 
 class Newton {
  public:
-  explicit Newton(Equilibrium& equilibrium);
+  Newton(Equilibrium& equilibrium, const Audience& audience);
 
   // Collective. From the present places, within the step that the equilibrium has begun.
   Search solve(const Tolerance& tolerance);
@@ -17,8 +17,10 @@ class Newton {
   int correct(const Field& way, bool moves, double accuracy, Field& step);
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void renew_preconditioner();
+  void tell(const Search& search, int products) const;
 
   Equilibrium& equilibrium_;
+  const Audience& audience_;
   Krylov krylov_;
   int products_when_new_ = 0;
   bool preconditioner_due_ = true;

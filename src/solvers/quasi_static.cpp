@@ -21,12 +21,12 @@ constexpr double round_off = 1e-9;
 }  // namespace
 
 QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
-                         double initial_time, double final_time, std::function<void(const std::string&)> say)
-    : equilibrium_(body, std::move(conditions), std::move(contact)),
-      newton_(equilibrium_),
-      relaxation_(equilibrium_),
+                         double initial_time, double final_time, Audience audience)
+    : audience_(std::move(audience)),
+      equilibrium_(body, std::move(conditions), std::move(contact)),
+      newton_(equilibrium_, audience_),
+      relaxation_(equilibrium_, audience_),
       control_(control),
-      say_(std::move(say)),
       time_(initial_time),
       final_time_(final_time),
       longest_((final_time - initial_time) / control.load_steps),
@@ -47,7 +47,8 @@ Search QuasiStatic::search_from_start(bool with_tangent) {
   Search whole;
   for (int round = 0; round < most_rounds; ++round) {
     const Search last = search(with_tangent);
-    whole = {last.converged, whole.iterations + last.iterations, whole.evaluations + last.evaluations, last.left};
+    whole = {last.converged, whole.iterations + last.iterations, whole.evaluations + last.evaluations, last.left,
+             last.interrupted};
     if (!last.converged || equilibrium_.violation() <= largest_violation) return whole;
     equilibrium_.augment();
   }
@@ -65,18 +66,22 @@ Search QuasiStatic::search(bool with_tangent) {
 // Relaxation takes many times as long as Newton: it is left for steps that Newton could not make by being cut.
 Search QuasiStatic::attempt() {
   const Search search = search_from_start(control_.with_tangent);
-  if (search.converged || !control_.with_tangent || dt_ > patience * longest_) return search;
+  if (search.converged || search.interrupted || !control_.with_tangent || dt_ > patience * longest_) return search;
   equilibrium_.go_back();
   return search_from_start(false);
 }
 
-void QuasiStatic::advance() {
+bool QuasiStatic::advance() {
   dt_ = std::min(dt_, final_time_ - time_);
   for (;;) {
     const Search search = attempt();
-    if (search.converged) return commit(search);
+    if (search.converged) {
+      commit(search);
+      return true;
+    }
     const std::string where = equilibrium_.weakest_point();
     equilibrium_.go_back();
+    if (search.interrupted) return false;
     last_step_.clear();
     dt_ *= 0.5;
     if (dt_ < shortest * longest_) {
@@ -103,7 +108,7 @@ void QuasiStatic::commit(const Search& search) {
   std::snprintf(line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",
                 steps_, time_, dt_, search.iterations, search.evaluations,
                 search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
-  say_(line);
+  audience_.load_steps(line);
   if (search.iterations <= easily) dt_ = std::min(2 * dt_, longest_);
 }
 

@@ -1,9 +1,6 @@
 // Slow loading: a series of equilibria, without inertia. Time is that of the loads.
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "solvers/ledger.hpp"
 #include "solvers/newton.hpp"
 #include "solvers/relaxation.hpp"
@@ -18,9 +15,8 @@ struct QuasiStaticControl {
 
 class QuasiStatic {
  public:
-  // `say`: where each step's convergence is told; rank 0 only.
   QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
-              double initial_time, double final_time, std::function<void(const std::string&)> say);
+              double initial_time, double final_time, Audience audience);
 
   double time() const { return time_; }
   double dt() const { return dt_; }
@@ -29,9 +25,9 @@ class QuasiStatic {
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
 
-  // Collective. One load step. Throws Error on all ranks where none is found, however short; the body is then at its
-  // last equilibrium.
-  void advance();
+  // Collective. One load step; false if the audience wanted to leave before it was made. Throws Error on all ranks
+  // where none is found, however short. In both cases the body is at its last equilibrium.
+  bool advance();
 
   Ledger ledger();                                // collective
   Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
@@ -43,11 +39,11 @@ class QuasiStatic {
   void extrapolate();
   void commit(const Search& search);
 
+  Audience audience_;
   Equilibrium equilibrium_;
   Newton newton_;
   Relaxation relaxation_;
   QuasiStaticControl control_;
-  std::function<void(const std::string&)> say_;
   double time_, final_time_, longest_, dt_, last_dt_ = 0;
   Field last_step_;  // m, of the last load step
   int steps_ = 0, iterations_ = 0, evaluations_ = 0;

@@ -58,7 +58,11 @@ Search Relaxation::solve(const Tolerance& tolerance) {
   double damping = 0;
   const int most = per_newton_iteration * tolerance.most_iterations;
   for (int n = 0; n < most && !search.left.failed; ++n) {
-    if (n % renewal == 0) renew_masses();
+    if (n % renewal == 0) {
+      renew_masses();
+      search.interrupted = ranks.max(audience_.leaves() ? 1.0 : 0.0) > 0;
+      if (search.interrupted) return search;
+    }
     const Field way = n < ramp ? held.way_left(body) : Field(body.owned(), Vector::Zero());
     for (int i = 0; i < body.owned(); ++i) {
       const Vector kick = equilibrium_.residual()[i] / masses_[i];

@@ -9,7 +9,7 @@ namespace strut {
 
 class Relaxation {
  public:
-  explicit Relaxation(Equilibrium& equilibrium) : equilibrium_(equilibrium) {}
+  Relaxation(Equilibrium& equilibrium, const Audience& audience) : equilibrium_(equilibrium), audience_(audience) {}
 
   // Collective. From the present places, within the step that the equilibrium has begun. Its own count of iterations
   // is some thousand times Newton's.
@@ -19,6 +19,7 @@ class Relaxation {
   void renew_masses();
 
   Equilibrium& equilibrium_;
+  const Audience& audience_;
   StableStep stable_;
   std::vector<double> masses_;  // N/m: of points, in a time whose unit is one iteration
 };

@@ -1,6 +1,9 @@
 // What the methods of finding an equilibrium are asked for, and how it went.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "solvers/equilibrium.hpp"
 
 namespace strut {
@@ -10,11 +13,19 @@ struct Tolerance {
   int most_iterations = 20;  // Newton's
 };
 
+// Who waits for a search.
+struct Audience {
+  std::function<void(const std::string&)> load_steps;  // a line each; on rank 0
+  std::function<void(const std::string&)> iterations;  // a line each, where somebody wants it; else empty
+  std::function<bool()> leaves;                        // wants the run to end: on any rank, at any time
+};
+
 struct Search {
   bool converged = false;
   int iterations = 0;
   int evaluations = 0;  // of the forces, or of the tangent times a field
   Imbalance left;
+  bool interrupted = false;
 };
 
 inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {

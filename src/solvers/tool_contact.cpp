@@ -11,6 +11,8 @@ namespace {
 // the penetration, and GMRES does not notice, for the preconditioner knows ε.
 constexpr double penalty_factor = 20;
 
+constexpr double just_touching = 1e-9;  // spacings
+
 }  // namespace
 
 ToolContact::ToolContact(std::vector<Tool> tools, const Body& body) : tools_(std::move(tools)) {
@@ -57,7 +59,8 @@ void ToolContact::press(const Surface& at, const Vector& sliding, Grip& grip) co
   const double pressure = std::max(0.0, grip.multiplier - e * at.gap);
   grip.now = {pressure, Vector::Zero(), pressure * n};
   grip.sliding = 0, grip.stiffness.setZero();
-  if (pressure == 0) return;
+  // A body that just lies on a tool is held by it.
+  if (pressure == 0 && at.gap > just_touching * grip.spacing) return;
   grip.stiffness = e * n * n.transpose() - pressure * at.curvature;
   const double friction = tools_[grip.tool].friction;
   if (friction == 0) return;

@@ -5,7 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "../contract/polyurethane.hpp"
 #include "materials/laws.hpp"
+#include "materials/tangent.hpp"
 
 namespace {
 
@@ -49,7 +51,7 @@ struct Block {
   bool advance(double factor) {
     bool converged = true;
     for (int i = 0; i < points; ++i) {
-      const auto [next, good] = law.step({factor * rates[i], dt, 1.0}, stress[i], state[i]);
+      const auto [next, good] = law.step({factor * rates[i], dt, 1.0, spherical(1)}, stress[i], state[i]);
       stress[i] = next;
       converged &= good;
     }
@@ -95,6 +97,34 @@ void flow(benchmark::State& run, const J2& law, const std::vector<double>& facto
 // Every other step relaxes under a falling rate: the flow jumps by orders of magnitude from step to step.
 void j2_jerky_flow(benchmark::State& run) { flow(run, power_law, {-0.5, 1.0}); }
 
+// The foam goes by the stretch. Each call makes the same step again from the same states: one in the elastic range, one
+// that flows by 1e-4 of strain in each point's own direction, as explicit steps of a crushed foam do.
+void polymer_foam(benchmark::State& run, double crushed, double more) {
+  const PolymerFoam law = testing::Polyurethane::hardening();
+  const std::vector<Symmetric> directions = random_rates(1);
+  std::vector<PointStep> steps;
+  std::vector<Symmetric> stress;
+  std::vector<PolymerFoam::State> states;
+  for (const Symmetric& direction : directions) {
+    const Symmetric crush = spherical(-0.1) + 0.1 * direction;
+    const Symmetric old = exponential(crushed * crush), next = exponential((crushed + more) * crush);
+    PolymerFoam::State state = law.virgin_state();
+    stress.push_back(law.step(step_between(spherical(1), old, dt), Symmetric::Zero(), state).stress);
+    states.push_back(state);
+    steps.push_back(step_between(old, next, dt));
+  }
+  for (auto _ : run) {
+    for (int i = 0; i < points; ++i) {
+      PolymerFoam::State state = states[i];
+      const auto [next, converged] = law.step(steps[i], stress[i], state);
+      if (!converged) run.SkipWithError("a step did not converge");
+      benchmark::DoNotOptimize(state);
+    }
+  }
+  run.counters["time_per_point"] = benchmark::Counter(points * static_cast<double>(run.iterations()),
+                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
 BENCHMARK(elastic);
 BENCHMARK(j2_below_yield);
 BENCHMARK(j2_hardened_elastic);
@@ -103,6 +133,9 @@ BENCHMARK_CAPTURE(flow, power_hardening_power_rate_unsteady, power_law, unsteady
 BENCHMARK_CAPTURE(flow, linear_hardening_no_rate, linear_law, steady);
 BENCHMARK_CAPTURE(flow, table_hardening_johnson_cook_rate, table_law, steady);
 BENCHMARK(j2_jerky_flow);
+BENCHMARK_CAPTURE(polymer_foam, elastic, 0.0, 0.005);
+BENCHMARK_CAPTURE(polymer_foam, flow, 3.0, 0.0005);
+BENCHMARK_CAPTURE(polymer_foam, flow_in_large_steps, 3.0, 0.5);
 
 }  // namespace
 

@@ -51,7 +51,7 @@ class Textbook {
     const Eigen::JacobiSVD<Tensor> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Tensor R = svd.matrixU() * svd.matrixV().transpose(), U = R.transpose() * F, old = R_[i].transpose() * F_[i];
     const Symmetric rate = symmetric_part((U - old) / dt * (0.5 * (U + old)).inverse());
-    stress_[i] = law.step({rate, dt, F.determinant()}, stress_[i], state).stress;
+    stress_[i] = law.step({rate, dt, F.determinant(), symmetric_part(U)}, stress_[i], state).stress;
     const Tensor cauchy = R * to_tensor(stress_[i]) * R.transpose();
     A_[i] = F.determinant() * cauchy * F.inverse().transpose() * inverse_K;
     F_[i] = F;

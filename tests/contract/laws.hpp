@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "materials/laws.hpp"
+#include "polyurethane.hpp"
 
 namespace strut::testing {
 
@@ -64,6 +65,13 @@ inline std::vector<NamedLaw> table_of_laws() {
       foam.densification = 1.2;
       const std::string of_alpha = "foam_alpha_" + std::to_string(static_cast<int>(10 * alpha));
       table.push_back({of_alpha + (growth > 1 ? "_growing" : ""), foam});
+    }
+  }
+  for (const double poisson : {0.0, 0.2}) {
+    const std::string of_poisson = "polymer_foam_" + std::to_string(static_cast<int>(10 * poisson));
+    for (const bool hardens : {false, true}) {
+      table.push_back({of_poisson + (hardens ? "_hardening" : ""),
+                       hardens ? Polyurethane::hardening(poisson) : Polyurethane::perfect(poisson)});
     }
   }
   return table;

@@ -56,12 +56,31 @@ double power_of_ten(Random& random, double from, double to) {
   return std::pow(10, std::uniform_real_distribution<double>(from, to)(random));
 }
 
-// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length.
-std::vector<PointStep> wild_path(Random& random, int steps) {
-  std::vector<PointStep> path;
+// Whether a law goes by the stretch: then J and the stretch belong to the path, and logarithmic strains of more than
+// about 1 are no path that a body could take.
+template <class L>
+constexpr bool from_stretch = std::same_as<L, PolymerFoam>;
+
+struct Increment {
+  Symmetric rate;
+  double dt, J;  // J: for laws by the rate
+};
+
+// Steps of every size: rates of 1 to 1e7 /s for 1e-10 to 1e-6 s, from far below yield to ten times the length. Of a law
+// that goes by the stretch up to half of it, back and forth within a logarithmic strain of 1.5.
+template <class L>
+std::vector<Increment> wild_path(Random& random, int steps) {
+  std::vector<Increment> path;
+  Symmetric strain = Symmetric::Zero();
   for (int i = 0; i < steps; ++i) {
-    path.push_back({random_tensor(random, power_of_ten(random, 0, 7)), power_of_ten(random, -10, -6),
-                    std::uniform_real_distribution<double>(0.5, 2)(random)});
+    Increment next{random_tensor(random, power_of_ten(random, 0, 7)), power_of_ten(random, -10, -6),
+                   std::uniform_real_distribution<double>(0.5, 2)(random)};
+    if (from_stretch<L>) {
+      next.rate *= std::min(1.0, 0.5 / (next.rate.norm() * next.dt));
+      if ((strain + next.rate * next.dt).norm() > 1) next.rate *= -1;
+      strain += next.rate * next.dt;
+    }
+    path.push_back(next);
   }
   return path;
 }
@@ -70,7 +89,19 @@ template <Law L>
 struct Point {
   Symmetric stress = Symmetric::Zero();
   typename L::State state{};
+  Symmetric strain = Symmetric::Zero();  // logarithmic
 
+  // The step that leads through `increment`.
+  PointStep step(const Increment& increment) const {
+    if (!from_stretch<L>) return {increment.rate, increment.dt, increment.J, spherical(std::cbrt(increment.J))};
+    const Symmetric reached = strain + increment.dt * increment.rate;
+    return {increment.rate, increment.dt, std::exp(trace(reached)), exponential(reached)};
+  }
+  bool advance(const L& law, const Increment& increment) {
+    const PointStep next = step(increment);
+    strain += increment.dt * increment.rate;
+    return advance(law, next);
+  }
   bool advance(const L& law, const PointStep& step) {
     const PointStress next = law.step(step, stress, state);
     stress = next.stress;
@@ -110,16 +141,30 @@ TEST_P(LawTest, NamesEveryColumnOfItsState) {
 TEST_P(LawTest, NothingHappensToAnUnloadedPointAtRest) {
   with_law([]<Law L>(const L& law) {
     Point<L> point;
-    EXPECT_TRUE(point.advance(law, {Symmetric::Zero(), 1e-7, 1}));
+    point.state = virgin_state_of(law);
+    EXPECT_TRUE(point.advance(law, Increment{Symmetric::Zero(), 1e-7, 1}));
     EXPECT_EQ(point.stress, Symmetric(Symmetric::Zero()));
-    EXPECT_EQ(to_columns<L>(point.state), to_columns<L>(typename L::State{}));
+    EXPECT_EQ(to_columns<L>(point.state), to_columns<L>(virgin_state_of(law)));
   });
 }
 
 // ---- The frame ------------------------------------------------------------------------------------------------------
 
-// Rotating the rates rotates the stress and leaves the state. Rotation and sums carry 1e-15 of the largest trial stress
-// of the step, which can be a hundred times the stress itself; the solution of the law 1e-12 of it; over 40 steps.
+// The state of a point that was turned.
+template <class State>
+State turned(const Tensor&, const State& state) {
+  return state;
+}
+PolymerFoam::State turned(const Tensor& Q, const PolymerFoam::State& state) {
+  PolymerFoam::State result = state;
+  const Symmetric strain = rotated(Q, Symmetric(state.plastic_strain.data()));
+  std::copy(strain.begin(), strain.end(), result.plastic_strain.begin());
+  return result;
+}
+
+// Rotating the rates rotates the stress and leaves the numbers of the state. Rotation and sums carry 1e-15 of the
+// largest trial stress of the step, which can be a hundred times the stress itself; the solution of the law 1e-12 of
+// it; over 40 steps.
 TEST_P(LawTest, IsIsotropic) {
   with_law([]<Law L>(const L& law) {
     Random random(1);
@@ -130,11 +175,11 @@ TEST_P(LawTest, IsIsotropic) {
       double largest_stress = 0;
       for (int i = 0; i < 40; ++i) {
         const Symmetric rate = random_tensor(random, power_of_ten(random, 3, 5));
-        ASSERT_TRUE(here.advance(law, {rate, 1e-8, 1}));
-        ASSERT_TRUE(there.advance(law, {rotated(Q, rate), 1e-8, 1}));
+        ASSERT_TRUE(here.advance(law, Increment{rate, 1e-8, 1}));
+        ASSERT_TRUE(there.advance(law, Increment{rotated(Q, rate), 1e-8, 1}));
         largest_stress = std::max(largest_stress, here.stress.norm());
         EXPECT_LE((rotated(Q, here.stress) - there.stress).norm(), 1e-9 * largest_stress);
-        const auto a = to_columns<L>(here.state), b = to_columns<L>(there.state);
+        const auto a = to_columns<L>(turned(Q, here.state)), b = to_columns<L>(there.state);
         for (std::size_t c = 0; c < a.size(); ++c) {
           largest[c] = std::max(largest[c], std::abs(a[c]));
           EXPECT_NEAR(a[c], b[c], 1e-9 * largest[c]) << L::state_names[c];
@@ -153,11 +198,11 @@ TEST_P(LawTest, TheStressIsNeverAboveTheFlowStressAndOnItWhileItFlows) {
     Random random(2);
     for (int path = 0; path < 30; ++path) {
       Point<L> point;
-      for (const PointStep& step : wild_path(random, 50)) {
+      for (const Increment& step : wild_path<L>(random, 50)) {
         const double before = law.dissipation(point.state);
-        const double trial = point.stress.norm() + 10 * bulk * step.rate.norm() * step.dt;
+        const double trial = point.stress.norm() + 10 * law.moduli().bulk * step.rate.norm() * step.dt;
         ASSERT_TRUE(point.advance(law, step));
-        const double limit = law.flow_stress(point.state), q = law.equivalent_stress(point.stress);
+        const double limit = law.flow_stress(point.state), q = law.equivalent_stress(point.stress, point.state);
         if (!std::isfinite(limit)) continue;  // never yields, or has locked
         const double error = 1e-9 * limit + 1e-14 * (trial + point.stress.norm());
         EXPECT_LE(q, limit + error);
@@ -175,7 +220,7 @@ TEST_P(LawTest, PlasticStrainAndWorkNeverFall) {
     const int strain = column<L>("Equivalent_Plastic_Strain");
     for (int path = 0; path < 30; ++path) {
       Point<L> point;
-      for (const PointStep& step : wild_path(random, 50)) {
+      for (const Increment& step : wild_path<L>(random, 50)) {
         const Point<L> old = point;
         ASSERT_TRUE(point.advance(law, step));
         EXPECT_GE(law.dissipation(point.state), law.dissipation(old.state));
@@ -192,15 +237,17 @@ TEST_P(LawTest, PlasticStrainAndWorkNeverFall) {
 TEST_P(LawTest, IsElasticBelowYield) {
   with_law([]<Law L>(const L& law) {
     Random random(4);
-    const Moduli moduli = law.moduli();
+    // Some ten roundings of numbers near 1, the stretch and its square, for a strain of 1e-4; twice in the energy.
+    const double round_off = from_stretch<L> ? 1e-10 : 1e-13;
     for (int i = 0; i < 100; ++i) {
       Point<L> point;
       const Symmetric strain = random_tensor(random, 1e-4);  // 2μ √1.5 × 1e-4 is a fifth of the yield stress
-      ASSERT_TRUE(point.advance(law, {strain / 1e-8, 1e-8, 1}));
+      ASSERT_TRUE(point.advance(law, Increment{strain / 1e-8, 1e-8, 1}));
+      const Moduli moduli = moduli_of(law, point.state);
       const Symmetric hooke = spherical(moduli.bulk * trace(strain)) + 2 * moduli.shear * deviator(strain);
       EXPECT_LE((point.stress - hooke).norm(), 1e-14 * bulk * 1e-4 * 10);
       EXPECT_NEAR(law.elastic_energy(point.stress, point.state), 0.5 * double_dot(hooke, strain),
-                  1e-13 * double_dot(hooke.cwiseAbs(), strain.cwiseAbs()));
+                  round_off * double_dot(hooke.cwiseAbs(), strain.cwiseAbs()));
       EXPECT_EQ(law.dissipation(point.state), 0);
     }
   });
@@ -223,13 +270,13 @@ void expect_flow_stress(const AnyLaw& law, double von_mises, double plastic_stra
   EXPECT_NEAR(von_mises, expected, closed_form_tolerance * expected);
 }
 
-// Closed forms of flow at constant volume; those of foams are in test_metal_foam.
+// Closed forms of flow at constant volume; those of foams are in their own tests.
 template <class L>
-constexpr bool keeps_its_volume = !std::same_as<L, DeshpandeFleck>;
+constexpr bool keeps_its_volume = !std::same_as<L, DeshpandeFleck> && !std::same_as<L, PolymerFoam>;
 
 TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
   with_law([]<Law L>(const L& law) {
-    if (!keeps_its_volume<L>) GTEST_SKIP() << "see test_metal_foam";
+    if (!keeps_its_volume<L>) GTEST_SKIP() << "see the foams' own tests";
     constexpr double rate = 1e4, dt = 1e-8;
     point::Driver<L> point(law);
     double old_plastic = 0, plastic = 0, q = 0;
@@ -246,7 +293,7 @@ TEST_P(LawTest, UniaxialStrainIsTheClosedForm) {
 
 TEST_P(LawTest, UniaxialStressIsTheClosedForm) {
   with_law([]<Law L>(const L& law) {
-    if (!keeps_its_volume<L>) GTEST_SKIP() << "see test_metal_foam";
+    if (!keeps_its_volume<L>) GTEST_SKIP() << "see the foams' own tests";
     constexpr double rate = 1e4, dt = 1e-8;
     point::Driver<L> point(law);
     double old_plastic = 0, plastic = 0;
@@ -275,7 +322,7 @@ Point<L> turning_path(const L& law, int steps) {
   const double dt = duration / steps;
   for (int i = 0; i < steps; ++i) {
     const Symmetric increment = strain(0.8 * (i + 1) / steps) - strain(0.8 * i / steps);
-    EXPECT_TRUE(point.advance(law, {increment / dt, dt, 1}));
+    EXPECT_TRUE(point.advance(law, Increment{increment / dt, dt, 1}));
   }
   return point;
 }
@@ -324,7 +371,7 @@ TEST_P(LawTest, PlasticStrainDoesNotDependOnTheStep) {
 
 // At J = 1 the trapezoid of the stress power is what is stored and what is dissipated, to the round-off of the sum and
 // the 1e-12 of the law's solution, whether a step starts to flow or not. For laws that reckon with the change of J
-// over the step see test_metal_foam.
+// over the step see the foams' own tests.
 TEST_P(LawTest, WorkIsStoredOrDissipated) {
   with_law([]<Law L>(const L& law) {
     if (!keeps_its_volume<L>) GTEST_SKIP() << "reckons with the change of J";
@@ -332,7 +379,7 @@ TEST_P(LawTest, WorkIsStoredOrDissipated) {
     Point<L> point;
     double work = 0, size = 0;
     for (int i = 0; i < 500; ++i) {
-      const PointStep step{random_tensor(random, power_of_ten(random, 3, 4.5)), 1e-8, 1};
+      const Increment step{random_tensor(random, power_of_ten(random, 3, 4.5)), 1e-8, 1};
       const Symmetric old = point.stress;
       ASSERT_TRUE(point.advance(law, step));
       const double done = 0.5 * step.dt * double_dot(old + point.stress, step.rate);
@@ -357,21 +404,27 @@ TEST_P(LawTest, BadInputIsReported) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     const Symmetric shearing{0, 0, 0, 1e6, 0, 0};
     Point<L> flowing;
-    for (int i = 0; i < 3; ++i) ASSERT_TRUE(flowing.advance(law, {shearing, 1e-8, 1}));
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(flowing.advance(law, Increment{shearing, 1e-8, 1}));
     for (const Point<L>& point : {Point<L>{}, flowing}) {
       for (const double bad : {nan, inf, -inf, 1e300, -1e300, 1e160, 1e30}) {
+        const PointStep good = point.step({shearing, 1e-8, 1});
         for (int c = 0; c < 6; ++c) {
-          PointStep step{shearing, 1e-8, 1};
-          step.rate[c] = bad;
-          expect_no_silent_nonsense(law, point, step, "rate");
+          Symmetric rate = shearing;
+          rate[c] = bad;
+          expect_no_silent_nonsense(law, point, point.step({rate, 1e-8, 1}), "rate");
+          PointStep step = good;
+          step.stretch[c] = bad;
+          expect_no_silent_nonsense(law, point, step, "stretch");
           Point<L> stressed = point;
           stressed.stress[c] = bad;
-          expect_no_silent_nonsense(law, stressed, {shearing, 1e-8, 1}, "stress");
+          expect_no_silent_nonsense(law, stressed, good, "stress");
         }
-        expect_no_silent_nonsense(law, point, {shearing, bad, 1}, "dt");
-        expect_no_silent_nonsense(law, point, {shearing, 1e-8, bad}, "J");
+        expect_no_silent_nonsense(law, point, point.step({shearing, bad, 1}), "dt");
+        PointStep step = good;
+        step.J = bad;
+        expect_no_silent_nonsense(law, point, step, "J");
       }
-      expect_no_silent_nonsense(law, point, {shearing, 0, 1}, "dt 0");
+      expect_no_silent_nonsense(law, point, point.step({shearing, 0, 1}), "dt 0");
     }
   });
 }
@@ -380,7 +433,7 @@ TEST_P(LawTest, ANaNIsNotConverged) {
   with_law([]<Law L>(const L& law) {
     Point<L> point;
     const Symmetric rate{0, 0, 0, std::numeric_limits<double>::quiet_NaN(), 0, 0};
-    EXPECT_FALSE(point.advance(law, {rate, 1e-8, 1}));
+    EXPECT_FALSE(point.advance(law, Increment{rate, 1e-8, 1}));
   });
 }
 
@@ -404,7 +457,7 @@ TEST(J2Test, ARateExponentOfZeroIsNoRate) {
   const J2 zero{bulk, shear, {yield_stress, PowerHardening{0.00218, 0.1}, PowerRate{1e-3, 0}}};
   Random random(6);
   Point<J2> a, b;
-  for (const PointStep& step : wild_path(random, 200)) {
+  for (const Increment& step : wild_path<J2>(random, 200)) {
     ASSERT_TRUE(a.advance(free, step));
     ASSERT_TRUE(b.advance(zero, step));
     // Newton may take another way to the same root: 1e-12 of the trial stress, which is up to 1e4 of the flow stress.
@@ -434,8 +487,8 @@ TEST(J2Test, PlasticWorkIsPerReferenceVolume) {
   const J2 law{bulk, shear, {yield_stress, LinearHardening{100e6}, NoRate{}}};
   const Symmetric rate{1e4, 0, 0, 0, 0, 0};
   Point<J2> same, swollen;
-  ASSERT_TRUE(same.advance(law, {rate, 1e-6, 1}));
-  ASSERT_TRUE(swollen.advance(law, {rate, 1e-6, 1.25}));
+  ASSERT_TRUE(same.advance(law, Increment{rate, 1e-6, 1}));
+  ASSERT_TRUE(swollen.advance(law, Increment{rate, 1e-6, 1.25}));
   EXPECT_GT(same.state.plastic_work, 0);
   EXPECT_DOUBLE_EQ(swollen.state.plastic_work, 1.25 * same.state.plastic_work);
 }
@@ -450,7 +503,7 @@ TEST(J2Test, FindsTheRootWhereverItLies) {
           Point<J2> point;
           const double strain = yield_stress * (1 + over) / (3 * shear);  // von Mises stress of the trial: 3μ × strain
           const Symmetric rate_of_strain = Symmetric{1, -0.5, -0.5, 0, 0, 0} * (strain / dt);
-          ASSERT_TRUE(point.advance(law, {rate_of_strain, dt, 1}))
+          ASSERT_TRUE(point.advance(law, Increment{rate_of_strain, dt, 1}))
               << hardening_name << " " << rate_name << " " << over << " " << dt;
           EXPECT_GE(point.state.equivalent_plastic_strain, 0);
           EXPECT_LE(point.state.equivalent_plastic_strain, strain);

@@ -19,6 +19,9 @@ DeshpandeFleck foam(double alpha = 2.1) {
   return law;
 }
 
+// Of 1e-6 s. The law goes by the rate and J.
+PointStep step_of(const Symmetric& rate, double J) { return {rate, 1e-6, J, spherical(std::cbrt(J))}; }
+
 DeshpandeFleck without_hardening(DeshpandeFleck law) {
   law.linear = law.locking = 0;
   return law;
@@ -63,7 +66,7 @@ TEST(MetalFoam, HydrostaticYield) {
     const Symmetric rate = spherical(-3e3);  // ε̂ = 1.1, far from locking
     Symmetric stress = Symmetric::Zero();
     for (int i = 0; i < 100; ++i) {
-      const PointStress next = law.step({rate, 1e-6, 1}, stress, state);
+      const PointStress next = law.step(step_of(rate, 1), stress, state);
       ASSERT_TRUE(next.converged);
       stress = next.stress;
     }
@@ -106,7 +109,7 @@ TEST(MetalFoam, DissipatesWhatTheFlowStressDoes) {
     for (int i = 0; i < steps; ++i) {
       const double before = integral(state.equivalent_plastic_strain);
       const double J = std::exp(-0.8 * (i + 1) / steps);
-      const PointStress next = law.step({rate, 1e-6, J}, stress, state);
+      const PointStress next = law.step(step_of(rate, J), stress, state);
       ASSERT_TRUE(next.converged);
       const double mean_J = std::exp(-0.8 * (i + 0.5) / steps);
       exact += mean_J * (integral(state.equivalent_plastic_strain) - before);
@@ -133,7 +136,7 @@ TEST(MetalFoam, WorkIsStoredOrDissipated) {
     const double old_plastic = state.equivalent_plastic_strain, old_dissipated = law.dissipation(state);
     F *= 0.96;
     const Symmetric rate{(F - old_F) / (0.5 * (F + old_F)) / 1e-6, 0, 0, 0, 0, 0};
-    const PointStress next = law.step({rate, 1e-6, F}, stress, state);
+    const PointStress next = law.step(step_of(rate, F), stress, state);
     ASSERT_TRUE(next.converged);
     stress = next.stress;
     if (state.equivalent_plastic_strain == old_plastic) continue;  // elastic: dissipates nothing
@@ -153,7 +156,7 @@ TEST(MetalFoam, LocksWithoutOverstepping) {
     double pressed = 0;
     const int steps = 400 + static_cast<int>(3 / step);
     for (int i = 0; i < steps; ++i) {
-      const PointStress next = law.step({Symmetric{-step, 0, 0, 0, 0, 0} / 1e-6, 1e-6, 1}, stress, state);
+      const PointStress next = law.step(step_of(Symmetric{-step, 0, 0, 0, 0, 0} / 1e-6, 1), stress, state);
       ASSERT_TRUE(next.converged) << step << " " << i;
       EXPECT_LE(state.equivalent_plastic_strain, law.densification);
       EXPECT_LT(next.stress[0], pressed);
@@ -186,7 +189,7 @@ TEST(MetalFoam, FailsWhereItsVolumeHasGrown) {
     const double old_J = J;
     J *= std::exp(0.01);
     const Symmetric rate{1e4, 0, 0, 0, 0, 0};
-    const PointStress next = law.step({rate, 1e-6, J}, stress, state);
+    const PointStress next = law.step(step_of(rate, J), stress, state);
     ASSERT_TRUE(next.converged);
     work += 0.5 * 1e-6 * double_dot(old_J * stress + J * next.stress, rate);
     stress = next.stress;

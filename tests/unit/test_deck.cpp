@@ -326,5 +326,96 @@ TEST(Deck, MetalFoamNamesWhatIsMissing) {
       << error;
 }
 
+// In the place of the steel of full_deck; its elastic constants are the solid's.
+std::string polymer_deck(const std::string& keys, const std::string& tables = "") {
+  return changed(full_deck, R"(value="Elastic Correspondence"/>)",
+                 R"(value="Polymer Foam Correspondence"/>)" + keys + tables);
+}
+
+const char* const polymer_keys = R"(
+      <Parameter name="Relative Density" type="double" value="0.049"/>
+      <Parameter name="Density Exponent" type="double" value="1.54"/>
+      <Parameter name="Tension Ratio" type="double" value="0.3"/>
+      <Parameter name="Uniaxial Yield Stress" type="double" value="82e3"/>
+      <Parameter name="Hydrostatic Yield Stress" type="double" value="40e3"/>
+)";
+
+std::string polymer_table(const std::string& name, const std::string& strains, const std::string& stresses) {
+  return "<ParameterList name=\"" + name + "\"><Parameter name=\"Strains\" type=\"string\" value=\"" + strains +
+         "\"/><Parameter name=\"Stresses\" type=\"string\" value=\"" + stresses + "\"/></ParameterList>";
+}
+
+TEST(Deck, PolymerFoam) {
+  const DeckFolder folder;
+  const Deck deck =
+      folder.read(polymer_deck(polymer_keys, polymer_table("Uniaxial Hardening", "0 0.5 1", "0 -2e3 5e3") +
+                                                 polymer_table("Hydrostatic Hardening", "0 2", "0 1e3")));
+  const auto& law = std::get<materials::PolymerFoam>(deck.materials[1].law);
+  EXPECT_EQ(law.initial_density, 0.049);
+  EXPECT_EQ(law.density_exponent, 1.54);
+  EXPECT_EQ(law.tension_ratio, 0.3);
+  EXPECT_EQ(law.plastic_poisson, 0);
+  EXPECT_EQ(law.yield_stresses(0).uniaxial, 82e3);
+  EXPECT_EQ(law.yield_stresses(0.5).uniaxial, 80e3);
+  EXPECT_EQ(law.yield_stresses(3).uniaxial, 87e3);
+  EXPECT_EQ(law.yield_stresses(-1).hydrostatic, 40e3);
+  EXPECT_DOUBLE_EQ(law.yield_stresses(1).hydrostatic, 40.5e3);
+  EXPECT_DOUBLE_EQ(law.moduli().bulk, law.solid.bulk * std::pow(0.049, 1.54));
+}
+
+TEST(Deck, PolymerFoamWithoutTablesDoesNotHarden) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(polymer_deck(polymer_keys));
+  EXPECT_EQ(std::get<materials::PolymerFoam>(deck.materials[1].law).yield_stresses(1).uniaxial, 82e3);
+}
+
+struct WrongPolymer {
+  std::string what, keys, tables, problem;
+};
+
+// By hand: 82 + 60 ε against 3 × 40 is equal at ε = 38/60; 82 − 100 ε is 0 at 0.82; with ν_p = 0.25 ε_a = 2 ε_v.
+TEST(Deck, PolymerFoamNamesWhatIsWrong) {
+  const DeckFolder folder;
+  const std::string nu = R"(<Parameter name="Plastic Poisson's Ratio" type="double" value="0.25"/>)";
+  const std::string no_ellipse =
+      " Pa, reaches three times the hydrostatic one, 40000 Pa, where no ellipse goes through both; expected less than "
+      "that, in Pa, at every strain";
+  const std::vector<WrongPolymer> cases = {
+      {"between knots", "", polymer_table("Uniaxial Hardening", "0 1", "0 60e3"),
+       "Materials > steel: at the volumetric plastic strain 0.633333 the uniaxial yield stress, 120000" + no_ellipse},
+      {"by the axial strain", nu, polymer_table("Uniaxial Hardening", "0 1", "0 60e3"),
+       "Materials > steel: at the volumetric plastic strain 0.316667 the uniaxial yield stress, 120000" + no_ellipse},
+      {"beyond the shorter table", "",
+       polymer_table("Uniaxial Hardening", "0 1 4", "0 20e3 50e3") +
+           polymer_table("Hydrostatic Hardening", "0 0.5", "0 0"),
+       "Materials > steel: at the volumetric plastic strain 2.8 the uniaxial yield stress, 120000" + no_ellipse},
+      {"softens to nothing", "", polymer_table("Uniaxial Hardening", "0 1", "0 -100e3"),
+       "Materials > steel: the uniaxial yield stress falls to 0 at the axial plastic strain 0.82; expected more than "
+       "0, "
+       "in Pa"},
+      {"a total stress", "", polymer_table("Hydrostatic Hardening", "0 1", "40e3 50e3"),
+       "Materials > steel > Hydrostatic Hardening > Stresses: the first is 40000; expected 0, in Pa: what is added by "
+       "hardening"},
+      {"unequal", "", polymer_table("Hydrostatic Hardening", "0 1 2", "0 50e3"),
+       "Materials > steel > Hydrostatic Hardening > Strains: 3 strains for 2 stresses; expected as many"},
+      {"falling", "", polymer_table("Uniaxial Hardening", "0 1 0.5", "0 1 2"),
+       "Materials > steel > Uniaxial Hardening > Strains: 0.5 follows 1; expected rising strains"},
+      {"incompressible flow", R"(<Parameter name="Plastic Poisson's Ratio" type="double" value="0.5"/>)", "",
+       "Materials > steel > Plastic Poisson's Ratio: '0.5'; expected a real number in [0, 0.5)"},
+  };
+  for (const WrongPolymer& one : cases) {
+    EXPECT_EQ(folder.error(polymer_deck(polymer_keys + one.keys, one.tables)), "deck.xml: 1 problem\n  " + one.problem)
+        << one.what;
+  }
+  EXPECT_EQ(
+      folder.error(changed(polymer_deck(polymer_keys), R"(value="40e3")", R"(value="27e3")")),
+      "deck.xml: 1 problem\n  Materials > steel: at the volumetric plastic strain 0 the uniaxial yield stress, 82000 "
+      "Pa, reaches three times the hydrostatic one, 27000 Pa, where no ellipse goes through both; expected less "
+      "than that, in Pa, at every strain");
+  EXPECT_EQ(folder.error(changed(polymer_deck(polymer_keys), R"(name="Tension Ratio" type="double" value="0.3")",
+                                 R"(name="Tension Ratio" type="double" value="0")")),
+            "deck.xml: 1 problem\n  Materials > steel > Tension Ratio: '0'; expected a real number > 0");
+}
+
 }  // namespace
 }  // namespace strut::deck

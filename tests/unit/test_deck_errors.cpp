@@ -170,11 +170,12 @@ const std::vector<Case> names = {
      "another quantity: in units of (λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},
     {"StabilizationOfOrdinaryBonds", R"(value="Elastic Correspondence")", R"(value="Elastic")",
      "Materials > steel > Stabilization: unknown key for Material Model 'Elastic'; it belongs to 'Elastic "
-     "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence'"},
+     "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence'"},
     {"PeridigmsNeedleman", "Elastic Plastic Correspondence", "Viscoplastic Needleman Correspondence",
      "Materials > copper > Material Model: 'Viscoplastic Needleman Correspondence' (did you mean 'Elastic Plastic "
      "Correspondence'? its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate); expected one "
-     "of Elastic, Elastic Correspondence, Elastic Plastic Correspondence, Metal Foam Correspondence"},
+     "of Elastic, Elastic Correspondence, Elastic Plastic Correspondence, Metal Foam Correspondence, Polymer Foam "
+     "Correspondence"},
 };
 INSTANTIATE_TEST_SUITE_P(Names, OneProblem, testing::ValuesIn(names), name_of);
 

@@ -90,7 +90,10 @@ class PointToolTest : public ToolTest {
 
   // The environment is emptied: the tool shall not take itself for a rank of the mpirun that runs this test.
   Outcome point(const std::string& words) const {
-    return run("env -i ASAN_OPTIONS=\"$ASAN_OPTIONS\" PATH=\"$PATH\" HOME=\"$HOME\" TMPDIR=\"${TMPDIR:-/tmp}\" " STRUT_POINT " " + words);
+    return run(
+        "env -i ASAN_OPTIONS=\"$ASAN_OPTIONS\" PATH=\"$PATH\" HOME=\"$HOME\" TMPDIR=\"${TMPDIR:-/tmp}\" " STRUT_POINT
+        " " +
+        words);
   }
 
   std::vector<Row> follow(const std::string& words) const {
@@ -124,6 +127,24 @@ TEST_F(PointToolTest, CompressionMirrorsTension) {
   const double pull = follow("--material copper --uniaxial-strain 1e3 0.1 --steps 20").back().at("Stress_xx");
   const double push = follow("--material copper --uniaxial-strain 1e3 -0.1 --steps 20").back().at("Stress_xx");
   EXPECT_NEAR(push, -pull, 1e-12 * pull);
+}
+
+// A law that goes by the stretch: to a strain of 1, τ = J σ = τ_y0, and ρ* = ρ₀*/J.
+TEST_F(PointToolTest, APolymericFoamIsCrushed) {
+  const std::string old = R"(value="Elastic Correspondence"/>)";
+  std::string with_foam = deck;
+  with_foam.replace(with_foam.find(old), old.size(), R"(value="Polymer Foam Correspondence"/>
+      <Parameter name="Relative Density" type="double" value="0.05"/>
+      <Parameter name="Density Exponent" type="double" value="1.5"/>
+      <Parameter name="Tension Ratio" type="double" value="0.3"/>
+      <Parameter name="Uniaxial Yield Stress" type="double" value="80e6"/>
+      <Parameter name="Hydrostatic Yield Stress" type="double" value="40e6"/>)");
+  write("deck.xml", with_foam);
+  const Row last = follow("--material steel --uniaxial-stress 1e3 -1 --steps 100").back();
+  const double J = std::exp(last.at("Strain_xx") + last.at("Strain_yy") + last.at("Strain_zz"));
+  EXPECT_NEAR(last.at("Strain_xx"), -1, 1e-12);
+  EXPECT_NEAR(-J * last.at("Stress_xx"), 80e6, 1e-9 * 80e6);
+  EXPECT_NEAR(last.at("Relative_Density"), 0.05 / J, 1e-12);
 }
 
 TEST_F(PointToolTest, AnOrdinaryMaterialShowsHookesLaw) {

@@ -81,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, Tangent,
                                          Case{"plastic_lists", true, FamilyKind::lists}),
                          [](const auto& info) { return std::string(info.param.name); });
 
+const Audience to_screen{[](const std::string& line) { std::cout << line << "\n"; }, {}, [] { return false; }};
+
 // A bar along z, its lower end on a plane, its upper end moved.
 struct Bar {
   Communicator world;
@@ -103,7 +105,7 @@ struct Bar {
 
 TEST(QuasiStaticBar, Stretches) {
   Bar bar(elastic(young, poisson), 0.01);
-  QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 2}, 0, 1, [](const std::string& t) { std::cout << t << "\n"; });
+  QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 2}, 0, 1, to_screen);
   while (solver.time() < 1) solver.advance();
   const double stress = young * std::log(1.01);
   EXPECT_LT(largest_over(bar.body, [&](int i) { return std::abs(bar.body.points[i].stress[2] - stress); }), 0.2 * stress);
@@ -112,7 +114,7 @@ TEST(QuasiStaticBar, Stretches) {
 
 TEST(QuasiStaticBar, Flows) {
   Bar bar(plastic(), 0.05);
-  QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 20}, 0, 1, [](const std::string& t) { std::cout << t << "\n"; });
+  QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 20}, 0, 1, to_screen);
   while (solver.time() < 1) solver.advance();
   std::cout << solver.ledger().balance_error << " " << solver.ledger().elastic << "\n";
 }

@@ -1,0 +1,143 @@
+// The keys of the crushable polymeric foam, and how the law is made from them.
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "deck/laws.hpp"
+#include "deck/numbers.hpp"
+#include "deck/problems.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const char* const uniaxial_table = "Uniaxial Hardening";
+const char* const hydrostatic_table = "Hydrostatic Hardening";
+
+Key required(const std::string& name, const std::string& unit, Range range, const std::string& meaning) {
+  return {.name = name, .unit = unit, .range = range, .required = true, .meaning = meaning};
+}
+
+Section table_section(const std::string& name, const std::string& meaning, const std::string& strains) {
+  return {
+      .name = name,
+      .meaning = meaning + " Piecewise linear, constant beyond the last strain; 0 without this section.",
+      .keys = {{.name = "Strains", .kind = Kind::reals, .range = not_negative, .required = true, .meaning = strains},
+               {.name = "Stresses",
+                .kind = Kind::reals,
+                .unit = "Pa",
+                .required = true,
+                .meaning = "As many Kirchhoff stresses, what is added to the first yield stress, the first 0."}}};
+}
+
+// None where it is among the problems; an empty one where the deck has no such section.
+std::optional<materials::TableHardening> table(const Values& material, const std::string& name, Problems& problems) {
+  if (material.find(name) == nullptr) return materials::TableHardening{};
+  const Values& section = material.section(name);
+  if (!check_table(section, problems)) return {};
+  const std::vector<double>& stresses = section.reals("Stresses");
+  if (stresses.front() == 0) return materials::TableHardening{section.reals("Strains"), stresses};
+  problems.add(path_to(section.path(), "Stresses"),
+               "the first is " + to_text(stresses.front()) + "; expected 0, in Pa: what is added by hardening");
+  return {};
+}
+
+// Of a number that was computed.
+std::string six_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+// The compactions ε_v between which both curves are straight.
+std::vector<double> knots(const materials::PolymerFoam& law) {
+  std::vector<double> all{0};
+  for (const double strain : law.uniaxial_hardening.strains) all.push_back(strain * (1 - 2 * law.plastic_poisson));
+  for (const double strain : law.hydrostatic_hardening.strains) all.push_back(strain);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// The least ε_v at which `margin`, straight between the knots, is not positive; negative if there is none.
+template <class Margin>
+double first_without(const std::vector<double>& knots, Margin margin) {
+  double before = 0, value_before = 0;
+  for (const double knot : knots) {
+    const double value = margin(knot);
+    if (!(value > 0)) {
+      return value_before > 0 ? before + (knot - before) * value_before / (value_before - value) : knot;
+    }
+    before = knot, value_before = value;
+  }
+  return -1;
+}
+
+// α = τ_y/√((p_c − τ_y/3)(p_t + τ_y/3)) exists where τ_y < 3 p_c; both must be positive.
+void check_ellipse(const materials::PolymerFoam& law, const std::string& path, Problems& problems) {
+  const auto places = knots(law);
+  const auto stresses = [&law](double compaction) { return law.yield_stresses(compaction); };
+  const double soft = first_without(places, [&](double v) { return stresses(v).uniaxial; });
+  const double flat =
+      first_without(places, [&](double v) { return 3 * stresses(v).hydrostatic - stresses(v).uniaxial; });
+  if (soft >= 0) {
+    problems.add(path, "the uniaxial yield stress falls to 0 at the axial plastic strain " +
+                           six_digits(soft / (1 - 2 * law.plastic_poisson)) + "; expected more than 0, in Pa");
+  }
+  if (flat >= 0) {
+    const auto at = stresses(flat);
+    problems.add(path, "at the volumetric plastic strain " + six_digits(flat) + " the uniaxial yield stress, " +
+                           six_digits(at.uniaxial) + " Pa, reaches three times the hydrostatic one, " +
+                           six_digits(at.hydrostatic) +
+                           " Pa, where no ellipse goes through both; expected less than that, in Pa, at every strain");
+  }
+}
+
+bool has_yield_stresses(const Values& material) {
+  return material.has("Uniaxial Yield Stress") && material.has("Hydrostatic Yield Stress") &&
+         material.has("Plastic Poisson's Ratio");
+}
+
+}  // namespace
+
+Section polymer_foam_section() {
+  return {
+      .name = "Polymer Foam Correspondence",
+      .meaning =
+          "A crushable polymeric foam at finite strain: Hencky's elasticity with E = E_M (ρ*)^γ, ρ* = ρ₀*/J, and an "
+          "ellipse of yield through a uniaxial and a hydrostatic test, in Kirchhoff stress. The elastic constants "
+          "are those of the solid polymer: E_M and ν.",
+      .keys = {required("Relative Density", "", {.low = 0, .high = 1, .with_low = false},
+                        "ρ₀*: of the undeformed foam to the solid's."),
+               required("Density Exponent", "", not_negative, "γ."),
+               {.name = "Plastic Poisson's Ratio",
+                .range = {.low = 0, .high = 0.5, .with_high = false},
+                .fallback = "0",
+                .meaning = "ν_p of uniaxial compression: the potential √(q² + β² p²) with "
+                           "β² = (9/2)(1 − 2ν_p)/(1 + ν_p)."},
+               required("Tension Ratio", "", positive, "ζ: p_t/p_c, yield in hydrostatic tension to compression."),
+               required("Uniaxial Yield Stress", "Pa", positive, "τ_y0, in compression."),
+               required("Hydrostatic Yield Stress", "Pa", positive, "p_c0 > τ_y0/3, in compression.")},
+      .sections = {table_section(uniaxial_table, "H_a: τ_y = τ_y0 + H_a(ε_a), ε_a = ε_v/(1 − 2ν_p).",
+                                 "Axial plastic strains ε_a, logarithmic, of compression, rising, the first 0."),
+                   table_section(hydrostatic_table, "H_p: p_c = p_c0 + H_p(ε_v), ε_v = −ln det F_p.",
+                                 "Volumetric plastic strains ε_v, of compression, rising, the first 0.")}};
+}
+
+materials::AnyLaw make_polymer_foam(const Values& material, const materials::Moduli& solid, Problems& problems) {
+  const auto uniaxial = table(material, uniaxial_table, problems);
+  const auto hydrostatic = table(material, hydrostatic_table, problems);
+  const materials::PolymerFoam law{.solid = solid,
+                                   .initial_density = material.real("Relative Density"),
+                                   .density_exponent = material.real("Density Exponent"),
+                                   .plastic_poisson = material.real("Plastic Poisson's Ratio"),
+                                   .tension_ratio = material.real("Tension Ratio"),
+                                   .uniaxial_yield = material.real("Uniaxial Yield Stress"),
+                                   .hydrostatic_yield = material.real("Hydrostatic Yield Stress"),
+                                   .uniaxial_hardening = uniaxial.value_or(materials::TableHardening{}),
+                                   .hydrostatic_hardening = hydrostatic.value_or(materials::TableHardening{})};
+  if (uniaxial && hydrostatic && has_yield_stresses(material)) check_ellipse(law, material.path(), problems);
+  return law;
+}
+
+}  // namespace strut::deck
