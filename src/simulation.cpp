@@ -179,8 +179,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   };
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                       deck.solver.initial_time, deck.solver.final_time,
-                       audience(deck, communicator));
+                       deck.solver.initial_time, deck.solver.final_time, audience(deck, communicator));
     return close(solver, load_through(deck, scene, solver, frames, history));
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,

@@ -347,8 +347,9 @@ void check_quasi_static(const Deck& deck, Problems& problems) {
   for (const ContactModel& model : deck.contact_models) {
     if (model.friction == 0) continue;
     problems.add("Contact > Models > " + model.name + " > Friction Coefficient",
-                 "'" + to_text(model.friction) + "'; expected 0 with Solver > QuasiStatic: there, friction is that of "
-                 "rigid planes and tools");
+                 "'" + to_text(model.friction) +
+                     "'; expected 0 with Solver > QuasiStatic: there, friction is that of "
+                     "rigid planes and tools");
   }
 }
 

@@ -279,8 +279,9 @@ Section conditions() {
 
 Section quasi_static() {
   return {.name = "QuasiStatic",
-          .meaning = "Slow loading in the place of Verlet: a series of equilibria, without inertia. Times are those of "
-                     "the conditions; rates follow from them.",
+          .meaning =
+              "Slow loading in the place of Verlet: a series of equilibria, without inertia. Times are those of "
+              "the conditions; rates follow from them.",
           .keys = {{.name = "Method",
                     .kind = Kind::choice,
                     .choices = {"Newton", "Dynamic Relaxation"},

@@ -77,8 +77,10 @@ typename L::State state_of(const std::vector<double>& columns, std::size_t point
 
 template <class L>
 materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
-                              const typename L::State& state) {
-  const auto stretch = [](const MaterialPoint& p) { return symmetric_part(p.rotation.transpose() * p.deformation_gradient); };
+                                     const typename L::State& state) {
+  const auto stretch = [](const MaterialPoint& p) {
+    return symmetric_part(p.rotation.transpose() * p.deformation_gradient);
+  };
   const materials::PointStep step = materials::step_between(stretch(old), stretch(now), dt);
   return materials::tangent_of(law, step, old.stress, state, stretch(old));
 }

@@ -86,7 +86,12 @@ Imbalance Equilibrium::measure(bool failed) {
   return now;
 }
 
-double Equilibrium::violation() const { return body_.domain.communicator.max(tools_.violation()); }
+bool Equilibrium::needs_round() const {
+  const Communicator& ranks = body_.domain.communicator;
+  return ranks.max(tools_.violation(ranks.max(tools_.largest_pressure()))) > 1;
+}
+
+bool Equilibrium::contact_has_changed() { return body_.domain.communicator.max(tools_.has_changed() ? 1.0 : 0.0) > 0; }
 
 void Equilibrium::linearise() {
   static Teuchos::Time& timer = phase("Tangents");

@@ -39,10 +39,12 @@ class Equilibrium {
   void apply(const Field& field, Field& result);
   const std::vector<PointTangent>& tangents() const { return tangents_; }
 
-  // Collective. The largest violation of contact with tools, in spacings; and a round of its multipliers.
-  double violation() const;
+  // Collective. Whether contact with tools needs another round of its multipliers; and the round.
+  bool needs_round() const;
   void augment() { tools_.augment(); }
 
+  // Collective. Whether other points touch tools than when this was asked last.
+  bool contact_has_changed();
   // What contact adds to the stiffness of each point alone, N/m.
   std::vector<Tensor> contact_springs();
 
@@ -53,8 +55,8 @@ class Equilibrium {
   const Held& held() const { return *held_; }
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
-  // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J on
-  // this rank.
+  // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J
+  // on this rank.
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
   // Collective. Of the last trial, for so many conditions of the deck.
@@ -72,9 +74,9 @@ class Equilibrium {
   std::optional<Held> held_;
   double t_ = 0, dt_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
-  Field forces_, residual_;      // N: all; those that nothing holds
-  Field outer_, outer_before_;   // loads and reactions, N
-  std::vector<Vector> looked_at_;          // places that contact has last been asked about
+  Field forces_, residual_;        // N: all; those that nothing holds
+  Field outer_, outer_before_;     // loads and reactions, N
+  std::vector<Vector> looked_at_;  // places that contact has last been asked about
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;
 };

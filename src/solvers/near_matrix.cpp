@@ -77,8 +77,7 @@ BlockRows near_matrix(Body& body, const std::vector<PointTangent>& tangents, con
       const Vector xi = body.domain.positions[j] - body.domain.positions[i];
       if (!near(ends[i], ends[j], xi)) return;
       const Vector e = (body.sites[j].current - body.sites[i].current).head<3>().matrix().stableNormalized();
-      const double k = body.domain.volumes[i] * body.domain.volumes[j] * (ends[i].stiffness + ends[j].stiffness) *
-                       xi.squaredNorm();
+      const double k = body.domain.volumes[i] * body.domain.volumes[j] * (ends[i].stiffness + ends[j].stiffness);
       const Tensor spring = k * ((1 - across) * e * e.transpose() + across * Tensor::Identity());
       diagonal += spring;
       rows.columns.push_back(static_cast<std::int64_t>(ends[j].number));

@@ -13,7 +13,7 @@ namespace {
 
 // Of the linear systems. Near the solution Newton's own convergence is the limit of what is worth solving for: the
 // residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
-constexpr double of_first = 1e-3, coarsest = 1e-1, finest = 1e-4;
+constexpr double of_first = 1e-3, coarsest = 1e-2, finest = 1e-4;
 constexpr int most_products = 400;
 
 constexpr int most_halvings = 4;  // of a step, in the search along it
@@ -38,12 +38,22 @@ Newton::Newton(Equilibrium& equilibrium, const Audience& audience)
       audience_(audience),
       krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
 
+// Of a point alone.
+double Newton::mean_spring(const BlockRows& matrix) const {
+  double sums[] = {0, static_cast<double>(matrix.start.size() - 1)};
+  for (std::size_t i = 0; i + 1 < matrix.start.size(); ++i) sums[0] += matrix.blocks[matrix.start[i]].trace() / 3;
+  equilibrium_.body().domain.communicator.sum(sums);
+  return sums[0] / sums[1];
+}
+
 void Newton::renew_preconditioner() {
   static Teuchos::Time& timer = phase("Preconditioner");
   const Timed timed(timer);
   Body& body = equilibrium_.body();
-  krylov_.precondition(near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), equilibrium_.contact_springs(), krylov_.first()),
-                       rigid_motions(body));
+  const BlockRows matrix =
+      near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), equilibrium_.contact_springs(), krylov_.first());
+  krylov_.precondition(matrix, rigid_motions(body));
+  spring_ = mean_spring(matrix);
   preconditioner_due_ = false;
   products_when_new_ = 0;
 }
@@ -51,7 +61,8 @@ void Newton::renew_preconditioner() {
 // The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
 int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
   equilibrium_.linearise();
-  if (preconditioner_due_) renew_preconditioner();
+  const bool changed = equilibrium_.contact_has_changed();
+  if (preconditioner_due_ || changed) renew_preconditioner();
   const Held& held = equilibrium_.held();
   Field right = equilibrium_.residual();
   if (moves) {
@@ -65,7 +76,7 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     held.remove(free);
     equilibrium_.apply(free, out);
     held.remove(out);
-    for (std::size_t i = 0; i < in.size(); ++i) out[i] += in[i] - free[i];
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
   const Krylov::Outcome outcome = krylov_.solve(product, right, accuracy, most_products, step);
   held.remove(step);
@@ -99,8 +110,8 @@ Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
 void Newton::tell(const Search& search, int products) const {
   if (!audience_.iterations) return;
   char line[120];
-  std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N%s", search.iterations + 1, products,
-                search.left.norm, search.left.scale, search.left.failed ? "  failed" : "");
+  std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N%s", search.iterations + 1,
+                products, search.left.norm, search.left.scale, search.left.failed ? "  failed" : "");
   audience_.iterations(line);
 }
 

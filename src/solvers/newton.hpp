@@ -17,11 +17,13 @@ class Newton {
   int correct(const Field& way, bool moves, double accuracy, Field& step);
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void renew_preconditioner();
+  double mean_spring(const BlockRows& matrix) const;
   void tell(const Search& search, int products) const;
 
   Equilibrium& equilibrium_;
   const Audience& audience_;
   Krylov krylov_;
+  double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true;
 };

@@ -13,8 +13,7 @@ namespace {
 
 constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
 constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried where Newton fails
-constexpr double largest_violation = 1e-4;  // of contact with tools, in spacings
-constexpr int most_rounds = 30;             // of its multipliers, in a step
+constexpr int most_rounds = 30;          // of the multipliers of tools, in a step
 constexpr int easily = 6;                // iterations of a step after which the next may be longer
 constexpr double round_off = 1e-9;
 
@@ -49,7 +48,7 @@ Search QuasiStatic::search_from_start(bool with_tangent) {
     const Search last = search(with_tangent);
     whole = {last.converged, whole.iterations + last.iterations, whole.evaluations + last.evaluations, last.left,
              last.interrupted};
-    if (!last.converged || equilibrium_.violation() <= largest_violation) return whole;
+    if (!last.converged || !equilibrium_.needs_round()) return whole;
     equilibrium_.augment();
   }
   whole.converged = false;
@@ -105,8 +104,9 @@ void QuasiStatic::commit(const Search& search) {
   const double left = final_time_ - time_ - dt_;
   time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
   char line[160];
-  std::snprintf(line, sizeof line, "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left",
-                steps_, time_, dt_, search.iterations, search.evaluations,
+  std::snprintf(line, sizeof line,
+                "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left", steps_,
+                time_, dt_, search.iterations, search.evaluations,
                 search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
   audience_.load_steps(line);
   if (search.iterations <= easily) dt_ = std::min(2 * dt_, longest_);

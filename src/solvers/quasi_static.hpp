@@ -9,7 +9,7 @@ namespace strut {
 
 struct QuasiStaticControl {
   bool with_tangent = true;  // Newton, and relaxation where it fails; else relaxation alone
-  int load_steps = 10;  // of equal length; shorter ones where one of these finds no equilibrium
+  int load_steps = 10;       // of equal length; shorter ones where one of these finds no equilibrium
   Tolerance tolerance;
 };
 
@@ -29,7 +29,7 @@ class QuasiStatic {
   // where none is found, however short. In both cases the body is at its last equilibrium.
   bool advance();
 
-  Ledger ledger();                                // collective
+  Ledger ledger();                                                                          // collective
   Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
 
  private:

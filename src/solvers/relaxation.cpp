@@ -7,8 +7,8 @@ namespace strut {
 
 namespace {
 
-constexpr int ramp = 40;                 // iterations over which what is held is moved
-constexpr int renewal = 200;             // iterations after which the masses follow the deformation
+constexpr int ramp = 40;      // iterations over which what is held is moved
+constexpr int renewal = 200;  // iterations after which the masses follow the deformation
 constexpr int per_newton_iteration = 1000;
 
 // A step of 1 is so much of the stable one, which shrinks while masses are not renewed.

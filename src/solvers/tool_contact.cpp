@@ -11,6 +11,13 @@ namespace {
 // the penetration, and GMRES does not notice, for the preconditioner knows ε.
 constexpr double penalty_factor = 20;
 
+// The same of friction: a stiffer one would let Newton's iterations jump between sticking and sliding.
+constexpr double tangential_share = 0.02;
+
+constexpr double most_penetration = 1e-4;  // spacings
+constexpr double most_sliding = 1e-3;      // spacings in a step, where a point sticks
+constexpr double most_lag = 5e-3;          // of the largest pressure, of multipliers behind pressures, for friction
+
 constexpr double just_touching = 1e-9;  // spacings
 
 }  // namespace
@@ -63,18 +70,18 @@ void ToolContact::press(const Surface& at, const Vector& sliding, Grip& grip) co
   if (pressure == 0 && at.gap > just_touching * grip.spacing) return;
   grip.stiffness = e * n * n.transpose() - pressure * at.curvature;
   const double friction = tools_[grip.tool].friction;
-  if (friction == 0) return;
+  if (friction == 0 || pressure == 0) return;
+  const double e_t = tangential_share * e;
   const Tensor along = Tensor::Identity() - n * n.transpose();
-  const Vector trial = along * grip.tangential - e * sliding;
-  const double length = trial.norm(), most = friction * pressure;
+  const Vector trial = along * grip.tangential - e_t * sliding;
+  const double length = trial.norm(), most = friction * grip.multiplier;
   if (length <= most) {
     grip.now.drag = trial, grip.sliding = sliding.norm();
-    grip.stiffness += e * along;
+    grip.stiffness += e_t * along;
   } else {
     const Vector direction = trial / length;
     grip.now.drag = most * direction;
-    grip.stiffness += most * e / length * (along - direction * direction.transpose()) +
-                      friction * e * direction * n.transpose();
+    grip.stiffness += most * e_t / length * (along - direction * direction.transpose());
   }
   grip.now.force += grip.now.drag;
 }
@@ -87,12 +94,32 @@ void ToolContact::add_springs(std::vector<Tensor>& springs) const {
   for (const Grip& grip : grips_) springs[grip.point] += 0.5 * (grip.stiffness + grip.stiffness.transpose());
 }
 
-double ToolContact::violation() const {
+double ToolContact::largest_pressure() const {
+  double largest = 0;
+  for (const Grip& grip : grips_) largest = std::max(largest, grip.now.pressure);
+  return largest;
+}
+
+double ToolContact::violation(double largest_pressure) const {
   double largest = 0;
   for (const Grip& grip : grips_) {
-    if (grip.now.pressure > 0) largest = std::max({largest, std::abs(grip.gap) / grip.spacing, grip.sliding / grip.spacing});
+    if (grip.now.pressure == 0) continue;
+    const double friction = tools_[grip.tool].friction;
+    const double lag = friction > 0 ? std::abs(grip.now.pressure - grip.multiplier) / largest_pressure : 0;
+    largest = std::max({largest, std::abs(grip.gap) / (most_penetration * grip.spacing),
+                        grip.sliding / (most_sliding * grip.spacing), lag / most_lag});
   }
   return largest;
+}
+
+bool ToolContact::has_changed() {
+  bool changed = false;
+  for (Grip& grip : grips_) {
+    const bool touches = grip.stiffness.trace() > 0;
+    changed = changed || touches != grip.touched;
+    grip.touched = touches;
+  }
+  return changed;
 }
 
 void ToolContact::augment() {

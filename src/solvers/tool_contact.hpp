@@ -1,8 +1,9 @@
 // What rigid tools do to the points of a body in equilibrium: unilateral contact with Coulomb friction by an augmented
 // Lagrangian (Simo & Laursen 1992). With the gap g, the sliding s over the tool in the step, and the multipliers λ:
-//   t_n = max(0, λ_n − ε g),  t_t = λ_t − ε s, cut to |t_t| ≤ μ t_n
-// An equilibrium at given multipliers leaves penetrations of the order t/ε; then λ ← t, and so on until they are
-// below a tolerance. So ε is no constant of the material: it only decides how many rounds there are.
+//   t_n = max(0, λ_n − ε g),  t_t = λ_t − ε s, cut to |t_t| ≤ μ λ_n
+// The bound is that of the multiplier, which keeps the tangent symmetric. An equilibrium at given multipliers leaves
+// penetrations of the order t/ε; then λ ← t, and so on until they are below a tolerance. So ε is no constant of the
+// material: it only decides how many rounds there are.
 #pragma once
 
 #include <vector>
@@ -27,9 +28,12 @@ class ToolContact {
   void add_stiffness(const Field& field, Field& result) const;
   void add_springs(std::vector<Tensor>& springs) const;
 
-  // The largest penetration of a point that touches, or sliding of one that sticks, in spacings; of this rank, at the
-  // last forces.
-  double violation() const;
+  // How far the last forces are from contact, above 1 where another round is due; of this rank's points, by the largest
+  // pressure on any rank (N).
+  double largest_pressure() const;
+  double violation(double largest_pressure) const;
+  // Whether other points touch here than when this was asked last.
+  bool has_changed();
   void augment();  // λ ← t
   void commit();   // the last forces are where the next step begins
 
@@ -45,14 +49,15 @@ class ToolContact {
   };
   struct Grip {  // of a tool on a point
     int tool, point;
-    double penalty = 0;                   // ε, N/m
-    double spacing = 0;                   // m
-    double multiplier = 0;                // λ_n, N
-    Vector tangential = Vector::Zero();   // λ_t, N
-    Vector start = Vector::Zero();        // where the step begins, m
-    Traction at_start, now;               // at the last places
-    double gap = 0, sliding = 0;          // m; |s| of a point that sticks
-    Tensor stiffness = Tensor::Zero();    // N/m
+    double penalty = 0;                  // ε, N/m
+    double spacing = 0;                  // m
+    double multiplier = 0;               // λ_n, N
+    Vector tangential = Vector::Zero();  // λ_t, N
+    Vector start = Vector::Zero();       // where the step begins, m
+    Traction at_start, now;              // at the last places
+    double gap = 0, sliding = 0;         // m; |s| of a point that sticks
+    bool touched = false;                // when has_changed() was asked last
+    Tensor stiffness = Tensor::Zero();   // N/m
   };
   void press(const Surface& at, const Vector& sliding, Grip& grip) const;
 

@@ -69,8 +69,7 @@ TEST_P(Tangent, IsTheDerivativeOfTheForces) {
   equilibrium.linearise();
   equilibrium.apply(direction, product);
   const double scale = largest_over(body, [&](int i) { return product[i].norm(); });
-  const double error = largest_over(
-      body, [&](int i) { return ((above[i] - below[i]) / (2 * h) + product[i]).norm(); });
+  const double error = largest_over(body, [&](int i) { return ((above[i] - below[i]) / (2 * h) + product[i]).norm(); });
   EXPECT_GT(scale, 0);
   EXPECT_LT(error, 1e-5 * scale);
 }
@@ -90,7 +89,8 @@ struct Bar {
   Conditions conditions;
   Body body;
 
-  Bar(materials::AnyLaw law, double strain) : body(lattice_body((spec.material = material(std::move(law)), spec), world)) {
+  Bar(materials::AnyLaw law, double strain)
+      : body(lattice_body((spec.material = material(std::move(law)), spec), world)) {
     const double first = 0.5e-3, last = 11.5e-3;
     const auto low = points_where(body, [=](const Vector& X) { return X[2] < first + 1e-6; });
     const auto high = points_where(body, [=](const Vector& X) { return X[2] > last - 1e-6; });
@@ -108,7 +108,8 @@ TEST(QuasiStaticBar, Stretches) {
   QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 2}, 0, 1, to_screen);
   while (solver.time() < 1) solver.advance();
   const double stress = young * std::log(1.01);
-  EXPECT_LT(largest_over(bar.body, [&](int i) { return std::abs(bar.body.points[i].stress[2] - stress); }), 0.2 * stress);
+  EXPECT_LT(largest_over(bar.body, [&](int i) { return std::abs(bar.body.points[i].stress[2] - stress); }),
+            0.2 * stress);
   std::cout << solver.ledger().balance_error << " " << solver.ledger().elastic << "\n";
 }
 
