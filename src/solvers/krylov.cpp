@@ -133,15 +133,15 @@ Krylov::Outcome Krylov::solve(const Product& K, const Field& right, double toler
   const RCP<Vectors> solution = rcp(new Vectors(map, 1)), wanted = rcp(new Vectors(map, 1));
   copy(right, *wanted);
   const auto problem = rcp(new Belos::LinearProblem<double, Vectors, Operator>(product, solution, wanted));
-  if (is_preconditioned()) problem->setLeftPrec(implementation_->hierarchy);
+  if (is_preconditioned()) problem->setRightPrec(implementation_->hierarchy);
   problem->setProblem();
   const RCP<Teuchos::ParameterList> options = rcp(new Teuchos::ParameterList);
   options->set("Convergence Tolerance", tolerance);
   options->set("Num Blocks", std::min(kept, most));
   options->set("Maximum Restarts", most / kept);
   options->set("Maximum Iterations", most);
-  options->set("Implicit Residual Scaling", "Norm of Preconditioned Initial Residual");
-  options->set("Explicit Residual Scaling", "Norm of Preconditioned Initial Residual");
+  options->set("Implicit Residual Scaling", "Norm of RHS");
+  options->set("Explicit Residual Scaling", "Norm of RHS");
   Belos::PseudoBlockGmresSolMgr<double, Vectors, Operator> solver(problem, options);
   const bool converged = solver.solve() == Belos::Converged;
   x.resize(implementation_->owned);

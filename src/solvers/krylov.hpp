@@ -44,9 +44,8 @@ class Krylov {
     int iterations;
     bool converged;
   };
-  // Collective. K x = right from x = 0, until the preconditioned residual, roughly the error of x, is `tolerance` times
-  // that of x = 0: beside it the plain residual is ruled by the stiffest springs, those of contact. The best x found,
-  // also where it did not converge in `most` iterations.
+  // Collective. K x = right from x = 0, until the residual is `tolerance` times that of x = 0. The best x found, also
+  // where it did not converge in `most` iterations.
   using Product = std::function<void(const Field&, Field&)>;
   Outcome solve(const Product& K, const Field& right, double tolerance, int most, Field& x);
 

@@ -13,7 +13,11 @@ namespace {
 
 // Of the linear systems. Near the solution Newton's own convergence is the limit of what is worth solving for: the
 // residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
-constexpr double of_first = 1e-3, coarsest = 1e-2, finest = 1e-4;
+constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
+
+// Where a point begins to touch a tool, the residual is that of a stiff spring, and what the body will carry a small
+// part of it.
+constexpr double of_touch = 1e-5;
 constexpr int most_products = 400;
 
 constexpr int most_halvings = 4;  // of a step, in the search along it
@@ -63,6 +67,7 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   equilibrium_.linearise();
   const bool changed = equilibrium_.contact_has_changed();
   if (preconditioner_due_ || changed) renew_preconditioner();
+  if (changed) accuracy = std::min(accuracy, of_touch);
   const Held& held = equilibrium_.held();
   Field right = equilibrium_.residual();
   if (moves) {
