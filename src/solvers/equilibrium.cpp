@@ -14,6 +14,21 @@ namespace {
 // body is round-off of its loading.
 constexpr double smallest_scale = 1e-4;
 
+// Forces of a strain of this size are none: what nothing touches yet has only round-off.
+constexpr double no_strain = 1e-10;
+
+// N, of all points: what a strain of 1 would do.
+double stiffness_scale(const Body& body) {
+  double sum = 0;
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const double side = std::cbrt(body.domain.volumes[block.points[k]]);
+      sum += std::pow(block.moduli(k).longitudinal() * side * side, 2);
+    }
+  }
+  return std::sqrt(body.domain.communicator.sum(sum));
+}
+
 }  // namespace
 
 Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact)
@@ -25,6 +40,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   residual_.assign(body.owned(), Vector::Zero());
   outer_ = outer_before_ = residual_;
   directions_ = body.sites;
+  floor_ = no_strain * stiffness_scale(body);
   looked_at_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
 }
@@ -82,7 +98,7 @@ Imbalance Equilibrium::measure(bool failed) {
   Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1]), sums[2] > 0};
   if (!std::isfinite(now.norm + now.scale)) now.failed = true;
   last_scale_ = now.scale;
-  now.scale = std::max(now.scale, smallest_scale * largest_scale_);
+  now.scale = std::max({now.scale, smallest_scale * largest_scale_, floor_});
   return now;
 }
 

@@ -72,7 +72,7 @@ class Equilibrium {
   ToolContact tools_;
   Committed committed_;
   std::optional<Held> held_;
-  double t_ = 0, dt_ = 0, last_scale_ = 0, largest_scale_ = 0;
+  double t_ = 0, dt_ = 0, floor_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
   Field forces_, residual_;        // N: all; those that nothing holds
   Field outer_, outer_before_;     // loads and reactions, N
