@@ -126,22 +126,26 @@ void Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kerne
   implementation_->hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
 }
 
-Krylov::Outcome Krylov::solve(const Product& K, const Field& right, double tolerance, int most, Field& x) {
+Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure measure, double tolerance, int most,
+                              Field& x) {
   constexpr int kept = 80;  // directions before a restart
   const RCP<const Map>& map = implementation_->map;
   const RCP<Operator> product = rcp(new ProductOperator(K, map, implementation_->owned));
   const RCP<Vectors> solution = rcp(new Vectors(map, 1)), wanted = rcp(new Vectors(map, 1));
   copy(right, *wanted);
   const auto problem = rcp(new Belos::LinearProblem<double, Vectors, Operator>(product, solution, wanted));
-  if (is_preconditioned()) problem->setRightPrec(implementation_->hierarchy);
+  const bool by_error = measure == Measure::error && is_preconditioned();
+  if (by_error) problem->setLeftPrec(implementation_->hierarchy);
+  if (!by_error && is_preconditioned()) problem->setRightPrec(implementation_->hierarchy);
   problem->setProblem();
   const RCP<Teuchos::ParameterList> options = rcp(new Teuchos::ParameterList);
   options->set("Convergence Tolerance", tolerance);
   options->set("Num Blocks", std::min(kept, most));
   options->set("Maximum Restarts", most / kept);
   options->set("Maximum Iterations", most);
-  options->set("Implicit Residual Scaling", "Norm of RHS");
-  options->set("Explicit Residual Scaling", "Norm of RHS");
+  const char* const scaling = by_error ? "Norm of Preconditioned Initial Residual" : "Norm of RHS";
+  options->set("Implicit Residual Scaling", scaling);
+  options->set("Explicit Residual Scaling", scaling);
   Belos::PseudoBlockGmresSolMgr<double, Vectors, Operator> solver(problem, options);
   const bool converged = solver.solve() == Belos::Converged;
   x.resize(implementation_->owned);

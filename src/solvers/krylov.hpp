@@ -44,10 +44,12 @@ class Krylov {
     int iterations;
     bool converged;
   };
-  // Collective. K x = right from x = 0, until the residual is `tolerance` times that of x = 0. The best x found, also
-  // where it did not converge in `most` iterations.
+  // What is to become `tolerance` times what it is at x = 0: the residual, or roughly the error, which is the
+  // preconditioned residual. Beside a few springs far stiffer than the rest the residual says nothing.
+  enum class Measure { residual, error };
+  // Collective. K x = right from x = 0. The best x found, also where it did not converge in `most` iterations.
   using Product = std::function<void(const Field&, Field&)>;
-  Outcome solve(const Product& K, const Field& right, double tolerance, int most, Field& x);
+  Outcome solve(const Product& K, const Field& right, Measure measure, double tolerance, int most, Field& x);
 
  private:
   struct Implementation;

@@ -16,6 +16,10 @@ constexpr double across = 0.1;  // of a spring's stiffness along its bond
 // in flow takes the fewest iterations.
 constexpr double smallest_share = 0.1;
 
+// Of a point's own springs, from it to the ground: what nothing holds, a body that slides between plates or a piece that
+// has come off, would leave the coarsest grid singular.
+constexpr double to_ground = 1e-5;
+
 // What both ends of a spring are asked, of owned points and ghosts.
 struct End {
   double number;     // of the point among those of all ranks
@@ -84,6 +88,7 @@ BlockRows near_matrix(Body& body, const std::vector<PointTangent>& tangents, con
       rows.columns.push_back(static_cast<std::int64_t>(ends[j].number));
       rows.blocks.push_back(-(held.freedom(i) * spring * ends[j].freedom));
     });
+    diagonal *= 1 + to_ground;
     const Tensor& freedom = held.freedom(i);
     const double scale = diagonal.trace() > 0 ? diagonal.trace() / 3 : 1;
     rows.blocks[at] = freedom * diagonal * freedom + scale * (Tensor::Identity() - freedom);

@@ -15,9 +15,9 @@ namespace {
 // residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
 constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 
-// Where a point begins to touch a tool, the residual is that of a stiff spring, and what the body will carry a small
-// part of it.
-constexpr double of_touch = 1e-5;
+// Of the error, where a point begins to touch a tool: the residual is then that of a stiff spring, and what the body
+// will carry a small part of it.
+constexpr double of_touch = 1e-2;
 constexpr int most_products = 400;
 
 constexpr int most_halvings = 4;  // of a step, in the search along it
@@ -67,7 +67,6 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   equilibrium_.linearise();
   const bool changed = equilibrium_.contact_has_changed();
   if (preconditioner_due_ || changed) renew_preconditioner();
-  if (changed) accuracy = std::min(accuracy, of_touch);
   const Held& held = equilibrium_.held();
   Field right = equilibrium_.residual();
   if (moves) {
@@ -83,7 +82,9 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
-  const Krylov::Outcome outcome = krylov_.solve(product, right, accuracy, most_products, step);
+  const Krylov::Outcome outcome =
+      changed ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most_products, step)
+              : krylov_.solve(product, right, Krylov::Measure::residual, accuracy, most_products, step);
   held.remove(step);
   for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];
   if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
