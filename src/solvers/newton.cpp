@@ -25,10 +25,13 @@ constexpr int most_halvings = 4;  // of a step, in the search along it
 // A hierarchy is kept until systems take so much longer than just after it was made.
 constexpr double wear = 1.5;
 
-double squared_norm(const Field& field) {
-  double sum = 0;
-  for (const Vector& v : field) sum += v.squaredNorm();
-  return sum;
+// Whether anything of the way is left but the round-off of times.
+bool is_a_way(const Field& way, const Body& body) {
+  double farthest = 0;  // in spacings
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    farthest = std::max(farthest, way[i].norm() / body.domain.cloud.spacings[i]);
+  }
+  return body.domain.communicator.max(farthest) > 1e-9;
 }
 
 void move_by(Body& body, double factor, const Field& step) {
@@ -125,12 +128,13 @@ Search Newton::solve(const Tolerance& tolerance) {
   Search search;
   search.left = equilibrium_.evaluate();
   Field way = equilibrium_.held().way_left(equilibrium_.body()), step;
-  bool moves = equilibrium_.body().domain.communicator.sum(squared_norm(way)) > 0;
+  bool moves = is_a_way(way, equilibrium_.body());
   double before = search.left.norm;
   for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
     if (!moves && is_balanced(search.left, tolerance)) break;
     const double gain = search.left.norm / before;
-    const double accuracy = moves ? of_first : std::clamp(0.5 * gain * gain, finest, coarsest);
+    const double enough = 0.3 * tolerance.relative * search.left.scale / search.left.norm;
+    const double accuracy = moves ? of_first : std::clamp(std::max(0.5 * gain * gain, enough), finest, coarsest);
     before = search.left.norm;
     const int products = correct(way, moves, accuracy, step);
     search.evaluations += products;

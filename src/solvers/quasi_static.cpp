@@ -14,7 +14,7 @@ namespace {
 constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
 constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried where Newton fails
 constexpr int most_rounds = 30;          // of the multipliers of tools, in a step
-constexpr int easily = 6;                // iterations of a step after which the next may be longer
+constexpr int easily = 6;                // Newton's iterations of a round after which the next step may be longer
 constexpr double round_off = 1e-9;
 
 }  // namespace
@@ -47,7 +47,7 @@ Search QuasiStatic::search_from_start(bool with_tangent) {
   for (int round = 0; round < most_rounds; ++round) {
     const Search last = search(with_tangent);
     whole = {last.converged, whole.iterations + last.iterations, whole.evaluations + last.evaluations, last.left,
-             last.interrupted};
+             last.interrupted, round + 1};
     if (!last.converged || !equilibrium_.needs_round()) return whole;
     equilibrium_.augment();
   }
@@ -109,7 +109,7 @@ void QuasiStatic::commit(const Search& search) {
                 time_, dt_, search.iterations, search.evaluations,
                 search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
   audience_.load_steps(line);
-  if (search.iterations <= easily) dt_ = std::min(2 * dt_, longest_);
+  if (!control_.with_tangent || search.iterations <= easily * search.rounds) dt_ = std::min(2 * dt_, longest_);
 }
 
 Ledger QuasiStatic::ledger() {

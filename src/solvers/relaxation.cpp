@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace strut {
 
@@ -36,7 +37,8 @@ void Relaxation::renew_masses() {
     }
   }
   // Points without stiffness have mass all the same.
-  const double heaviest = body.domain.communicator.max(*std::max_element(body.density.begin(), body.density.end()));
+  const double heaviest = body.domain.communicator.max(std::accumulate(
+      body.density.begin(), body.density.end(), 0.0, [](double a, double b) { return std::max(a, b); }));
   for (double& d : body.density) d = std::max(d, 1e-6 * heaviest);
   const double limit = stable_.estimate(body);
   const std::vector<Tensor> springs = equilibrium_.contact_springs();
@@ -54,7 +56,7 @@ Search Relaxation::solve(const Tolerance& tolerance) {
   const Held& held = equilibrium_.held();
   Search search;
   search.left = equilibrium_.evaluate();
-  Field velocity(body.owned(), Vector::Zero()), before = equilibrium_.residual();
+  Field velocity(body.owned(), Vector::Zero()), before;
   double damping = 0;
   const int most = per_newton_iteration * tolerance.most_iterations;
   for (int n = 0; n < most && !search.left.failed; ++n) {

@@ -26,6 +26,7 @@ struct Search {
   int evaluations = 0;  // of the forces, or of the tangent times a field
   Imbalance left;
   bool interrupted = false;
+  int rounds = 1;  // of the multipliers of tools
 };
 
 inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
