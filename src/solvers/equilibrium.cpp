@@ -38,7 +38,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       tools_(conditions_.tools, body),
       committed_(body) {
   residual_.assign(body.owned(), Vector::Zero());
-  outer_ = outer_before_ = residual_;
+  outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.sites;
   floor_ = no_strain * stiffness_scale(body);
   looked_at_.resize(body.owned());
@@ -134,6 +134,7 @@ void Equilibrium::commit() {
   committed_.take(body_);
   tools_.commit();
   outer_before_ = outer_;
+  forces_before_ = forces_;
 }
 
 std::vector<Tensor> Equilibrium::contact_springs() {
@@ -146,6 +147,9 @@ std::vector<Tensor> Equilibrium::contact_springs() {
 void Equilibrium::go_back() {
   committed_.restore(body_);
   advance_by_any_step(body_, 0, true);
+  add_contact();  // for its energy
+  forces_ = forces_before_;
+  tools_.go_back();
 }
 
 double Equilibrium::external_work() const {

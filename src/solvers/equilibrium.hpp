@@ -75,6 +75,7 @@ class Equilibrium {
   double t_ = 0, dt_ = 0, floor_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
   Field forces_, residual_;        // N: all; those that nothing holds
+  Field forces_before_;            // N, of the committed state
   Field outer_, outer_before_;     // loads and reactions, N
   std::vector<Vector> looked_at_;  // places that contact has last been asked about
   std::vector<PointTangent> tangents_;

@@ -130,6 +130,10 @@ void ToolContact::commit() {
   for (Grip& grip : grips_) grip.at_start = grip.now;
 }
 
+void ToolContact::go_back() {
+  for (Grip& grip : grips_) grip.now = grip.at_start;
+}
+
 void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
   for (const Grip& grip : grips_) {
     const int condition = tools_[grip.tool].condition;

@@ -37,6 +37,8 @@ class ToolContact {
   void augment();  // λ ← t
   void commit();   // the last forces are where the next step begins
 
+  void go_back();  // the last forces are those where the step begins
+
   // The forces of the last trial by condition.
   void add_reactions(std::vector<Vector>& by_condition) const;
   // J on this rank, by the mean of the forces at both ends of the step.

@@ -22,8 +22,21 @@ spacing = 1e-3
 END
 "$mesh" bar.recipe bar.g > mesh.log || { cat mesh.log; exit 1; }
 
-# Hours of computing, if nothing ends it.
-cat > deck.xml <<END
+# condition NAME TYPE SET AXIS VALUE
+condition() {
+  cat <<END
+    <ParameterList name="$1">
+      <Parameter name="Type" type="string" value="$2"/>
+      <Parameter name="Node Set" type="string" value="$3"/>
+      <Parameter name="Coordinate" type="string" value="$4"/>
+      <Parameter name="Value" type="string" value="$5"/>
+    </ParameterList>
+END
+}
+
+# Hours of computing, if nothing ends it. $conditions, $solver: the content of sections; $frequency: of the history.
+write_deck() {
+  cat > deck.xml <<END
 <ParameterList>
   <ParameterList name="Discretization">
     <Parameter name="Type" type="string" value="Exodus"/>
@@ -44,15 +57,14 @@ cat > deck.xml <<END
       <Parameter name="Horizon" type="double" value="2.01e-3"/>
     </ParameterList>
   </ParameterList>
-  <ParameterList name="Boundary Conditions">
-    <ParameterList name="twist">
-      <Parameter name="Type" type="string" value="Initial Velocity"/>
-      <Parameter name="Coordinate" type="string" value="x"/>
-      <Parameter name="Value" type="string" value="10*sin(500*z)"/>
-    </ParameterList>
+  <ParameterList name="Node Sets">
+    <Parameter name="low" type="string" value="z &lt; 1e-3"/>
+    <Parameter name="high" type="string" value="z &gt; 7e-3"/>
   </ParameterList>
+  <ParameterList name="Boundary Conditions">$conditions</ParameterList>
   <ParameterList name="Solver">
     <Parameter name="Final Time" type="double" value="10"/>
+    $solver
   </ParameterList>
   <ParameterList name="Output">
     <Parameter name="Output Filename" type="string" value="result.e"/>
@@ -63,10 +75,11 @@ cat > deck.xml <<END
   </ParameterList>
   <ParameterList name="History">
     <Parameter name="Filename" type="string" value="history.csv"/>
-    <Parameter name="Frequency" type="int" value="20"/>
+    <Parameter name="Frequency" type="int" value="$frequency"/>
   </ParameterList>
 </ParameterList>
 END
+}
 
 # Until the run has written 20 lines, or 20 s.
 wait_for_lines() {
@@ -110,6 +123,8 @@ echo \$\$ > rank.\${OMPI_COMM_WORLD_RANK:-\${PMI_RANK:-0}}
 exec "$strut" deck.xml
 END
 
+conditions=$(condition twist "Initial Velocity" all x "10*sin(500*z)") solver="" frequency=20
+write_deck
 for signal in TERM INT; do
   run "one process, SIG$signal" pid $signal "$strut" deck.xml
   [ $status -eq 3 ] || { fail "one process, SIG$signal: exit status $status, expected 3"; cat log; }
@@ -120,6 +135,17 @@ run "SIGTERM to the second of two ranks" rank.1 TERM "$@" -np 2 sh ./start
 [ $status -ne 0 ] || fail "SIGTERM to a rank: mpirun reports success"
 run "SIGINT to mpirun" pid INT "$@" -np 2 sh ./start
 [ $status -ne 0 ] || fail "SIGINT to mpirun: mpirun reports success"
+
+# The same of a run by equilibria.
+conditions=$(for axis in x y z; do
+  condition "low $axis" "Prescribed Displacement" low $axis 0
+  condition "high $axis" "Prescribed Displacement" high $axis "1e-5*t"
+done)
+solver='<ParameterList name="QuasiStatic"><Parameter name="Number of Load Steps" type="int" value="100000"/></ParameterList>'
+frequency=1
+write_deck
+run "equilibria, SIGTERM" pid TERM "$strut" deck.xml
+[ $status -eq 3 ] || { fail "equilibria, SIGTERM: exit status $status, expected 3"; cat log; }
 
 [ $failures -eq 0 ] && echo "passed"
 exit $((failures > 0))

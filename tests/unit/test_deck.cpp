@@ -194,8 +194,38 @@ TEST(Deck, HasDefaults) {
   EXPECT_EQ(deck.solver.initial_time, 0);
   EXPECT_FALSE(deck.solver.fixed_dt);
   EXPECT_EQ(deck.solver.safety_factor, 0.8);
+  EXPECT_FALSE(deck.solver.quasi_static);
+  EXPECT_FALSE(deck.solver.verbose);
   EXPECT_FALSE(deck.output.enabled);
   EXPECT_FALSE(deck.history.enabled);
+}
+
+Deck with_quasi_static(const DeckFolder& folder, const std::string& parameters) {
+  return folder.read(changed(small_deck, R"(value="2e-4"/>)",
+                             R"(value="2e-4"/><ParameterList name="QuasiStatic">)" + parameters + "</ParameterList>"));
+}
+
+TEST(Deck, ReadsQuasiStaticSolver) {
+  const DeckFolder folder;
+  const Deck deck = with_quasi_static(folder, R"(<Parameter name="Method" type="string" value="Dynamic Relaxation"/>
+                                   <Parameter name="Number of Load Steps" type="int" value="25"/>
+                                   <Parameter name="Tolerance" type="double" value="1e-4"/>
+                                   <Parameter name="Maximum Solver Iterations" type="int" value="7"/>)");
+  ASSERT_TRUE(deck.solver.quasi_static);
+  EXPECT_FALSE(deck.solver.quasi_static->with_tangent);
+  EXPECT_EQ(deck.solver.quasi_static->load_steps, 25);
+  EXPECT_EQ(deck.solver.quasi_static->tolerance, 1e-4);
+  EXPECT_EQ(deck.solver.quasi_static->most_iterations, 7);
+}
+
+TEST(Deck, HasDefaultsOfTheQuasiStaticSolver) {
+  const DeckFolder folder;
+  const Deck deck = with_quasi_static(folder, "");
+  ASSERT_TRUE(deck.solver.quasi_static);
+  EXPECT_TRUE(deck.solver.quasi_static->with_tangent);
+  EXPECT_EQ(deck.solver.quasi_static->load_steps, 10);
+  EXPECT_EQ(deck.solver.quasi_static->tolerance, 1e-6);
+  EXPECT_EQ(deck.solver.quasi_static->most_iterations, 20);
 }
 
 TEST(Deck, HasDefaultIntervals) {

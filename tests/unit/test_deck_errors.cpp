@@ -233,6 +233,54 @@ const std::vector<Case> pairs = {
 };
 INSTANTIATE_TEST_SUITE_P(Pairs, OneProblem, testing::ValuesIn(pairs), name_of);
 
+// ---- Slow loading --------------------------------------------------------------------------------------------------
+
+std::string in_quasi_static(const std::string& parameters) {
+  return changed(small_deck, R"(value="2e-4"/>)",
+                 R"(value="2e-4"/><ParameterList name="QuasiStatic">)" + parameters + "</ParameterList>");
+}
+
+TEST(DeckErrors, KeysOfQuasiStaticAreChecked) {
+  const DeckFolder folder;
+  const auto expect = [&](const std::string& name, const std::string& type, const std::string& value,
+                          const std::string& problem) {
+    const std::string key = R"(<Parameter name=")" + name + R"(" type=")" + type + R"(" value=")" + value + R"("/>)";
+    EXPECT_EQ(folder.error(in_quasi_static(key)), "deck.xml: 1 problem\n  Solver > QuasiStatic > " + name + problem);
+  };
+  expect("Method", "string", "Newtn", ": 'Newtn' (did you mean 'Newton'?); expected one of Newton, Dynamic Relaxation");
+  expect("Number of Load Steps", "int", "0", ": '0'; expected an integer ≥ 1");
+  expect("Tolerance", "double", "0", ": '0'; expected a real number in (0, 1)");
+  expect("Tolerance", "double", "1", ": '1'; expected a real number in (0, 1)");
+  expect("Maximum Solver Iterations", "int", "0", ": '0'; expected an integer ≥ 1");
+  expect("Safety Factor", "double", "0.8",
+         ": unknown key; expected one of Method, Number of Load Steps, Tolerance, Maximum Solver Iterations");
+}
+
+// full_deck has steps in time, a friction of contact and an initial velocity: each is one problem.
+TEST(DeckErrors, NothingOfInertiaIsAskedOfQuasiStatic) {
+  const DeckFolder folder;
+  const std::string both = changed(full_deck, R"(<ParameterList name="Verlet">)",
+                                   R"(<ParameterList name="QuasiStatic"/><ParameterList name="Verlet">)");
+  const std::string reason =
+      " has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed motion, a load, a "
+      "plane or a tool\n";
+  EXPECT_EQ(folder.error(both),
+            "deck.xml: 3 problems\n"
+            "  Solver: 'Verlet' and 'QuasiStatic' are both given; expected one of them\n"
+            "  Boundary Conditions > flight > Type: 'Initial Velocity'" +
+                reason +
+                "  Contact > Models > touch > Friction Coefficient: '0.3'; expected 0 with Solver > QuasiStatic: "
+                "there, friction is that of rigid planes and tools");
+  const std::string open = R"(<ParameterList name="Boundary Conditions"><ParameterList name="end">
+      <Parameter name="Type" type="string" value="Non-Reflecting End"/>
+      <Parameter name="Node Set" type="string" value="all"/>
+      <Parameter name="Normal" type="string" value="0 0 1"/></ParameterList></ParameterList>
+    <ParameterList name="Solver">)";
+  const std::string with_end = changed(in_quasi_static(""), R"(<ParameterList name="Solver">)", open);
+  EXPECT_EQ(folder.error(with_end) + "\n",
+            "deck.xml: 1 problem\n  Boundary Conditions > end > Type: 'Non-Reflecting End'" + reason);
+}
+
 // ---- Tables of hardening -------------------------------------------------------------------------------------------
 
 std::string with_table(const std::string& strains, const std::string& stresses) {
