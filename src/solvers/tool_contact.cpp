@@ -12,11 +12,11 @@ namespace {
 constexpr double penalty_factor = 20;
 
 // The same of friction: a stiffer one would let Newton's iterations jump between sticking and sliding.
-constexpr double tangential_share = 0.02;
+constexpr double tangential_share = 0.2;
 
 constexpr double most_penetration = 1e-4;  // spacings
-constexpr double most_sliding = 1e-3;      // spacings in a step, where a point sticks
 constexpr double most_lag = 5e-3;          // of the largest pressure, of multipliers behind pressures, for friction
+constexpr double most_softness = 2e-2;     // of the largest friction, of multipliers behind it where a point sticks
 
 constexpr double just_touching = 1e-9;  // spacings
 
@@ -65,7 +65,7 @@ void ToolContact::press(const Surface& at, const Vector& sliding, Grip& grip) co
   grip.gap = at.gap;
   const double pressure = std::max(0.0, grip.multiplier - e * at.gap);
   grip.now = {pressure, Vector::Zero(), pressure * n};
-  grip.sliding = 0, grip.stiffness.setZero();
+  grip.sticks = false, grip.stiffness.setZero();
   // A body that just lies on a tool is held by it.
   if (pressure == 0 && at.gap > just_touching * grip.spacing) return;
   grip.stiffness = e * n * n.transpose() - pressure * at.curvature;
@@ -76,7 +76,7 @@ void ToolContact::press(const Surface& at, const Vector& sliding, Grip& grip) co
   const Vector trial = along * grip.tangential - e_t * sliding;
   const double length = trial.norm(), most = friction * grip.multiplier;
   if (length <= most) {
-    grip.now.drag = trial, grip.sliding = sliding.norm();
+    grip.now.drag = trial, grip.sticks = true;
     grip.stiffness += e_t * along;
   } else {
     const Vector direction = trial / length;
@@ -106,8 +106,9 @@ double ToolContact::violation(double largest_pressure) const {
     if (grip.now.pressure == 0) continue;
     const double friction = tools_[grip.tool].friction;
     const double lag = friction > 0 ? std::abs(grip.now.pressure - grip.multiplier) / largest_pressure : 0;
-    largest = std::max({largest, std::abs(grip.gap) / (most_penetration * grip.spacing),
-                        grip.sliding / (most_sliding * grip.spacing), lag / most_lag});
+    const double soft = grip.sticks ? (grip.now.drag - grip.tangential).norm() / (friction * largest_pressure) : 0;
+    largest = std::max(
+        {largest, std::abs(grip.gap) / (most_penetration * grip.spacing), soft / most_softness, lag / most_lag});
   }
   return largest;
 }

@@ -57,9 +57,10 @@ class ToolContact {
     Vector tangential = Vector::Zero();  // λ_t, N
     Vector start = Vector::Zero();       // where the step begins, m
     Traction at_start, now;              // at the last places
-    double gap = 0, sliding = 0;         // m; |s| of a point that sticks
-    bool touched = false;                // when has_changed() was asked last
-    Tensor stiffness = Tensor::Zero();   // N/m
+    double gap = 0;                      // m
+    bool sticks = false;
+    bool touched = false;               // when has_changed() was asked last
+    Tensor stiffness = Tensor::Zero();  // N/m
   };
   void press(const Surface& at, const Vector& sliding, Grip& grip) const;
 
