@@ -128,7 +128,7 @@ void Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kerne
 
 Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure measure, double tolerance, int most,
                               Field& x) {
-  constexpr int kept = 80;  // directions before a restart
+  constexpr int kept = 200;  // directions before a restart
   const RCP<const Map>& map = implementation_->map;
   const RCP<Operator> product = rcp(new ProductOperator(K, map, implementation_->owned));
   const RCP<Vectors> solution = rcp(new Vectors(map, 1)), wanted = rcp(new Vectors(map, 1));

@@ -18,9 +18,11 @@ constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 // Of the error, where a point begins to touch a tool: the residual is then that of a stiff spring, and what the body
 // will carry a small part of it.
 constexpr double of_touch = 1e-2;
-constexpr int most_products = 400;
+constexpr int most_products = 800;
 
-constexpr int most_halvings = 4;  // of a step, in the search along it
+// Of a step, in the search along it. Beyond a kink, a point that begins to touch or to flow, more force may be left than
+// before; close to it there is always less. An evaluation costs a hundredth of the step.
+constexpr int most_halvings = 10;
 
 // A hierarchy is kept until systems take so much longer than just after it was made.
 constexpr double wear = 1.5;
@@ -95,8 +97,8 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   return outcome.iterations;
 }
 
-// Along the step to where fewer forces are left: the whole of it, or a half, a quarter … . A step that moves what
-// is held is taken whole: there is nothing to compare with.
+// Along the step to where fewer forces are left: the whole of it, or a half, a quarter … ; where none of these leaves
+// fewer, to the least found. A step that moves what is held is taken whole: there is nothing to compare with.
 Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   Body& body = equilibrium_.body();
   double taken = 1;

@@ -81,7 +81,6 @@ bool QuasiStatic::advance() {
     const std::string where = equilibrium_.weakest_point();
     equilibrium_.go_back();
     if (search.interrupted) return false;
-    last_step_.clear();
     dt_ *= 0.5;
     if (dt_ < shortest * longest_) {
       std::ostringstream text;
