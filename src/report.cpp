@@ -74,7 +74,9 @@ void Progress::finish() {
 }
 
 double predicted_memory(const Scene& scene) {
-  return scene.body.domain.communicator.sum(footprint(scene.body) + StableStep::bytes(scene.body));
+  const double solver =
+      scene.quasi_static ? QuasiStatic::bytes(scene.body, *scene.quasi_static) : StableStep::bytes(scene.body);
+  return scene.body.domain.communicator.sum(footprint(scene.body) + solver);
 }
 
 std::string describe_scene(const Scene& scene) {

@@ -27,8 +27,8 @@ class Progress {
 // What was read: points, bonds, memory, blocks.
 std::string describe_scene(const Scene& scene);
 
-// Bytes that points, bonds and the estimate of the stable step take on all ranks; the program itself has some 50 MB a
-// rank.
+// Bytes that points, bonds and the solver (the estimate of the stable step, or the search for equilibria) take on all
+// ranks; the program itself has some 50 MB a rank, 80 with equilibria.
 double predicted_memory(const Scene& scene);
 
 // A fixed step above the stable one, `limit` at `time` (s); "" where it is not.

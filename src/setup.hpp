@@ -15,7 +15,7 @@ struct Scene {
   Conditions conditions;
   contact::Contact contact;
   StepControl control;
-  std::optional<QuasiStaticControl> quasi_static;  // in its place
+  std::optional<QuasiStaticControl> quasi_static;   // in its place
   std::int64_t points = 0, bonds = 0, dropped = 0;  // over all ranks
   std::string warnings;                             // what may be meant otherwise, a line each
 };

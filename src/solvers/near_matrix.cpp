@@ -12,12 +12,12 @@ constexpr double reach = 1.5;  // spacings
 // A matrix of springs along bonds alone lets chains of points buckle freely.
 constexpr double across = 0.1;  // of a spring's stiffness along its bond
 
-// The least that counts of the elastic shear modulus where a material flows: its bulk modulus stays. At 0.1 to 0.3 a bar
-// in flow takes the fewest iterations.
+// The least that counts of the elastic shear modulus where a material flows: its bulk modulus stays. At 0.1 to 0.3 a
+// bar in flow takes the fewest iterations.
 constexpr double smallest_share = 0.1;
 
-// Of a point's own springs, from it to the ground: what nothing holds, a body that slides between plates or a piece that
-// has come off, would leave the coarsest grid singular.
+// Of a point's own springs, from it to the ground: what nothing holds, a body that slides between plates or a piece
+// that has come off, would leave the coarsest grid singular.
 constexpr double to_ground = 1e-5;
 
 // What both ends of a spring are asked, of owned points and ghosts.

@@ -20,8 +20,8 @@ constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 constexpr double of_touch = 1e-2;
 constexpr int most_products = 800;
 
-// Of a step, in the search along it. Beyond a kink, a point that begins to touch or to flow, more force may be left than
-// before; close to it there is always less. An evaluation costs a hundredth of the step.
+// Of a step, in the search along it. Beyond a kink, a point that begins to touch or to flow, more force may be left
+// than before; close to it there is always less. An evaluation costs a hundredth of the step.
 constexpr int most_halvings = 10;
 
 // A hierarchy is kept until systems take so much longer than just after it was made.

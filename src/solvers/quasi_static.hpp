@@ -18,6 +18,9 @@ class QuasiStatic {
   QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
               double initial_time, double final_time, Audience audience);
 
+  // Bytes that the search for equilibria takes on this rank.
+  static double bytes(const Body& body, const QuasiStaticControl& control);
+
   double time() const { return time_; }
   double dt() const { return dt_; }
   int steps() const { return steps_; }
