@@ -11,7 +11,7 @@ namespace {
 // the penetration, and GMRES does not notice, for the preconditioner knows ε.
 constexpr double penalty_factor = 20;
 
-// The same of friction: a stiffer one would let Newton's iterations jump between sticking and sliding.
+// Of ε, along the surface: a stiffer one would let Newton's iterations jump between sticking and sliding.
 constexpr double tangential_share = 0.2;
 
 constexpr double most_penetration = 1e-4;  // spacings
