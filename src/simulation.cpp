@@ -86,6 +86,8 @@ class History {
     schedule.done(now.time);
   }
 
+  bool has_reactions() const { return !reactions_.empty(); }
+
   Schedule schedule;
 
  private:
@@ -96,6 +98,18 @@ class History {
 
 void say(const Communicator& communicator, const std::string& text) {
   if (communicator.rank() == 0) std::cout << text << std::flush;
+}
+
+// Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked where a line is
+// written.
+template <class Solver, class OfConditions>
+void record(const deck::Deck& deck, const Body& body, Solver& solver, const OfConditions& reactions, Frames& frames,
+            History& history, bool last) {
+  const double now = solver.time();
+  if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, body);
+  if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
+    history.write(solver.ledger(), reactions(), body);
+  }
 }
 
 // Everything after set-up: the loop over steps. Returns the ledger at the end.
@@ -112,10 +126,8 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
       say(scene.body.domain.communicator, step_warning(scene.control, solver.stable_step(), now));
       warned = true;
     }
-    if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
-    if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
-      history.write(solver.ledger(), solver.reactions(), scene.body);
-    }
+    record(
+        deck, scene.body, solver, [&] { return solver.reactions(); }, frames, history, last);
     progress.show(solver.steps(), now, solver.dt());
     if (last) break;
     if (signalled) solver.request_stop();
@@ -130,24 +142,21 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
 
 // The same by load steps. One that fails leaves the last equilibrium in the files.
 Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Frames& frames, History& history) {
-  const int conditions = static_cast<int>(deck.conditions.size());
+  const int conditions = history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   const Communicator& ranks = scene.body.domain.communicator;
-  const auto record = [&](bool last) {
-    const double now = solver.time();
-    if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, scene.body);
-    if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
-      history.write(solver.ledger(), solver.reactions(conditions), scene.body);
-    }
+  const auto record_now = [&](bool last) {
+    record(
+        deck, scene.body, solver, [&] { return solver.reactions(conditions); }, frames, history, last);
   };
   bool ending = false;
   for (;;) {
     const bool last = ending || solver.time() >= deck.solver.final_time;
-    record(last);
+    record_now(last);
     if (last) return solver.ledger();
     try {
       ending = !solver.advance();
     } catch (const Error&) {
-      record(true);
+      record_now(true);
       throw;
     }
     ending = ending || ranks.max(signalled ? 1.0 : 0.0) > 0;
@@ -184,7 +193,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
-  if (!views.reactions.empty()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
+  if (history.has_reactions()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
   return close(solver, step_through(deck, scene, solver, frames, history));
 }
 

@@ -91,7 +91,7 @@ void ToolContact::add_stiffness(const Field& field, Field& result) const {
 }
 
 void ToolContact::add_springs(std::vector<Tensor>& springs) const {
-  for (const Grip& grip : grips_) springs[grip.point] += 0.5 * (grip.stiffness + grip.stiffness.transpose());
+  for (const Grip& grip : grips_) springs[grip.point] += grip.stiffness;
 }
 
 double ToolContact::largest_pressure() const {
