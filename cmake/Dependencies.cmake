@@ -4,6 +4,7 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(GTest REQUIRED)
 find_package(benchmark REQUIRED)
 find_library(EXODUS_LIBRARY NAMES exoIIv2c exodus REQUIRED)
+find_library(NETCDF_LIBRARY NAMES netcdf REQUIRED)
 find_library(VORO_LIBRARY voro++ REQUIRED)
 find_path(VORO_INCLUDE_DIR voro++/voro++.hh REQUIRED)
 

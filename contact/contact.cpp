@@ -181,6 +181,15 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
   }
 }
 
+void Contact::keep(Archive& archive, const Crowd& crowd, double dt) {
+  archive.number("contact_stiffness", stiffness_);
+  if (!archive.restores()) return;
+  std::vector<Vector> forces(crowd.domain.owned, Vector::Zero());  // the solver has them; here are pairs and friction
+  for (Meeting& meeting : meetings_) meeting.due = true;
+  add_forces(crowd, dt, forces);
+  for (Meeting& meeting : meetings_) meeting.due = true;  // how far points may go in the next step, nobody has asked
+}
+
 double Contact::energy() const {
   double sum = 0;
   for (const Meeting& meeting : meetings_) sum += meeting.tally.energy;

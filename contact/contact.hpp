@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "contact/forces.hpp"
 #include "contact/search.hpp"
 
@@ -36,6 +37,10 @@ class Contact {
   // times the field's unit). Without friction.
   void add_stiffness(std::span<const Vector> field, std::span<Vector> result);
   void add_springs(std::span<Tensor> springs) const;  // what of it acts on a point by its own motion, N/m
+
+  // Collective. What forces leave behind. Of a restored run, `crowd` and `dt` are those of its last forces; pairs are
+  // searched for anew, which does not change what they do.
+  void keep(Archive& archive, const Crowd& crowd, double dt);
 
   // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
   // with its own, and hands it back.

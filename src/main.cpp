@@ -1,12 +1,10 @@
 // strut: correspondence peridynamics of foams and bars under impact.
-//   mpirun -np 2 strut deck.xml           run a deck
-//   strut --check deck.xml                validate it and say what the run would do
-//   strut --keys                          the reference page of all keys (Markdown)
-// Exit status: 0 done, 1 error, 2 wrong use, 3 ended early by a signal.
+// What it can be told stands in `help`.
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "base/build_facts.hpp"
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
@@ -14,19 +12,55 @@
 
 namespace {
 
-constexpr const char* usage = "usage: strut [--check] deck.xml | strut --keys\n";
+constexpr const char* help =
+    R"(strut: how foams and bars deform when they are hit, by correspondence peridynamics.
+
+usage: strut [option] deck.xml              on one core
+       mpirun -np 8 strut [option] deck.xml  on eight
+
+  deck.xml             run it: results are written where the deck says, seen from this folder, in place of older ones
+  --continue deck.xml  go on with a run that was ended, by a signal, an error or the machine, from where it was last
+                       kept (section Restart); on any number of ranks. Begins anew where nothing was kept
+  --check deck.xml     say what is wrong with it, or what the run would do: points, memory, step, time. Writes nothing
+  --keys               all keys of a deck, their units and defaults, as a page of Markdown
+  --version            the version and how it was built, as every file that it writes has it
+  --help               this page
+
+Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and what is
+kept to go on (relative to this folder).
+Signals: SIGTERM and SIGINT end a run after the step in hand, with a last frame, and keep what it takes to go on.
+Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal.
+)";
+
+int say(const strut::Communicator& world, const std::string& text) {
+  if (world.rank() == 0) std::cout << text;
+  return 0;
+}
+
+int run(const std::string& deck, const strut::Communicator& world, strut::Start start) {
+  return strut::run(deck, world, start) ? 0 : 3;
+}
 
 int act(const std::vector<std::string>& words, const strut::Communicator& world) {
-  if (words == std::vector<std::string>{"--keys"}) {
-    if (world.rank() == 0) std::cout << strut::deck::reference_page();
-    return 0;
+  const std::string first = words.empty() ? "" : words[0];
+  if (words.size() == 1) {
+    if (first == "--help" || first == "-h") return say(world, help);
+    if (first == "--version") return say(world, strut::build_facts() + "\n");
+    if (first == "--keys") return say(world, strut::deck::reference_page());
+    if (!first.starts_with("-")) return run(first, world, strut::Start::anew);
   }
-  if (words.size() == 2 && words[0] == "--check") {
-    strut::check(words[1], world);
-    return 0;
+  if (words.size() == 2 && !words[1].starts_with("-")) {
+    if (first == "--continue") return run(words[1], world, strut::Start::continued);
+    if (first == "--check") return strut::check(words[1], world), 0;
   }
-  if (words.size() == 1 && words[0].rfind("--", 0) != 0) return strut::run(words[0], world) ? 0 : 3;
-  if (world.rank() == 0) std::cerr << usage;
+  const std::string unknown =
+      first.starts_with("-")
+          ? "'" + first + "'" + strut::did_you_mean(first, {"--continue", "--check", "--keys", "--version", "--help"})
+          : "its arguments";
+  if (world.rank() == 0) {
+    std::cerr << "strut: cannot make sense of " << unknown << "; expected: strut [--continue | --check] deck.xml\n"
+              << "'strut --help' tells more\n";
+  }
   return 2;
 }
 

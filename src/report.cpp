@@ -42,8 +42,12 @@ std::string as_duration(double seconds) {
   return formatted("%ld h %ld min", whole / 3600, whole % 3600 / 60);
 }
 
-Progress::Progress(const Communicator& communicator, double initial_time, double final_time)
-    : speaks_(communicator.rank() == 0), terminal_(watched()), initial_(initial_time), final_(final_time) {}
+Progress::Progress(const Communicator& communicator, double initial_time, double now, double final_time)
+    : speaks_(communicator.rank() == 0),
+      terminal_(watched()),
+      initial_(initial_time),
+      begin_(now),
+      final_(final_time) {}
 
 double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -57,7 +61,7 @@ void Progress::show(int step, double time, double dt) {
   if (terminal_ ? soon && share < 1 : now == shown_) return;
   shown_ = now;
   last_ = std::chrono::steady_clock::now();
-  const std::string left = share > 0 ? as_duration(elapsed() * (1 - share) / share) : "unknown";
+  const std::string left = time > begin_ ? as_duration(elapsed() * (final_ - time) / (time - begin_)) : "unknown";
   const std::string facts =
       formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
   if (terminal_) {
@@ -127,13 +131,15 @@ std::string energies(const Ledger& ledger) {
 
 }  // namespace
 
-std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds) {
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
+                           int before) {
   std::ostringstream text;
   text << table_of_phases(scene, seconds) << searches(solver.contact());
-  const double point_steps = static_cast<double>(scene.points) * solver.steps();
+  const int steps = solver.steps() - before;
   const double core_seconds = seconds * scene.body.domain.communicator.size();
-  text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", solver.steps(),
-                    point_steps / seconds, 1e9 * core_seconds / (static_cast<double>(scene.bonds) * solver.steps()));
+  text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
+                    static_cast<double>(scene.points) * steps / seconds,
+                    1e9 * core_seconds / (static_cast<double>(scene.bonds) * steps));
   if (solver.most_substeps() > 1) {
     text << formatted("the stiffest points were stepped alone, up to %d times a step: %.2f updates a point and step\n",
                       solver.most_substeps(), solver.updates() / solver.steps());
@@ -141,11 +147,12 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
   return text.str() + energies(ledger);
 }
 
-std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds) {
+std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,
+                           int before) {
   const double point_evaluations = static_cast<double>(scene.points) * solver.evaluations();
   return table_of_phases(scene, seconds) + searches(solver.contact()) +
          formatted("%d load steps, %d iterations, %d evaluations of forces or tangent, %.3g points*evaluations/s\n",
-                   solver.steps(), solver.iterations(), solver.evaluations(), point_evaluations / seconds) +
+                   solver.steps() - before, solver.iterations(), solver.evaluations(), point_evaluations / seconds) +
          energies(ledger);
 }
 

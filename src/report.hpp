@@ -12,14 +12,15 @@ namespace strut {
 // A bar with the time left on a terminal; a line every tenth of the way in a log.
 class Progress {
  public:
-  Progress(const Communicator& communicator, double initial_time, double final_time);
+  // `now`: where this run begins, which is later than the initial time where it goes on with another.
+  Progress(const Communicator& communicator, double initial_time, double now, double final_time);
   void show(int step, double time, double dt);
   void finish();
 
  private:
   double elapsed() const;
   bool speaks_, terminal_;
-  double initial_, final_;
+  double initial_, begin_, final_;
   int shown_ = -1;  // hundredths on a terminal, tenths in a log
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
 };
@@ -34,9 +35,12 @@ double predicted_memory(const Scene& scene);
 // A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 
-// Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end.
-std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds);
-std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds);
+// Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end. `before`: steps
+// that were made by an earlier run.
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
+                           int before);
+std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,
+                           int before);
 
 // "1.3 s", "4 min 10 s", "2 h 3 min"
 std::string as_duration(double seconds);

@@ -21,6 +21,18 @@ bool Schedule::due(int step, double time) const {
   return interval_ && time >= next_time_ - round_off * *interval_;
 }
 
+void Schedule::keep(Archive& archive, const std::string& name, double time) {
+  double interval = interval_.value_or(0), next = next_time_;
+  archive.number(name + "_interval", interval);
+  archive.number(name + "_next", next);
+  if (!archive.restores()) return;
+  if (interval == interval_.value_or(0)) {
+    next_time_ = next;
+  } else {
+    done(time);
+  }
+}
+
 void Schedule::done(double time) {
   if (!interval_) return;
   const double passed = std::floor((time - initial_time_) / *interval_ + round_off);

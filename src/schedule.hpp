@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+
+#include "base/archive.hpp"
 
 namespace strut {
 
@@ -10,6 +13,9 @@ class Schedule {
   Schedule(bool enabled, std::optional<int> frequency, std::optional<double> interval, double initial_time);
 
   bool due(int step, double time) const;
+  // `time`: of the archive. A schedule that is restored with another interval begins anew there.
+  void keep(Archive& archive, const std::string& name, double time);
+
   void done(double time);  // the next time is the first multiple of the interval after `time`
 
  private:

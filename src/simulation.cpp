@@ -3,21 +3,20 @@
 #include <chrono>
 #include <csignal>
 #include <iostream>
-#include <optional>
 
 #include "base/errors.hpp"
-#include "base/timing.hpp"
 #include "deck/deck.hpp"
-#include "io/exodus.hpp"
-#include "io/history.hpp"
+#include "records.hpp"
 #include "report.hpp"
-#include "schedule.hpp"
+#include "restarts.hpp"
 #include "setup.hpp"
 #include "views.hpp"
 
 namespace strut {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 volatile std::sig_atomic_t signalled = 0;
 
@@ -26,131 +25,61 @@ void catch_signals() {
   std::signal(SIGTERM, [](int) { signalled = 1; });
 }
 
-// The frames of the result file.
-class Frames {
- public:
-  Frames(const deck::Deck& deck, const Body& body, const Views& views)
-      : schedule(deck.output.enabled, deck.output.frequency, deck.output.interval, deck.solver.initial_time),
-        variables_(views.frame),
-        columns_(views.frame.size()) {
-    if (!deck.output.enabled) return;
-    std::vector<io::OutputField> fields;
-    for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
-    writer_.emplace(deck.output.file, body.domain.communicator, body.domain.cloud, std::move(fields));
-  }
-
-  void write(double time, const Body& body) {
-    static Teuchos::Time& timer = phase("Output");
-    const Timed timed(timer);
-    for (std::size_t v = 0; v < variables_.size(); ++v) variables_[v].fill(body, columns_[v]);
-    writer_->write(time, columns_);
-    schedule.done(time);
-  }
-
-  Schedule schedule;
-
- private:
-  std::vector<Observable> variables_;
-  std::vector<std::vector<double>> columns_;
-  std::optional<io::ExodusWriter> writer_;
-};
-
-// The table of the ledger and of asked-for extremes and reactions over time.
-class History {
- public:
-  History(const deck::Deck& deck, const Body& body, const Views& views)
-      : schedule(deck.history.enabled, deck.history.frequency, deck.history.interval, deck.solver.initial_time),
-        extremes_(views.extremes),
-        reactions_(views.reactions) {
-    if (!deck.history.enabled) return;
-    std::vector<std::string> names{
-        "Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy",
-        "Contact_Work", "External_Work", "Balance_Error",  "Momentum_X",     "Momentum_Y",   "Momentum_Z"};
-    for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
-    for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
-    file_.emplace(deck.history.file, body.domain.communicator, names);
-  }
-
-  void write(const Ledger& now, const Reactions& reactions, const Body& body) {
-    static Teuchos::Time& timer = phase("History");
-    const Timed timed(timer);
-    std::vector<double> row{now.time,          now.dt,         now.kinetic,  now.elastic,       now.dissipated,
-                            now.stabilization, now.contact,    now.external, now.balance_error, now.momentum[0],
-                            now.momentum[1],   now.momentum[2]};
-    const std::size_t fixed = row.size();
-    for (const Extreme& e : extremes_) row.push_back(e.local(body));
-    body.domain.communicator.max(std::span(row).subspan(fixed));
-    for (std::size_t k = 0; k < extremes_.size(); ++k) row[fixed + k] = extremes_[k].value(row[fixed + k]);
-    for (const ReactionComponent& reaction : reactions_) row.push_back(reaction.of(reactions));
-    file_->write(row);
-    schedule.done(now.time);
-  }
-
-  bool has_reactions() const { return !reactions_.empty(); }
-
-  Schedule schedule;
-
- private:
-  std::vector<Extreme> extremes_;
-  std::vector<ReactionComponent> reactions_;
-  std::optional<io::HistoryFile> file_;
-};
-
 void say(const Communicator& communicator, const std::string& text) {
   if (communicator.rank() == 0) std::cout << text << std::flush;
 }
 
-// Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked where a line is
-// written.
-template <class Solver, class OfConditions>
-void record(const deck::Deck& deck, const Body& body, Solver& solver, const OfConditions& reactions, Frames& frames,
-            History& history, bool last) {
-  const double now = solver.time();
-  if (deck.output.enabled && (last || frames.schedule.due(solver.steps(), now))) frames.write(now, body);
-  if (deck.history.enabled && (last || history.schedule.due(solver.steps(), now))) {
-    history.write(solver.ledger(), reactions(), body);
-  }
-}
-
 // Everything after set-up: the loop over steps. Returns the ledger at the end.
-Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Frames& frames, History& history) {
+Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Records& records,
+                    Restarts& restarts) {
+  using Wish = CentralDifference::Wish;
   const double final_time = deck.solver.final_time;
-  Progress progress(scene.body.domain.communicator, deck.solver.initial_time, final_time);
+  const Body& body = scene.body;
+  Progress progress(body.domain.communicator, deck.solver.initial_time, solver.time(), final_time);
   bool warned = false;
   bool ending = false;  // a step after the ranks agreed to stop, so that its energies are known everywhere
   for (;;) {
     const double now = solver.time();
-    const bool last = now >= final_time || ending;
+    const bool over = now >= final_time, last = over || ending;
+    const bool save = over ? restarts.due_at_the_end() : ending || solver.agreed() == Wish::save;
+    if (save || restarts.due(solver.steps(), now)) restarts.write(solver.steps(), now);
     solver.kick(final_time);
     if (!warned && scene.control.fixed_dt > solver.stable_step()) {
-      say(scene.body.domain.communicator, step_warning(scene.control, solver.stable_step(), now));
+      say(body.domain.communicator, step_warning(scene.control, solver.stable_step(), now));
       warned = true;
     }
-    record(
-        deck, scene.body, solver, [&] { return solver.reactions(); }, frames, history, last);
+    records.write(
+        body, solver, [&] { return solver.reactions(); }, last);
     progress.show(solver.steps(), now, solver.dt());
     if (last) break;
-    if (signalled) solver.request_stop();
+    solver.request(signalled ? Wish::stop : restarts.due_by_the_clock() ? Wish::save : Wish::none);
     const double next = now + solver.dt();
-    ending = solver.stop_agreed();
-    const bool look = frames.schedule.due(solver.steps() + 1, next) || history.schedule.due(solver.steps() + 1, next);
-    solver.move(next >= final_time || ending || look);
+    ending = solver.agreed() == Wish::stop;
+    try {
+      solver.move(next >= final_time || ending || records.due(solver.steps() + 1, next));
+    } catch (const Error&) {
+      // The fields as they are now show where.
+      if (records.frames.enabled()) records.frames.write(solver.time(), body);
+      throw;
+    }
   }
   progress.finish();
   return solver.ledger();
 }
 
 // The same by load steps. One that fails leaves the last equilibrium in the files.
-Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Frames& frames, History& history) {
-  const int conditions = history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
+Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Records& records, Restarts& restarts) {
+  const int conditions = records.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   const Communicator& ranks = scene.body.domain.communicator;
   const auto record_now = [&](bool last) {
-    record(
-        deck, scene.body, solver, [&] { return solver.reactions(conditions); }, frames, history, last);
+    records.write(
+        scene.body, solver, [&] { return solver.reactions(conditions); }, last);
   };
-  bool ending = false;
+  bool ending = false, save = false;
   for (;;) {
-    const bool last = ending || solver.time() >= deck.solver.final_time;
+    const bool over = solver.time() >= deck.solver.final_time, last = ending || over;
+    if (over) save = restarts.due_at_the_end();
+    if (save || restarts.due(solver.steps(), solver.time())) restarts.write(solver.steps(), solver.time());
     record_now(last);
     if (last) return solver.ledger();
     try {
@@ -159,7 +88,8 @@ Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, F
       record_now(true);
       throw;
     }
-    ending = ending || ranks.max(signalled ? 1.0 : 0.0) > 0;
+    ending = ranks.max(ending || signalled ? 1.0 : 0.0) > 0;
+    save = ending || ranks.max(restarts.due_by_the_clock() ? 1.0 : 0.0) > 0;
   }
 }
 
@@ -170,31 +100,56 @@ Audience audience(const deck::Deck& deck, const Communicator& communicator) {
   return audience;
 }
 
+// From set-up to the end, by a solver of either kind.
+template <class Solver, class Through>
+bool carry_out(const deck::Deck& deck, Scene& scene, Records& records, Solver& solver, Start start,
+               Clock::time_point began, const Through& through) {
+  const Communicator& communicator = scene.body.domain.communicator;
+  Restarts restarts(deck, communicator, [&](Archive& archive) {
+    solver.keep(archive);
+    records.keep(archive, solver.time());
+  });
+  const bool goes_on = start == Start::continued && restarts.there();
+  if (goes_on) restarts.take_up();
+  records.open(scene.body);  // which ends this run here if another one is writing
+  if (!goes_on) restarts.forget();
+  const int before = solver.steps();
+  catch_signals();
+  const Ledger ledger = [&] {
+    try {
+      return through(restarts);
+    } catch (const Error& error) {
+      throw Error(error.what() + restarts.hint());
+    }
+  }();
+  const bool over = solver.time() >= deck.solver.final_time;
+  if (over && !restarts.due_at_the_end()) restarts.forget();
+  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  say(communicator, closing_report(scene, solver, ledger, seconds, before));
+  if (!over) say(communicator, "ended by a signal" + restarts.hint() + "\n");
+  return over;
+}
+
 }  // namespace
 
-bool run(const std::filesystem::path& deck_file, const Communicator& communicator) {
-  const auto start = std::chrono::steady_clock::now();
+bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
+  const Clock::time_point began = Clock::now();
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
   say(communicator, describe_scene(scene));
   const Views views = views_of(deck, scene.body);  // all names are checked before a file is replaced
-  Frames frames(deck, scene.body, views);
-  History history(deck, scene.body, views);
-  catch_signals();
-  const auto close = [&](const auto& solver, const Ledger& ledger) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    say(communicator, closing_report(scene, solver, ledger, seconds));
-    return solver.time() >= deck.solver.final_time;
-  };
+  Records records(deck, views);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                        deck.solver.initial_time, deck.solver.final_time, audience(deck, communicator));
-    return close(solver, load_through(deck, scene, solver, frames, history));
+    return carry_out(deck, scene, records, solver, start, began,
+                     [&](Restarts& restarts) { return load_through(deck, scene, solver, records, restarts); });
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
-  if (history.has_reactions()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
-  return close(solver, step_through(deck, scene, solver, frames, history));
+  if (records.history.has_reactions()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
+  return carry_out(deck, scene, records, solver, start, began,
+                   [&](Restarts& restarts) { return step_through(deck, scene, solver, records, restarts); });
 }
 
 }  // namespace strut

@@ -61,9 +61,18 @@ void check_files(const Deck& deck, Problems& problems) {
   };
   if (deck.output.enabled) check("Output > Output Filename", deck.output.file);
   if (deck.history.enabled) check("History > Filename", deck.history.file);
-  if (deck.output.enabled && deck.history.enabled && same(deck.output.file, deck.history.file)) {
-    problems.add("History > Filename", "'" + deck.history.file.string() + "' is Output's file, too; expected another");
-  }
+  if (deck.restart.enabled) check("Restart > Filename", deck.restart.file);
+  const auto differ = [&](const std::string& path, bool enabled, const fs::path& file, const std::string& other,
+                          bool other_enabled, const fs::path& other_file) {
+    if (!enabled || !other_enabled || !same(file, other_file)) return;
+    problems.add(path, "'" + file.string() + "' is " + other + "'s file, too; expected another");
+  };
+  const Output& output = deck.output;
+  const History& history = deck.history;
+  const Restart& restart = deck.restart;
+  differ("History > Filename", history.enabled, history.file, "Output", output.enabled, output.file);
+  differ("Restart > Filename", restart.enabled, restart.file, "Output", output.enabled, output.file);
+  differ("Restart > Filename", restart.enabled, restart.file, "History", history.enabled, history.file);
 }
 
 std::vector<NodeSet> node_sets(const Values& values, Problems& problems) {
@@ -333,6 +342,19 @@ History history(const Values* values, const Solver& solver, Problems& problems) 
   return history;
 }
 
+Restart restart(const Values* values, const fs::path& deck, Problems& problems) {
+  Restart restart{.file = fs::path(deck.filename()).replace_extension(".restart")};
+  if (!values) return restart;
+  restart.enabled = values->flag("Enabled");
+  restart.asked_for = true;
+  if (values->has("Filename")) restart.file = values->text("Filename");
+  check_one_of(*values, "Frequency", "Interval", problems);
+  if (values->has("Frequency")) restart.frequency = values->integer("Frequency");
+  if (values->has("Interval")) restart.interval = values->real("Interval");
+  restart.minutes = values->real("Minutes");
+  return restart;
+}
+
 // What has no meaning where nothing has inertia.
 void check_quasi_static(const Deck& deck, Problems& problems) {
   if (!deck.solver.quasi_static) return;
@@ -369,6 +391,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   check_quasi_static(deck, problems);
   deck.output = output(values.find("Output"), deck.solver, problems);
   deck.history = history(values.find("History"), deck.solver, problems);
+  deck.restart = restart(values.find("Restart"), file, problems);
   return deck;
 }
 
@@ -381,6 +404,7 @@ Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) 
   if (const auto list = parse_xml(text, problems)) {
     const Values values = check(*list, schema(), "", problems);
     deck = build(values, file, problems);
+    deck.text = text;
     if (file_check == FileCheck::yes) {
       check_mesh(deck.discretization.mesh, problems);
       check_files(deck, problems);

@@ -135,8 +135,19 @@ struct History {
   std::vector<std::string> variables;  // e.g. "Max_Displacement": checked by simulation
 };
 
+// What a run leaves so that it can go on.
+struct Restart {
+  bool enabled = true;
+  bool asked_for = false;          // the deck has the section: the file stays when the run is over
+  std::filesystem::path file;      // relative to the working folder; the deck's name with the suffix .restart
+  std::optional<int> frequency;    // every so many steps
+  std::optional<double> interval;  // or every so many seconds of the simulation
+  double minutes = 30;             // and every so many of the clock on the wall
+};
+
 struct Deck {
   std::filesystem::path file;
+  std::string text;  // as it was read
   Discretization discretization;
   std::vector<NodeSet> node_sets;
   std::vector<Material> materials;
@@ -147,6 +158,7 @@ struct Deck {
   Solver solver;
   Output output;
   History history;
+  Restart restart;
 };
 
 // Collective. Reads and checks `file`; throws one Error on all ranks that lists every problem, each with its path

@@ -386,6 +386,31 @@ Section history() {
                                      "prescribed motion, a symmetry plane or a rigid tool."}}}};
 }
 
+Section restart() {
+  return {.name = "Restart",
+          .meaning =
+              "What a run leaves so that `strut --continue deck.xml` can go on, on any number of ranks. It is "
+              "written at these times and when a signal ends the run. With this section it is written at the "
+              "end, too, so that the final time can be put off; without, every 30 minutes, and removed at the "
+              "end.",
+          .keys = {{.name = "Enabled", .kind = Kind::boolean, .fallback = "true", .meaning = "False: none is written."},
+                   {.name = "Filename",
+                    .kind = Kind::text,
+                    .meaning = "Relative to the working folder. Where it is not given: the deck's name with the "
+                               "suffix `.restart`."},
+                   {.name = "Frequency",
+                    .kind = Kind::integer,
+                    .unit = "steps",
+                    .range = {.low = 1},
+                    .meaning = "Every so many steps. Not together with Interval."},
+                   {.name = "Interval", .unit = "s", .range = positive, .meaning = "Every so much time."},
+                   {.name = "Minutes",
+                    .unit = "min",
+                    .range = positive,
+                    .fallback = "30",
+                    .meaning = "And every so many minutes of computing."}}};
+}
+
 }  // namespace
 
 bool Range::contains(double value) const {
@@ -422,7 +447,7 @@ const Section& schema() {
       .meaning = "",
       .keys = {verbose},
       .sections = {discretization(), node_sets(), materials_section(), blocks(), contact(), conditions(), solver(),
-                   output(), history()},
+                   output(), history(), restart()},
       .hints = {{"Damage Models", reserved},
                 {"Compute Class Parameters", "unknown section; numbers of the whole body are chosen in 'History'"}}};
   return whole;

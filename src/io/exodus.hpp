@@ -38,14 +38,18 @@ struct OutputField {
 // Flushed after every frame, so that what is written stays readable whatever happens next.
 class ExodusWriter {
  public:
-  // `cloud`: this rank's points, in the order of the columns given to write(). Errors: the file cannot be created.
+  // `cloud`: this rank's points, in the order of the columns given to write(). Replaces a file of that name, or goes on
+  // after the first `frames` of it. Errors: the file cannot be created, another run writes to it, it does not have
+  // these points, fields or frames.
   ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
-               std::vector<OutputField> fields);
+               std::vector<OutputField> fields, int frames = 0);
   ~ExodusWriter();
   ExodusWriter(ExodusWriter&&) noexcept;
 
   // columns[k]: field k, this rank's points times components, point by point. Throws Error when the disk is full.
   void write(double time, std::span<const std::vector<double>> columns);
+
+  int frames() const;  // so far
 
  private:
   struct File;

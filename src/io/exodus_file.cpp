@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "base/build_facts.hpp"
 #include "base/errors.hpp"
 #include "io/classic_netcdf.hpp"
 
@@ -94,19 +95,33 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
   return names;
 }
 
+// Lines of at most so many characters, broken between words where there are any.
+std::vector<std::string> wrapped(std::string text, std::size_t most) {
+  std::vector<std::string> lines;
+  while (text.size() > most) {
+    const std::size_t space = text.rfind(' ', most);
+    const std::size_t end = space == std::string::npos || space == 0 ? most : space;
+    lines.push_back(text.substr(0, end));
+    text.erase(0, end == space ? end + 1 : end);
+  }
+  lines.push_back(text);
+  return lines;
+}
+
 std::string quoted(const std::string& name, std::int64_t id) {
   return name.empty() ? std::to_string(id) : "'" + name + "'";
 }
 
 }  // namespace
 
-ExodusFile ExodusFile::open(const fs::path& path) {
+ExodusFile ExodusFile::open(const fs::path& path, Access access) {
   ex_opts(0);  // errors are ours to report
   check_that_it_may_be_read(path);
   int word_size = sizeof(double);
   int file_word_size = 0;
   float version = 0;
-  const int handle = ex_open(path.c_str(), EX_READ, &word_size, &file_word_size, &version);
+  const int mode = access == Access::write ? EX_WRITE : EX_READ;
+  const int handle = ex_open(path.c_str(), mode, &word_size, &file_word_size, &version);
   if (handle < 0) fail(path, "open it", cause_of(handle));
   ExodusFile file(path, handle);
   ex_set_int64_status(handle, EX_ALL_INT64_API);
@@ -294,12 +309,13 @@ void ExodusFile::put_provenance() const {
   std::strftime(date, sizeof date, "%Y/%m/%d", &local);
   std::strftime(time, sizeof time, "%H:%M:%S", &local);
   std::string name = "strut";
-  std::string number = STRUT_VERSION;
+  std::string number = strut_version();
   char* record[1][4] = {{name.data(), number.data(), date, time}};
   check(ex_put_qa(handle_, 1, record), "write its QA record");
-  std::string line = "written by " + name + " " + number;
-  char* lines[1] = {line.data()};
-  check(ex_put_info(handle_, 1, lines), "write its info record");
+  std::vector<std::string> lines = wrapped("written by " + build_facts(), MAX_LINE_LENGTH);
+  std::vector<char*> pointers;
+  for (std::string& line : lines) pointers.push_back(line.data());
+  check(ex_put_info(handle_, static_cast<int>(pointers.size()), pointers.data()), "write its info records");
 }
 
 void ExodusFile::put_blocks(const std::vector<Block>& blocks) const {

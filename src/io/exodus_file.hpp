@@ -39,7 +39,8 @@ class ExodusFile {
 
   static constexpr std::size_t longest_name = 127;
 
-  static ExodusFile open(const std::filesystem::path& path);
+  enum class Access { read, write };
+  static ExodusFile open(const std::filesystem::path& path, Access access = Access::read);
   static ExodusFile create(const std::filesystem::path& path);  // replaces a file of that name
   ~ExodusFile();
   ExodusFile(ExodusFile&& other) noexcept;

@@ -10,6 +10,7 @@
 #include "io/elements.hpp"
 #include "io/exodus.hpp"
 #include "io/exodus_file.hpp"
+#include "io/file_lock.hpp"
 #include "io/numbering.hpp"
 
 namespace strut::io {
@@ -67,6 +68,8 @@ struct ExodusWriter::File {
   const std::vector<OutputField> fields;
   const std::size_t points;  // of this rank
 
+  std::optional<FileLock> lock;  // until the file is closed
+
   // On rank 0 only. The orders hold places in the gathered columns.
   std::optional<ExodusFile> exodus;
   std::vector<std::size_t> node_order;     // by id
@@ -79,7 +82,10 @@ struct ExodusWriter::File {
   File(const Communicator& comm, const PointCloud& cloud, std::vector<OutputField> output)
       : communicator(comm), fields(std::move(output)), points(cloud.size()) {}
 
+  void begin(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all);
   void create(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all);
+  void go_on(const std::filesystem::path& path);
+  std::array<std::vector<std::string>, 2> names() const;  // of variables: element, nodal
   void order(const Gathered& all);
   void define_blocks(const PointCloud& cloud, const Gathered& all);
   void write_elements(const Gathered& all);
@@ -91,15 +97,37 @@ struct ExodusWriter::File {
   void write_element(int variable, std::span<const double> column, int components, int component);
 };
 
-// The layout first, then what fills it: the library would move what is there if the layout grew.
-void ExodusWriter::File::create(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all) {
-  std::array<std::vector<std::string>, 2> names;  // element, nodal
-  for (const OutputField& field : fields) {
-    for (std::string& name : component_names(field)) names[field.nodal].push_back(std::move(name));
-  }
+void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all) {
   if (all.ids.empty()) throw Error(path.string() + ": there are no points to write");
   order(all);
   define_blocks(cloud, all);
+  lock.emplace(path);
+  steps > 0 ? go_on(path) : create(path, cloud, all);
+}
+
+std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
+  std::array<std::vector<std::string>, 2> names;
+  for (const OutputField& field : fields) {
+    for (std::string& name : component_names(field)) names[field.nodal].push_back(std::move(name));
+  }
+  return names;
+}
+
+// Frames that are there beyond the first `steps` are written again: a run that goes on comes to the same ones.
+void ExodusWriter::File::go_on(const std::filesystem::path& path) {
+  exodus.emplace(ExodusFile::open(path, ExodusFile::Access::write));
+  const auto [element, nodal] = names();
+  const bool fits = exodus->sizes().nodes == std::ssize(node_order) && std::ssize(exodus->times()) >= steps &&
+                    exodus->variable_names(ExodusFile::On::elements) == element &&
+                    exodus->variable_names(ExodusFile::On::nodes) == nodal;
+  if (fits) return;
+  throw Error(path.string() + ": is not the result that the run left: it has other points or fields, or fewer than " +
+              std::to_string(steps) + " frames");
+}
+
+// The layout first, then what fills it: the library would move what is there if the layout grew.
+void ExodusWriter::File::create(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all) {
+  const auto [element, nodal] = names();
   const std::vector<ExodusFile::NodeSet> sets = node_sets(cloud, all);
   const auto count = static_cast<std::int64_t>(all.ids.size());
 
@@ -108,7 +136,7 @@ void ExodusWriter::File::create(const std::filesystem::path& path, const PointCl
   exodus->put_provenance();
   exodus->put_blocks(blocks);
   exodus->put_node_sets(sets);
-  exodus->put_variables(blocks, names[1], names[0]);
+  exodus->put_variables(blocks, nodal, element);
   write_elements(all);
   write_node_sets(sets, all);
   exodus->flush();
@@ -206,15 +234,18 @@ void ExodusWriter::File::write_element(int variable, std::span<const double> col
 }
 
 ExodusWriter::ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
-                           std::vector<OutputField> fields)
+                           std::vector<OutputField> fields, int frames)
     : file_(std::make_unique<File>(communicator, cloud, std::move(fields))) {
+  file_->steps = frames;
   const Gathered all(cloud, communicator);
-  run_on_root(communicator, [&] { file_->create(file, cloud, all); });
+  run_on_root(communicator, [&] { file_->begin(file, cloud, all); });
   file_->buffer.resize(all.ids.size());
 }
 
 ExodusWriter::~ExodusWriter() = default;
 ExodusWriter::ExodusWriter(ExodusWriter&&) noexcept = default;
+
+int ExodusWriter::frames() const { return file_->steps; }
 
 // Rank 0 goes on receiving after a failure, so that no rank waits; the failure is raised on all ranks at the end.
 void ExodusWriter::write(double time, std::span<const std::vector<double>> columns) {

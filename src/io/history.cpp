@@ -1,9 +1,11 @@
 #include "io/history.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
+#include "base/build_facts.hpp"
 #include "base/errors.hpp"
 
 namespace strut::io {
@@ -18,18 +20,46 @@ void check_names(const std::vector<std::string>& names) {
   }
 }
 
+// Who wrote the file is told by the name of a column of zeros: every reader of tables takes that, and hardly any a
+// comment.
+std::string last_column() {
+  std::string name = build_facts();
+  std::replace(name.begin(), name.end(), ',', ';');
+  std::erase(name, '"');
+  return name;
+}
+
 }  // namespace
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
-                         std::vector<std::string> column_names)
-    : path_(path), communicator_(communicator), columns_(column_names.size()) {
+                         std::vector<std::string> column_names, std::int64_t bytes)
+    : path_(path), communicator_(communicator), columns_(column_names.size()), bytes_(bytes) {
   run_on_root(communicator_, [&] {
     check_names(column_names);
-    errno = 0;
-    file_.open(path_);
-    if (!file_) throw Error(path_.string() + ": cannot create it: " + std::strerror(errno));
-    write_line(joined(column_names, ","));
+    lock_.emplace(path_);
+    const std::string header = joined(column_names, ",");
+    bytes_ > 0 ? go_on(header) : begin(header);
   });
+}
+
+void HistoryFile::begin(const std::string& header) {
+  errno = 0;
+  file_.open(path_);
+  if (!file_) throw Error(path_.string() + ": cannot create it: " + std::strerror(errno));
+  write_line(header + "," + last_column());
+}
+
+void HistoryFile::go_on(const std::string& header) {
+  std::string found;
+  std::getline(std::ifstream(path_), found);
+  if (std::filesystem::file_size(path_) < static_cast<std::uintmax_t>(bytes_) ||
+      !found.starts_with(header + ",strut")) {
+    throw Error(path_.string() + ": is not the history that the run left: it is shorter, or has other columns");
+  }
+  std::error_code failure;
+  std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(bytes_), failure);
+  if (!failure) file_.open(path_, std::ios::app);
+  if (failure || !file_) throw Error(path_.string() + ": cannot go on with it: " + std::strerror(errno));
 }
 
 void HistoryFile::write(std::span<const double> row) {
@@ -42,10 +72,10 @@ void HistoryFile::write(std::span<const double> row) {
     for (const double value : row) {
       char digits[32];
       std::snprintf(digits, sizeof digits, "%.17g", value);
-      if (!line.empty()) line += ',';
       line += digits;
+      line += ',';
     }
-    write_line(line);
+    write_line(line + "0");
   });
 }
 
@@ -53,6 +83,7 @@ void HistoryFile::write_line(const std::string& line) {
   errno = 0;
   file_ << line << '\n' << std::flush;
   if (!file_) throw Error(path_.string() + ": cannot write to it: " + std::strerror(errno));
+  bytes_ += std::ssize(line) + 1;
 }
 
 }  // namespace strut::io

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "base/tensors.hpp"
 
 namespace strut {
@@ -25,6 +27,14 @@ class Impulses {
     if (static_cast<std::size_t>(condition) < sums_.size()) sums_[condition] += impulse;  // −1 is none, too
   }
   const std::vector<Vector>& sums() const { return sums_; }
+
+  void keep(Archive& archive) {
+    for (std::size_t c = 0; c < sums_.size(); ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        archive.share("impulse_" + std::to_string(c) + "xyz"[axis], sums_[c][axis]);
+      }
+    }
+  }
 
  private:
   std::vector<Vector> sums_;

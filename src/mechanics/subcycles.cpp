@@ -202,13 +202,7 @@ Eigen::Array4d own_stretch(const Body& body, const ForceState& state, int i, Wei
 double Subcycles::choose(Body& body, double safety_factor) {
   const std::vector<std::uint8_t> before = std::move(body.halvings);
   body.halvings = chosen_halvings(body, std::min(1.0, most_turn / safety_factor));
-  orders_.clear();
-  motions_.clear();
-  updates_ = 1;
-  double agreed[] = {0};  // the most halvings of any point
-  for (const std::uint8_t h : body.halvings) agreed[0] = std::max<double>(agreed[0], h);
-  body.domain.communicator.max(agreed);
-  if (agreed[0] > 0) make_orders(body, static_cast<int>(agreed[0]));
+  make_orders(body);
   spread_impulses(body, before);
   double fastest = 0;
   for (MaterialBlock& block : body.blocks) {
@@ -219,7 +213,16 @@ double Subcycles::choose(Body& body, double safety_factor) {
   return fastest;
 }
 
-void Subcycles::make_orders(Body& body, int count) {
+// What the halvings of the points mean for their steps.
+void Subcycles::make_orders(Body& body) {
+  orders_.clear();
+  motions_.clear();
+  updates_ = 1;
+  double agreed[] = {0};  // the most halvings of any point
+  for (const std::uint8_t h : body.halvings) agreed[0] = std::max<double>(agreed[0], h);
+  body.domain.communicator.max(agreed);
+  const int count = static_cast<int>(agreed[0]);
+  if (count == 0) return;
   motions_ = motions_of(body, body.halvings);
   std::vector<std::uint8_t> everywhere = motions_;
   exchange(body, body.domain.halo, everywhere);
@@ -228,6 +231,21 @@ void Subcycles::make_orders(Body& body, int count) {
   for (int i = 0; i < body.owned(); ++i) updates[0] += 1 << body.halvings[i];
   body.domain.communicator.sum(updates);
   updates_ = updates[0] / updates[1];
+}
+
+void Subcycles::keep(Archive& archive, Body& body) {
+  bool any = !body.halvings.empty();
+  std::vector<std::uint8_t> halvings(body.owned(), 0);
+  if (any) std::copy_n(body.halvings.begin(), body.owned(), halvings.begin());
+  archive.number("has_halvings", any);
+  archive.field("halvings", 1, [&](std::size_t i, int) -> std::uint8_t& { return halvings[i]; });
+  if (!archive.restores()) return;
+  body.halvings.clear();
+  if (any) {
+    exchange(body, body.domain.halo, halvings);
+    body.halvings = std::move(halvings);
+  }
+  make_orders(body);
 }
 
 Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const {

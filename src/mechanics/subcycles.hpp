@@ -5,6 +5,7 @@
 // momenta are conserved as before. Stabilisation, contact and loads act once a step.
 #pragma once
 
+#include "base/archive.hpp"
 #include "mechanics/mechanics.hpp"
 
 namespace strut {
@@ -31,6 +32,9 @@ class Subcycles {
   // Owned points that move at times of this order (1 … orders()), in ascending order.
   const std::vector<int>& moved(int order) const { return orders_[order - 1].moved; }
 
+  // Collective. The choice, after keep() of the body: it leaves the archive at the group of all owned points.
+  void keep(Archive& archive, Body& body);
+
   // Collective. At a time of this order, `dt` after the last: the stresses of the points that are due, and in
   // body.force_density of the moved points the force of these stresses, for an impulse of length dt.
   StepReport forces(Body& body, int order, double dt);
@@ -46,7 +50,7 @@ class Subcycles {
     Halo halo;
   };
   void add_residuals(Body& body, Order& now, int order) const;
-  void make_orders(Body& body, int count);
+  void make_orders(Body& body);
   Order order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const;
 
   std::vector<Order> orders_;

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "mechanics/keep.hpp"
 #include "mechanics/undisturbed.hpp"
 #include "points/parallel.hpp"
 
@@ -57,6 +58,10 @@ void CentralDifference::regroup(StepReport& report) {
   estimate_due_ = true;
   if (!control_.subcycling || control_.fixed_dt > 0) return;
   report.pace = subcycles_.choose(body_, control_.safety_factor);
+  restrict_conditions();
+}
+
+void CentralDifference::restrict_conditions() {
   conditions_of_order_.clear();
   for (int m = 1; m <= subcycles_.orders(); ++m) {
     conditions_of_order_.push_back(restricted_to(conditions_, subcycles_.motions(), m));
@@ -208,7 +213,7 @@ void CentralDifference::move(bool with_views) {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{report.failure ? 1.0 : 0.0, stop_requested_ ? 1.0 : 0.0, report.pace, report.damping};
+  std::vector<double> agreed{report.failure ? 1.0 : 0.0, static_cast<double>(wish_), report.pace, report.damping};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(crowd(), agreed);
   {
@@ -216,7 +221,8 @@ void CentralDifference::check(const StepReport& report) {
     const Timed timed(timer);
     body_.domain.communicator.max(agreed);
   }
-  stop_agreed_ = agreed[1] > 0;
+  agreed_ = static_cast<Wish>(agreed[1]);
+  wish_ = Wish::none;
   pace_ = agreed[2];
   damping_ = agreed[3];
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
@@ -226,6 +232,44 @@ void CentralDifference::check(const StepReport& report) {
     text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);
   }
   raise_together(body_.domain.communicator, text.str());
+}
+
+void CentralDifference::keep(Archive& archive) {
+  strut::keep(archive, body_);
+  subcycles_.keep(archive, body_);
+  stable_.keep(archive, body_);
+  archive.number("time", time_);
+  archive.number("steps", steps_);
+  archive.number("steps_since_estimate", steps_since_estimate_);
+  archive.number("most_substeps", most_substeps_);
+  archive.number("updates", updates_);
+  archive.number("dt", dt_);
+  archive.number("limit", limit_);
+  archive.number("pace", pace_);
+  archive.number("pace_at_estimate", pace_at_estimate_);
+  archive.number("damping", damping_);
+  archive.number("regroup_due", regroup_due_);
+  archive.number("estimate_due", estimate_due_);
+  keep_work(archive);
+  contact_.keep(archive, crowd(), dt_);
+  if (!archive.restores()) return;
+  restrict_conditions();
+  for (MaterialBlock& block : body_.blocks) {
+    if (block.undisturbed) block.resting_pace = largest_pace(body_, block);
+  }
+}
+
+void CentralDifference::keep_work(Archive& archive) {
+  archive.number("put_in", put_in_);
+  archive.number("largest_energy", largest_energy_);
+  const auto keep = [&archive](const std::string& when, Work& work) {
+    archive.share("external_work" + when, work.external);
+    archive.share("contact_work" + when, work.contact);
+  };
+  keep("", work_);
+  keep("_before", kick_work_.before);
+  keep("_after", kick_work_.after);
+  between_.keep(archive);
 }
 
 // What the body holds and has dissipated, less what was put in.

@@ -47,9 +47,14 @@ class CentralDifference {
   // Collective; after kick(). Forces at time(): impulses over the times that they stand for.
   Reactions reactions() const;
 
-  // Set by a signal on any rank: agreed upon by all at the end of move().
-  bool stop_agreed() const { return stop_agreed_; }
-  void request_stop() { stop_requested_ = true; }
+  // Of any rank: agreed upon by all at the end of move(), the greatest wish of all.
+  enum class Wish { none, save, stop };
+  Wish agreed() const { return agreed_; }
+  void request(Wish wish) { wish_ = wish; }
+
+  // Collective; between move() and kick(). All that the next steps depend on, of the body too. The run that restores it
+  // goes on to the last bit on as many ranks.
+  void keep(Archive& archive);
 
  private:
   contact::Crowd crowd() const;
@@ -58,6 +63,8 @@ class CentralDifference {
   void choose_step(double final_time);
   void estimate_step();
   void regroup(StepReport& report);
+  void restrict_conditions();
+  void keep_work(Archive& archive);
   StepReport substeps();
   StepReport substep(int order, double t);
   PointSteps point_steps() const { return {dt_, &subcycles_.motions()}; }
@@ -82,7 +89,7 @@ class CentralDifference {
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;
   bool regroup_due_ = true, estimate_due_ = true;
-  bool stop_requested_ = false, stop_agreed_ = false;
+  Wish wish_ = Wish::none, agreed_ = Wish::none;
 };
 
 }  // namespace strut

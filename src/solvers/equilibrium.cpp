@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/timing.hpp"
+#include "mechanics/keep.hpp"
 
 namespace strut {
 
@@ -149,7 +150,32 @@ void Equilibrium::go_back() {
   advance_by_any_step(body_, 0, true);
   add_contact();  // for its energy
   forces_ = forces_before_;
+  outer_ = outer_before_;
   tools_.go_back();
+}
+
+void Equilibrium::keep(Archive& archive) {
+  if (!archive.restores()) committed_.restore(body_);  // to the last bit, after a trial that was broken off
+  strut::keep(archive, body_);
+  const auto keep_field = [&archive](const std::string& name, Field& field) {
+    archive.field(name, 3, [&field](std::size_t i, int c) -> double& { return field[i][c]; });
+  };
+  forces_.resize(body_.owned(), Vector::Zero());
+  keep_field("forces", forces_);
+  keep_field("outer_forces", outer_);
+  archive.number("step_begin", t_);
+  archive.number("step_length", dt_);
+  archive.number("scale", last_scale_);
+  archive.number("largest_scale", largest_scale_);
+  const contact::Crowd crowd{body_.domain, body_.sites, body_.velocity, body_.density};
+  contact_.keep(archive, crowd, 0);
+  tools_.keep(archive, body_);
+  if (!archive.restores()) return;
+  forces_before_ = forces_;
+  outer_before_ = outer_;
+  for (int i = 0; i < body_.owned(); ++i) looked_at_[i] = body_.current(i);
+  committed_.take(body_);
+  if (dt_ > 0) held_.emplace(conditions_, body_, t_, dt_);  // for reactions
 }
 
 double Equilibrium::external_work() const {

@@ -48,6 +48,9 @@ class Equilibrium {
   // What contact adds to the stiffness of each point alone, N/m.
   std::vector<Tensor> contact_springs();
 
+  // Collective; after commit(). The body, and all else that the next step depends on.
+  void keep(Archive& archive);
+
   void commit();   // the last trial is where the next step begins
   void go_back();  // to the committed state
 

@@ -10,6 +10,9 @@ class Newton {
  public:
   Newton(Equilibrium& equilibrium, const Audience& audience);
 
+  // The next search does not depend on earlier ones.
+  void begin_anew() { preconditioner_due_ = true; }
+
   // Collective. From the present places, within the step that the equilibrium has begun.
   Search solve(const Tolerance& tolerance);
 

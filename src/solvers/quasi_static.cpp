@@ -83,7 +83,27 @@ Search QuasiStatic::attempt() {
   return search_from_start(false);
 }
 
+void QuasiStatic::keep(Archive& archive) {
+  equilibrium_.keep(archive);
+  Body& body = equilibrium_.body();
+  archive.points("motion", {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()});
+  bool moved = !last_step_.empty();
+  Field last_step = moved ? last_step_ : Field(body.owned(), Vector::Zero());
+  archive.number("moved", moved);
+  archive.field("last_step", 3, [&last_step](std::size_t i, int c) -> double& { return last_step[i][c]; });
+  last_step_ = moved ? std::move(last_step) : Field{};
+  archive.number("time", time_);
+  archive.number("dt", dt_);
+  archive.number("last_dt", last_dt_);
+  archive.number("steps", steps_);
+  archive.number("external_work", external_);
+  archive.number("work_of_tools", by_tools_);
+  archive.number("largest_energy", largest_energy_);
+}
+
 bool QuasiStatic::advance() {
+  newton_.begin_anew();  // or a run that was cut would not go on as one that was not
+  relaxation_.begin_anew();
   dt_ = std::min(dt_, final_time_ - time_);
   for (;;) {
     const Search search = attempt();

@@ -24,13 +24,17 @@ class QuasiStatic {
   double time() const { return time_; }
   double dt() const { return dt_; }
   int steps() const { return steps_; }
-  int iterations() const { return iterations_; }    // so far, those in vain too
+  int iterations() const { return iterations_; }    // of this run, those in vain too
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
 
   // Collective. One load step; false if the audience wanted to leave before it was made. Throws Error on all ranks
   // where none is found, however short. In both cases the body is at its last equilibrium.
   bool advance();
+
+  // Collective; between load steps. All that the next ones depend on, of the body too. The run that restores it goes on
+  // to the last bit on as many ranks.
+  void keep(Archive& archive);
 
   Ledger ledger();                                                                          // collective
   Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective

@@ -15,6 +15,8 @@ class Relaxation {
   // is some thousand times Newton's.
   Search solve(const Tolerance& tolerance);
 
+  void begin_anew() { stable_ = {}; }  // the next search does not depend on earlier ones
+
  private:
   void renew_masses();
 

@@ -114,6 +114,14 @@ double StableStep::bytes(const Body& body) {
   return fields * body.owned() + static_cast<double>(sizeof(Site) * body.sites.size());
 }
 
+void StableStep::keep(Archive& archive, const Body& body) {
+  bool any = !mode_.empty();
+  StoredField mode = any ? mode_ : StoredField(body.owned(), Eigen::Vector3f::Zero());
+  archive.number("has_mode", any);
+  archive.field("mode", 3, [&](std::size_t i, int c) -> float& { return mode[i][c]; });
+  mode_ = any ? std::move(mode) : StoredField{};
+}
+
 double StableStep::estimate(Body& body) {
   static Teuchos::Time& timer = phase("Stable step");
   const Timed timed(timer);

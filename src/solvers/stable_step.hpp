@@ -1,6 +1,7 @@
 // The largest stable step of central differences, 2/ω_max, in the current state.
 #pragma once
 
+#include "base/archive.hpp"
 #include "mechanics/mechanics.hpp"
 
 namespace strut {
@@ -13,6 +14,8 @@ class StableStep {
   // Later calls start from the mode found last, which makes them cheaper. Spoils body.force_states, which are of use
   // only between stresses and forces.
   double estimate(Body& body);
+
+  void keep(Archive& archive, const Body& body);  // at the group of all owned points
 
   // Bytes that an estimate takes on this rank while it runs.
   static double bytes(const Body& body);

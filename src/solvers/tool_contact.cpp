@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/keep.hpp"
+
 namespace strut {
 
 namespace {
@@ -46,6 +48,7 @@ void ToolContact::begin(const Body& body, double t, double dt) {
     grip.penalty = penalty_factor * moduli[grip.point] * grip.spacing;
     grip.multiplier = grip.at_start.pressure;
     grip.tangential = grip.at_start.drag;
+    grip.touched = grip.at_start.pressure > 0;
   }
 }
 
@@ -140,6 +143,18 @@ void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
     const int condition = tools_[grip.tool].condition;
     if (static_cast<std::size_t>(condition) < by_condition.size()) by_condition[condition] += grip.now.force;
   }
+}
+
+void ToolContact::keep(Archive& archive, const Body& body) {
+  std::size_t first = 0;  // of the tool's grips
+  for (std::size_t t = 0; t < tools_.size(); first += tools_[t].points.size(), ++t) {
+    const auto traction = [this, first](std::size_t k) -> Traction& { return grips_[first + k].at_start; };
+    archive.points("tool " + std::to_string(t), ids_of(body, tools_[t].points));
+    archive.field("pressure", 1, [&](std::size_t k, int) -> double& { return traction(k).pressure; });
+    archive.field("drag", 3, [&](std::size_t k, int c) -> double& { return traction(k).drag[c]; });
+    archive.field("force", 3, [&](std::size_t k, int c) -> double& { return traction(k).force[c]; });
+  }
+  if (archive.restores()) go_back();
 }
 
 double ToolContact::work(const Body& body) const {

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "base/archive.hpp"
 #include "mechanics/conditions.hpp"
 #include "solvers/krylov.hpp"
 
@@ -41,6 +42,9 @@ class ToolContact {
 
   // The forces of the last trial by condition.
   void add_reactions(std::vector<Vector>& by_condition) const;
+  // What the forces at the start of the next step are.
+  void keep(Archive& archive, const Body& body);
+
   // J on this rank, by the mean of the forces at both ends of the step.
   double work(const Body& body) const;
 

@@ -58,7 +58,7 @@ contact_section='<ParameterList name="Contact">
 
 # problem NAME: sets what deck() reads.
 problem() {
-  contact= points=Elements speed=80 horizon='name="Horizon" value="0.0085"'
+  contact= viscosity=0 points=Elements speed=80 horizon='name="Horizon" value="0.0085"'
   case $1 in
     bar) mesh_type=Exodus mesh_file=bar.g sets= foot=foot blocks=$(block bar all copper) ;;
     fast)
@@ -74,7 +74,7 @@ problem() {
       blocks=$(block lower block_1 copper; block upper block_2 steel) ;;
   esac
   [ $1 = meeting ] || return 0
-  mesh_file=apart.txt contact=$contact_section
+  mesh_file=apart.txt contact=$contact_section viscosity=0.06
   blocks=$(block lower block_1 copper true; block upper block_2 steel true)
 }
 
@@ -96,6 +96,7 @@ deck() {
       <Parameter name="Young's Modulus" type="double" value="110.0e9"/>
       <Parameter name="Poisson's Ratio" type="double" value="0.296"/>
       <Parameter name="Yield Stress" type="double" value="50.0e6"/>
+      <Parameter name="Linear Viscosity" type="double" value="$viscosity"/>
       <ParameterList name="Hardening">
         <Parameter name="Type" type="string" value="Power Law"/>
         <Parameter name="Reference Strain" type="double" value="0.00218"/>

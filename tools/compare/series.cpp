@@ -49,6 +49,8 @@ Series read_history(const std::filesystem::path& path) {
       throw Error(path.string() + ", line " + std::to_string(row) + ": " + error.what());
     }
   }
+  // The last column only says by its name who wrote the file.
+  if (series.variables.back().name.starts_with("strut ")) series.variables.pop_back();
   return series;
 }
 

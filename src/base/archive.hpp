@@ -1,0 +1,78 @@
+// What a run must know to go on, by name. One description of it, the functions `keep` of its parts, serves to save and
+// to restore, so that neither knows of something that the other has forgotten.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace strut {
+
+// As a rank holds it.
+struct Snapshot {
+  struct Column {
+    std::string name;
+    int width = 1;
+    std::vector<double> values;  // point by point
+  };
+  // Some of this rank's points, which have columns in common.
+  struct Group {
+    std::string name;
+    std::vector<std::int64_t> ids;  // of the points over all ranks
+    std::vector<Column> columns;
+  };
+  std::vector<Group> groups;
+  std::map<std::string, double> numbers;  // the same on all ranks
+  std::map<std::string, double> shares;   // of this rank: their sums over all ranks mean something
+};
+
+class Archive {
+ public:
+  static Archive saving(Snapshot& into) { return {into, false}; }
+  // From a snapshot that has all that was saved; throws std::logic_error where it has not.
+  static Archive restoring(Snapshot& from) { return {from, true}; }
+
+  bool restores() const { return restores_; }
+
+  // What the next fields are of.
+  void points(const std::string& group, const std::vector<std::int64_t>& ids);
+
+  // at(k, c): a reference to component c of the k-th point.
+  template <class At>
+  void field(const std::string& name, int width, At&& at) {
+    std::vector<double>& values = column(name, width).values;
+    std::size_t n = 0;
+    for (std::size_t k = 0; n < values.size(); ++k) {
+      for (int c = 0; c < width; ++c) pass(at(k, c), values[n++]);
+    }
+  }
+
+  // Any arithmetic type that a double holds exactly.
+  template <class T>
+  void number(const std::string& name, T& value) {
+    pass(value, entry(snapshot_.numbers, name));
+  }
+  void share(const std::string& name, double& value) { pass(value, entry(snapshot_.shares, name)); }
+
+ private:
+  Archive(Snapshot& snapshot, bool restores) : snapshot_(snapshot), restores_(restores) {}
+
+  template <class T>
+  void pass(T& own, double& kept) const {
+    if (restores_) {
+      own = static_cast<T>(kept);
+    } else {
+      kept = static_cast<double>(own);
+    }
+  }
+  double& entry(std::map<std::string, double>& entries, const std::string& name) const;
+  Snapshot::Column& column(const std::string& name, int width);
+
+  Snapshot& snapshot_;
+  bool restores_;
+  std::size_t group_ = 0;
+};
+
+}  // namespace strut

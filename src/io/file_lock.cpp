@@ -1,0 +1,33 @@
+#include "io/file_lock.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/errors.hpp"
+
+namespace strut::io {
+
+// A lock of the open file, not of the process: libraries that open and close the same file do not let it go.
+FileLock::FileLock(const std::filesystem::path& path)
+    : handle_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+  if (handle_ < 0) throw Error(path.string() + ": cannot create it: " + std::strerror(errno));
+  struct flock whole = {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (::fcntl(handle_, F_OFD_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
+  ::close(handle_);
+  throw Error(path.string() + ": another run is writing to it: expected to wait for that, to end it, or to run in " +
+              "another folder");
+}
+
+FileLock::~FileLock() {
+  if (handle_ >= 0) ::close(handle_);
+}
+
+FileLock::FileLock(FileLock&& other) noexcept : handle_(std::exchange(other.handle_, -1)) {}
+
+}  // namespace strut::io

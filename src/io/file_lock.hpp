@@ -1,0 +1,21 @@
+// One run a file.
+#pragma once
+
+#include <filesystem>
+
+namespace strut::io {
+
+// Holds a file, which is made if it is not there, against other runs until it goes out of scope or the process ends,
+// however it ends. Throws Error: another run holds it, it cannot be created. File systems without locks hold nothing.
+class FileLock {
+ public:
+  explicit FileLock(const std::filesystem::path& path);
+  ~FileLock();
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&&) = delete;
+
+ private:
+  int handle_ = -1;
+};
+
+}  // namespace strut::io

@@ -1,0 +1,77 @@
+#include "mechanics/keep.hpp"
+
+namespace strut {
+
+namespace {
+
+void keep_vectors(Archive& archive, const std::string& name, std::vector<Vector>& vectors) {
+  archive.field(name, 3, [&](std::size_t i, int c) -> double& { return vectors[i][c]; });
+}
+
+void keep_numbers(Archive& archive, const std::string& name, std::vector<double>& numbers) {
+  archive.field(name, 1, [&](std::size_t i, int) -> double& { return numbers[i]; });
+}
+
+void keep_motion(Archive& archive, Body& body) {
+  archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.sites[i].current[c]; });
+  keep_vectors(archive, "velocity", body.velocity);
+  keep_vectors(archive, "previous_velocity", body.previous_velocity);
+  keep_vectors(archive, "force_density", body.force_density);
+}
+
+void keep_points(Archive& archive, Body& body) {
+  std::vector<MaterialPoint>& points = body.points;
+  archive.field("deformation_gradient", 9,
+                [&](std::size_t i, int c) -> double& { return points[i].deformation_gradient.data()[c]; });
+  archive.field("rotation", 9, [&](std::size_t i, int c) -> double& { return points[i].rotation.data()[c]; });
+  archive.field("stress", 6, [&](std::size_t i, int c) -> double& { return points[i].stress.data()[c]; });
+  // A failed point has none left.
+  archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
+  archive.field("mean_stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].mean_stabilization; });
+  keep_numbers(archive, "stabilization_work", body.stabilization_work);
+  keep_numbers(archive, "residual", body.residual);
+}
+
+void keep_block(Archive& archive, const Body& body, MaterialBlock& block) {
+  archive.points("block " + block.name, ids_of(body, block.points));
+  const std::size_t size = block.points.size();
+  const int columns =
+      std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
+  if (columns > 0) {
+    archive.field("state", columns, [&](std::size_t k, int c) -> double& { return block.state[c * size + k]; });
+  }
+  if (block.is_ordinary()) {
+    archive.field("dilatation", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].dilatation; });
+    archive.field("energy", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].energy; });
+  }
+  if (block.material.viscosity.any()) {
+    archive.field("viscosity", 3, [&](std::size_t k, int c) -> double& {
+      ViscousPoint& point = block.viscous[k];
+      return c == 0 ? point.pressure : c == 1 ? point.work : point.damping;
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& points) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(points.size());
+  for (const int i : points) ids.push_back(body.domain.cloud.ids[i]);
+  return ids;
+}
+
+void keep(Archive& archive, Body& body) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    archive.number("undisturbed_" + std::to_string(b), body.blocks[b].undisturbed);
+    keep_block(archive, body, body.blocks[b]);
+  }
+  const auto owned = body.domain.cloud.ids.begin() + body.owned();
+  archive.points("all points", {body.domain.cloud.ids.begin(), owned});
+  keep_motion(archive, body);
+  keep_points(archive, body);
+  if (!archive.restores()) return;
+  body.domain.halo.exchange(body.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+}
+
+}  // namespace strut

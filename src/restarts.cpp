@@ -1,0 +1,81 @@
+#include "restarts.hpp"
+
+#include <iostream>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "io/restart_file.hpp"
+
+namespace strut {
+
+Restarts::Restarts(const deck::Deck& deck, const Communicator& communicator, Keep keep)
+    : settings_(deck.restart),
+      deck_name_(deck.file.string()),
+      deck_text_(deck.text),
+      communicator_(communicator),
+      keep_(std::move(keep)),
+      schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
+  schedule_.done(deck.solver.initial_time);
+}
+
+bool Restarts::there() const {
+  std::error_code failure;
+  return communicator_.max(communicator_.rank() == 0 && std::filesystem::exists(settings_.file, failure) ? 1.0 : 0.0) >
+         0;
+}
+
+// The state as it is says what is asked of the file.
+void Restarts::take_up() {
+  Snapshot snapshot;
+  Archive asks = Archive::saving(snapshot);
+  keep_(asks);
+  const std::string deck = io::read_restart(settings_.file, communicator_, snapshot);
+  Archive restores = Archive::restoring(snapshot);
+  keep_(restores);
+  last_step_ = static_cast<int>(snapshot.numbers.at("steps"));
+  last_time_ = snapshot.numbers.at("time");
+  schedule_.done(last_time_);
+  written_ = true;
+  if (communicator_.rank() != 0) return;
+  std::cout << "going on from " << settings_.file.string() << ", t = " << last_time_ << " s, step " << last_step_
+            << "\n";
+  if (deck != deck_text_) std::cout << "note: " << deck_name_ << " is not as it was when this was written\n";
+}
+
+void Restarts::forget() {
+  if (settings_.enabled) io::remove_restart(settings_.file, communicator_);
+}
+
+bool Restarts::due(int step, double time) const { return step > last_step_ && schedule_.due(step, time); }
+
+bool Restarts::due_by_the_clock() const {
+  return settings_.enabled &&
+         std::chrono::steady_clock::now() - last_ > std::chrono::duration<double>(60 * settings_.minutes);
+}
+
+void Restarts::write(int step, double time) {
+  if (!settings_.enabled || (written_ && step == last_step_)) return;
+  static Teuchos::Time& timer = phase("Restart");
+  const Timed timed(timer);
+  Snapshot snapshot;
+  Archive archive = Archive::saving(snapshot);
+  keep_(archive);
+  io::write_restart(settings_.file, communicator_, snapshot, deck_text_);
+  last_ = std::chrono::steady_clock::now();
+  last_step_ = step;
+  last_time_ = time;
+  written_ = true;
+  schedule_.done(time);
+}
+
+std::string Restarts::hint() const {
+  std::ostringstream text;
+  if (written_) {
+    text << "; 'strut --continue " << deck_name_ << "' goes on from t = " << last_time_ << " s ("
+         << settings_.file.string() << ")";
+  }
+  return text.str();
+}
+
+}  // namespace strut
