@@ -10,6 +10,7 @@
 #include "crossings.hpp"
 #include "deck/problems.hpp"
 #include "io/exodus.hpp"
+#include "io/grid.hpp"
 #include "points/partition.hpp"
 
 namespace strut {
@@ -18,9 +19,24 @@ namespace {
 
 PointCloud read_mesh(const deck::Discretization& discretization, const Communicator& communicator) {
   const Timed timed(phase("Mesh in"));
+  const deck::Grid& grid = discretization.grid;
+  if (discretization.type == deck::MeshType::grid) {
+    return io::make_grid(grid.origin, grid.length, grid.points, communicator);
+  }
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
   const bool nodes = discretization.points == deck::Points::nodes;
   return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements);
+}
+
+// The points with the numbers; how many.
+std::size_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, PointCloud& cloud) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!std::binary_search(numbers.begin(), numbers.end(), cloud.element_ids[i])) continue;
+    cloud.sets[i] |= bit;
+    ++found;
+  }
+  return found;
 }
 
 void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
@@ -30,13 +46,31 @@ void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
   }
 }
 
-// The node sets that the deck makes, added to those of the mesh.
-void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, deck::Problems& problems) {
+// Collective. Every number of a set is that of a point.
+void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator,
+                      deck::Problems& problems) {
+  const std::vector<int>& numbers = *set.numbers;
+  const auto found = communicator.sum(static_cast<std::int64_t>(mark_numbers(numbers, bit, cloud)));
+  const auto points = communicator.sum(static_cast<std::int64_t>(cloud.size()));
+  if (found == static_cast<std::int64_t>(numbers.size())) return;
+  problems.add("Boundary Conditions > " + set.name, "names " + std::to_string(numbers.size()) +
+                                                        " points, up to number " + std::to_string(numbers.back()) +
+                                                        ", of which the mesh has " + std::to_string(found) +
+                                                        "; it has " + std::to_string(points) + " points");
+}
+
+// Collective. The node sets that the deck makes, added to those of the mesh.
+void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,
+                   deck::Problems& problems) {
   for (const deck::NodeSet& set : sets) {
     const std::string path = "Node Sets > " + set.name;
     if (cloud.set_names.size() >= 64) return problems.add(path, "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
+    if (set.numbers) {
+      add_numbered_set(set, bit, cloud, communicator, problems);
+      continue;
+    }
     try {
       mark(set, bit, cloud);
     } catch (const Error& error) {
@@ -45,13 +79,13 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, de
   }
 }
 
-// The Blocks section that names a block of the mesh; "all" is for those that no section names.
+// The Blocks section that names a block of the mesh; "all" and "default" are for those that no section names.
 const deck::Block* section_of(const deck::Deck& deck, const std::string& block) {
   const deck::Block* general = nullptr;
   for (const deck::Block& section : deck.blocks) {
     for (const std::string& name : section.block_names) {
       if (name == block) return &section;
-      if (name == "all") general = &section;
+      if (name == "all" || name == "default") general = &section;
     }
   }
   return general;
@@ -61,7 +95,7 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problem
   for (const deck::Block& section : deck.blocks) {
     for (const std::string& name : section.block_names) {
       const auto& valid = cloud.block_names;
-      if (name == "all" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
+      if (name == "all" || name == "default" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
       problems.add("Blocks > " + section.name + " > Block Names",
                    "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
     }
@@ -332,7 +366,10 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
   const int blocks = static_cast<int>(cloud.block_names.size());
   for (const deck::Interaction& one : deck.interactions) {
     for (int a = 0; one.first_block.empty() && a < blocks; ++a) {
-      for (int b = a; b < blocks; ++b) models.emplace(std::pair(a, b), model(one));
+      for (int b = a; b < blocks; ++b) {
+        const bool meant = one.partners == deck::Partners::any || (a == b) == (one.partners == deck::Partners::itself);
+        if (meant) models.emplace(std::pair(a, b), model(one));
+      }
     }
   }
   std::vector<contact::Interaction> interactions;
@@ -365,7 +402,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   check_blocks(deck, cloud, problems);
   const std::vector<double> spacing = mean_spacings(cloud, communicator);
   check_horizons(deck, cloud, spacing, problems);
-  add_node_sets(deck.node_sets, cloud, problems);
+  add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
   raise_together(communicator, problems.text(deck.file.string()));
@@ -389,8 +426,9 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   add_conditions(deck, scene, communicator);
   const std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
   scene.contact = contact::Contact(interactions, scene.body.domain);
-  scene.warnings = paths_that_cross(scene, interactions, deck.solver.initial_time,
-                                    deck.solver.final_time - deck.solver.initial_time);
+  for (const std::string& note : deck.notes) scene.warnings += note + "\n";
+  scene.warnings += paths_that_cross(scene, interactions, deck.solver.initial_time,
+                                     deck.solver.final_time - deck.solver.initial_time);
   return scene;
 }
 

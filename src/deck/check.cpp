@@ -55,10 +55,16 @@ class Checker {
     values_.set(parameter.name, std::move(value), given);
   }
 
+  void tell_if_without_effect(const Key& key, const Parameter& parameter) {
+    if (key.no_effect.empty() || parameter.value == key.fallback) return;
+    problems_.note(path_to(path_, key.name), "has no effect here: " + key.no_effect);
+  }
+
   void read_keys(const std::vector<Key>& keys) {
     for (const Key& key : keys) {
       if (const Parameter* parameter = find(list_.parameters, key.name)) {
         set(key, *parameter, true);
+        tell_if_without_effect(key, *parameter);
       } else if (key.fallback) {
         set(key, {key.name, "string", *key.fallback}, false);
       } else if (find(list_.lists, key.name)) {
@@ -139,8 +145,17 @@ class Checker {
     }
     const std::string guess = did_you_mean(name, valid);
     if (valid.empty()) return problems_.add(path, "unknown " + what + "; expected none here");
-    const bool list_them = guess.empty() && valid.size() <= few;
-    problems_.add(path, "unknown " + what + guess + (list_them ? "; expected one of " + joined(valid) : ""));
+    const std::vector<std::string> useful = with_effect(valid);
+    const bool list_them = guess.empty() && useful.size() <= few;
+    problems_.add(path, "unknown " + what + guess + (list_them ? "; expected one of " + joined(useful) : ""));
+  }
+
+  std::vector<std::string> with_effect(std::vector<std::string> names) const {
+    std::erase_if(names, [&](const std::string& name) {
+      const Key* key = find(section_.keys, name);
+      return key && !key->no_effect.empty();
+    });
+    return names;
   }
 
   // The other cases that have a key or section of this name: "'Linear', 'Voce'".

@@ -10,6 +10,7 @@
 #include "deck/check.hpp"
 #include "deck/laws.hpp"
 #include "deck/numbers.hpp"
+#include "deck/peridigm.hpp"
 
 namespace strut::deck {
 
@@ -24,14 +25,46 @@ Enum to_enum(const std::string& choice, const std::vector<std::string>& in_order
   return static_cast<Enum>(found == in_order.end() ? 0 : found - in_order.begin());
 }
 
+Grid grid(const Values& values) {
+  Grid grid;
+  for (int c = 0; c < 3; ++c) {
+    const std::string axis(1, "XYZ"[c]);
+    grid.origin[c] = values.real(axis + " Origin");
+    grid.length[c] = values.real(axis + " Length");
+    grid.points[c] = values.integer("Number Points " + axis);
+  }
+  return grid;
+}
+
+// What each type of discretization must have, and what it cannot.
+void check_source(const Values& values, Problems& problems) {
+  if (!values.has("Type")) return;
+  const auto report = [&](const std::string& name, const std::string& what) {
+    problems.add(path_to(values.path(), name), what);
+  };
+  const std::string generator = "TensorProduct3DMeshGenerator", file = "Input Mesh File", shape = "NeighborhoodType";
+  const bool grid = values.text("Type") == "PdQuickGrid";
+  if (!grid && !values.given(file)) report(file, "missing; expected a text (type string)");
+  if (grid && values.given(file)) report(file, "unknown key for Type 'PdQuickGrid', which reads no file");
+  if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
+  if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
+  if (grid && !values.given(shape)) {
+    report(
+        shape,
+        "missing; expected 'Spherical': without it Peridigm takes boxes for neighbourhoods, which are not known here");
+  }
+}
+
 Discretization discretization(const Values& values, const fs::path& deck, Problems& problems) {
   if (values.text("Type") == "Text File" && values.text("Points") == "Nodes") {
     problems.add(path_to(values.path(), "Points"),
                  "'Nodes'; a text file has points only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
                  "tetrahedra)");
   }
-  return {.type = to_enum<MeshType>(values.text("Type"), {"Exodus", "Text File"}),
+  check_source(values, problems);
+  return {.type = to_enum<MeshType>(values.text("Type"), {"Exodus", "Text File", "PdQuickGrid"}),
           .mesh = values.has("Input Mesh File") ? deck.parent_path() / values.text("Input Mesh File") : fs::path(),
+          .grid = grid(values.section("TensorProduct3DMeshGenerator")),
           .points = to_enum<Points>(values.text("Points"), {"Elements", "Nodes"}),
           .influence = to_enum<Influence>(values.text("Influence Function"), {"One", "Linear Decay", "Cubic Decay"}),
           .degenerate = to_enum<DegeneratePoints>(values.text("Degenerate Points"), {"Error", "Drop"})};
@@ -86,6 +119,58 @@ std::vector<NodeSet> node_sets(const Values& values, Problems& problems) {
   return sets;
 }
 
+std::optional<std::vector<int>> numbers_in(const std::string& text) {
+  std::vector<int> numbers;
+  for (const std::string& word : to_words(text)) {
+    const std::optional<int> number = to_integer(word);
+    if (!number || *number < 1) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+// Lines that begin with #, / or * are comments.
+std::string without_comments(std::istream& file) {
+  std::string text, line;
+  while (std::getline(file, line)) {
+    const std::string_view content = trimmed(line);
+    if (!content.empty() && std::string_view("#/*").find(content[0]) == std::string_view::npos) text += line + " ";
+  }
+  return text;
+}
+
+// Peridigm's sets: parameters among the conditions. Those in files are left to read_numbers.
+void add_numbered_sets(const Values& conditions, const fs::path& deck, std::vector<NodeSet>& sets, Problems& problems) {
+  for (const std::string& name : conditions.keys()) {
+    const std::string path = path_to(conditions.path(), name);
+    if (name.find("Node Set") == std::string::npos) {
+      problems.add(path, "unknown key; expected sections, or sets of points by number, whose names hold 'Node Set'");
+    }
+    const std::string& text = conditions.text(name);
+    const auto numbers = numbers_in(text);
+    NodeSet set;
+    set.name = name;
+    set.numbers = numbers.value_or(std::vector<int>());
+    if (!numbers) set.file = deck.parent_path() / text;
+    sets.push_back(set);
+  }
+}
+
+void read_numbers(std::vector<NodeSet>& sets, Problems& problems) {
+  for (NodeSet& set : sets) {
+    if (set.file.empty()) continue;
+    std::ifstream file(set.file);
+    const auto numbers = fs::is_regular_file(set.file) ? numbers_in(without_comments(file)) : std::nullopt;
+    set.numbers = numbers.value_or(std::vector<int>());
+    if (!set.numbers->empty()) continue;
+    problems.add("Boundary Conditions > " + set.name,
+                 "'" + set.file.filename().string() +
+                     "' is neither a list of numbers, the first 1, nor a file of them in the deck's folder");
+  }
+}
+
 StabilizationType stabilization(const std::string& name) {
   if (name == "None") return StabilizationType::none;
   return name == "Silling" ? StabilizationType::silling : StabilizationType::mean_gradient;
@@ -135,6 +220,10 @@ void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
   };
   for (const Block& block : blocks) {
     for (const std::string& name : block.block_names) {
+      if (name == "default") {
+        if (!owners.emplace(name, block.name).second) clash(block, name, owners[name]);
+        continue;
+      }
       const auto taken = name == "all" ? owners.begin() : owners.find(owners.count("all") ? "all" : name);
       if (taken != owners.end()) clash(block, name == "all" ? taken->first : name, taken->second);
       owners.emplace(name, block.name);
@@ -197,9 +286,18 @@ void check_interaction(const Interaction& one, const std::vector<Interaction>& e
     problems.add(path, "one block is named; expected First Block and Second Block, or neither of them for all blocks");
   }
   for (const Interaction& other : earlier) {
-    if (parties(one) == parties(other))
+    const bool apart =
+        one.partners != other.partners && one.partners != Partners::any && other.partners != Partners::any;
+    if (parties(one) == parties(other) && !apart)
       problems.add(path, "joins the same blocks as " + other.name + "; expected once");
   }
+}
+
+// The names that Peridigm knows; they say nothing of an interaction that names its blocks.
+Partners partners(const Values& interaction) {
+  if (interaction.has("First Block")) return Partners::any;
+  if (interaction.name() == "General Contact") return Partners::others;
+  return interaction.name() == "Self Contact" ? Partners::itself : Partners::any;
 }
 
 std::vector<Interaction> interactions(const Values& values, const std::vector<ContactModel>& models,
@@ -209,6 +307,7 @@ std::vector<Interaction> interactions(const Values& values, const std::vector<Co
     const Interaction one{.name = section.name(),
                           .first_block = section.text("First Block"),
                           .second_block = section.text("Second Block"),
+                          .partners = partners(section),
                           .model = find_named(section, "Contact Model", models, "Contact > Models", problems)};
     check_interaction(one, all, section.path(), problems);
     all.push_back(one);
@@ -387,6 +486,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
     deck.interactions = interactions(contact->section("Interactions"), deck.contact_models, problems);
   }
   deck.conditions = conditions(values.section("Boundary Conditions"), problems);
+  add_numbered_sets(values.section("Boundary Conditions"), file, deck.node_sets, problems);
   deck.solver = solver(values.section("Solver"), problems);
   check_quasi_static(deck, problems);
   deck.output = output(values.find("Output"), deck.solver, problems);
@@ -401,16 +501,23 @@ enum class FileCheck { no, yes };
 Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) {
   Problems problems;
   Deck deck;
-  if (const auto list = parse_xml(text, problems)) {
+  if (is_text_of_peridigm(text)) {
+    problems.add("XML",
+                 "this is no XML; Peridigm's other forms of a deck (indented text with aprepro's {…}, YAML) are "
+                 "not read: write it as <ParameterList>s");
+  } else if (auto list = parse_xml(text, problems)) {
+    translate_peridigm(*list, problems);
     const Values values = check(*list, schema(), "", problems);
     deck = build(values, file, problems);
     deck.text = text;
     if (file_check == FileCheck::yes) {
       check_mesh(deck.discretization.mesh, problems);
+      read_numbers(deck.node_sets, problems);
       check_files(deck, problems);
     }
   }
   problems.raise(file.string());
+  deck.notes = problems.notes();
   return deck;
 }
 
@@ -435,6 +542,9 @@ Deck read(const fs::path& file, const Communicator& communicator) {
   });
   communicator.broadcast(text);
   if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no);
+  for (NodeSet& set : deck.node_sets) {
+    if (!set.file.empty()) communicator.broadcast(*set.numbers);
+  }
   return deck;
 }
 

@@ -18,25 +18,34 @@ class Communicator;
 
 namespace strut::deck {
 
-enum class MeshType { exodus, text };
+enum class MeshType { exodus, text, grid };
 enum class Points { elements, nodes };
 enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
 enum class DegeneratePoints { error, drop };
 enum class StabilizationType { none, silling, mean_gradient };
 enum class Formulation { correspondence, ordinary };
 
+// Equal cells, with a point at the centre of each, x fastest.
+struct Grid {
+  Vector origin = Vector::Zero(), length = Vector::Ones();  // m
+  std::array<int, 3> points = {1, 1, 1};
+};
+
 struct Discretization {
   MeshType type = MeshType::exodus;
   std::filesystem::path mesh;        // as it can be opened: relative to the deck's folder in the deck
+  Grid grid;                         // in the place of a mesh
   Points points = Points::elements;  // where they are; nodes: of Exodus meshes only
   Influence influence = Influence::one;
   DegeneratePoints degenerate = DegeneratePoints::error;
 };
 
-// A node set made by the deck: the points whose reference position makes `where` non-zero.
+// A node set made by the deck: the points whose reference position makes `where` non-zero, or those with the numbers.
 struct NodeSet {
   std::string name;
   Function where;
+  std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, rising, each once
+  std::filesystem::path file = {};               // that they were read from, if any
 };
 
 struct Material {
@@ -60,11 +69,15 @@ struct Block {
   bool separate_body = false;            // bonded to nothing outside of this section
 };
 
+// Which pairs of blocks an interaction that names none is about.
+enum class Partners { any, others, itself };
+
 // Short-range contact between two blocks of the mesh, or within one.
 struct Interaction {
   std::string name;                       // of the section
-  std::string first_block, second_block;  // both empty: all blocks, with each other and with themselves
-  int model = 0;                          // index into Deck::contact_models
+  std::string first_block, second_block;  // both empty: all blocks, with these partners
+  Partners partners = Partners::any;
+  int model = 0;  // index into Deck::contact_models
 };
 
 struct ContactModel {
@@ -159,6 +172,7 @@ struct Deck {
   Output output;
   History history;
   Restart restart;
+  std::vector<std::string> notes;  // what was accepted but has no effect, or another than in another program
 };
 
 // Collective. Reads and checks `file`; throws one Error on all ranks that lists every problem, each with its path

@@ -14,6 +14,10 @@ class Problems {
 
   void add(const std::string& line) { lines_.push_back(line); }  // path and what in one
 
+  // What is accepted but told: "Contact > Search Radius has no effect here: …".
+  void note(const std::string& path, const std::string& what) { notes_.push_back(path + " " + what); }
+  const std::vector<std::string>& notes() const { return notes_; }
+
   // "taylor.xml: 2 problems", and a line for each; empty if there are none.
   std::string text(const std::string& file) const;
 
@@ -21,7 +25,7 @@ class Problems {
   void raise(const std::string& file) const;
 
  private:
-  std::vector<std::string> lines_;
+  std::vector<std::string> lines_, notes_;
 };
 
 // "Blocks > foam"; the path of the whole deck is empty.

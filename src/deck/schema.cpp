@@ -34,46 +34,83 @@ std::string describe(Kind kind) {
   return "";
 }
 
-const char* const reserved = "reserved: not in this version";
+const char* const bonds_hold = "reserved: not in this version (bonds do not break)";
 
-const Key verbose = {.name = "Verbose",
-                     .kind = Kind::boolean,
-                     .fallback = "false",
-                     .meaning = "Accepted for Peridigm's decks; no effect."};
+// A key that Peridigm's decks have and that changes nothing here.
+Key without_effect(Key key, const std::string& why) {
+  key.meaning = "Accepted for Peridigm's decks; no effect: " + why + ".";
+  key.no_effect = why;
+  return key;
+}
+
+const Key verbose = without_effect({.name = "Verbose", .kind = Kind::boolean, .fallback = "false"},
+                                   "the program says what it does at all times");
+
+// Peridigm's built-in grid.
+Section grid() {
+  std::vector<Key> keys = {
+      {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only one."}};
+  for (const std::string axis : {"X", "Y", "Z"}) {
+    keys.push_back({.name = axis + " Origin", .unit = "m", .required = true, .meaning = "Where the block begins."});
+    keys.push_back(
+        {.name = axis + " Length", .unit = "m", .range = positive, .required = true, .meaning = "Its edge."});
+    keys.push_back({.name = "Number Points " + axis,
+                    .kind = Kind::integer,
+                    .range = {.low = 1},
+                    .required = true,
+                    .meaning = "Cells along it."});
+  }
+  return {.name = "TensorProduct3DMeshGenerator",
+          .meaning = "A block of equal cells, one point at the centre of each, x fastest: the block block_1.",
+          .keys = std::move(keys)};
+}
 
 Section discretization() {
-  return {.name = "Discretization",
-          .required = true,
-          .meaning = "The points: where they are, and how much each sees of the others.",
-          .keys = {
-              {.name = "Type",
-               .kind = Kind::choice,
-               .choices = {"Exodus", "Text File"},
-               .required = true,
-               .meaning = "The mesh file's format: elements or nodes become points, or a list of points.",
-               .hints = {{"PdQuickGrid", "there is no built-in grid: make a mesh file from a recipe"}}},
-              {.name = "Input Mesh File",
-               .kind = Kind::text,
-               .required = true,
-               .meaning = "Its path, relative to the deck's folder."},
-              {.name = "Points",
-               .kind = Kind::choice,
-               .choices = {"Elements", "Nodes"},
-               .fallback = "Elements",
-               .meaning = "Where the points of an Exodus mesh are: at the centroids of its elements, or, for hexahedra "
-                          "and tetrahedra, at its nodes, each with its part of the elements around it. With nodes, "
-                          "faces and rims of the body are where the mesh has them."},
-              {.name = "Influence Function",
-               .kind = Kind::choice,
-               .choices = {"One", "Linear Decay", "Cubic Decay"},
-               .fallback = "One",
-               .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
-              {.name = "Degenerate Points",
-               .kind = Kind::choice,
-               .choices = {"Error", "Drop"},
-               .fallback = "Error",
-               .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
-                          "gradient."}}};
+  return {
+      .name = "Discretization",
+      .required = true,
+      .meaning = "The points: where they are, and how much each sees of the others.",
+      .keys = {{.name = "Type",
+                .kind = Kind::choice,
+                .choices = {"Exodus", "Text File", "PdQuickGrid"},
+                .required = true,
+                .meaning =
+                    "The mesh file's format: elements or nodes become points, or a list of points. Or Peridigm's "
+                    "built-in grid, without a file."},
+               {.name = "Input Mesh File",
+                .kind = Kind::text,
+                .meaning = "Its path, relative to the deck's folder. Required but for PdQuickGrid."},
+               {.name = "NeighborhoodType",
+                .kind = Kind::choice,
+                .choices = {"Spherical"},
+                .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighbourhoods."},
+               without_effect({.name = "Verbose", .kind = Kind::boolean, .fallback = "false"}, verbose.no_effect),
+               without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
+                              "the mesh is not kept"),
+               {.name = "Points",
+                .kind = Kind::choice,
+                .choices = {"Elements", "Nodes"},
+                .fallback = "Elements",
+                .meaning =
+                    "Where the points of an Exodus mesh are: at the centroids of its elements, or, for hexahedra "
+                    "and tetrahedra, at its nodes, each with its part of the elements around it. With nodes, "
+                    "faces and rims of the body are where the mesh has them."},
+               {.name = "Influence Function",
+                .kind = Kind::choice,
+                .choices = {"One", "Linear Decay", "Cubic Decay"},
+                .fallback = "One",
+                .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
+               {.name = "Degenerate Points",
+                .kind = Kind::choice,
+                .choices = {"Error", "Drop"},
+                .fallback = "Error",
+                .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
+                           "gradient."}},
+      .sections = {grid()},
+      .hints = {{"Bond Filters",
+                 "unknown section: bonds of a body cannot be cut by planes or disks; make cracks as "
+                 "gaps of the mesh, or bodies apart (Separate Body)"},
+                {"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
 }
 
 Section node_sets() {
@@ -114,7 +151,7 @@ Section blocks() {
            .keys = {{.name = "Block Names",
                      .kind = Kind::names,
                      .required = true,
-                     .meaning = "Blocks of the mesh, or `all`."},
+                     .meaning = "Blocks of the mesh, or `all`, or `default`: those that no other section names."},
                     {.name = "Material",
                      .kind = Kind::text,
                      .required = true,
@@ -134,11 +171,11 @@ Section blocks() {
                      .fallback = "false",
                      .meaning = "Points of this section are not bonded to those of others, however near: a "
                                 "body of its own, that others meet in contact."}},
-           .hints = {{"Damage Model", reserved}}}}};
+           .hints = {{"Damage Model", bonds_hold}, {"Damage Models", bonds_hold}}}}};
 }
 
 Section contact() {
-  const std::string found = "Accepted for Peridigm's decks; no effect: the program finds out when to search.";
+  const std::string found = "the program finds out when to search";
   Section model = {
       .name = any_name,
       .required = true,
@@ -148,7 +185,8 @@ Section contact() {
            .kind = Kind::choice,
            .choices = {"Short Range Force"},
            .required = true,
-           .meaning = "The law: f = K_c (r_c − d) V₁ V₂ with K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon."},
+           .meaning = "The law: f = K_c (r_c − d) V₁ V₂ with K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon.",
+           .hints = {{"Time-Dependent Short Range Force", "there are no coefficients that depend on time"}}},
           {.name = "Contact Radius",
            .unit = "m",
            .range = positive,
@@ -161,20 +199,20 @@ Section contact() {
       .name = any_name,
       .required = true,
       .meaning = "Who may touch whom. Bonded points never do.",
-      .keys = {
-          {.name = "First Block",
-           .kind = Kind::text,
-           .meaning = "A block of the mesh. Without both blocks: all blocks, with each other and with themselves, but "
-                      "for those that other interactions name."},
-          {.name = "Second Block", .kind = Kind::text, .meaning = "The other block, or the same: self-contact."},
-          {.name = "Contact Model", .kind = Kind::text, .required = true, .meaning = "A section of Models."}}};
+      .keys = {{.name = "First Block",
+                .kind = Kind::text,
+                .meaning =
+                    "A block of the mesh. Without both blocks: all blocks, but for those that other interactions "
+                    "name; in the section `General Contact` each with all others, in `Self Contact` each with itself, "
+                    "in one of another name both."},
+               {.name = "Second Block", .kind = Kind::text, .meaning = "The other block, or the same: self-contact."},
+               {.name = "Contact Model", .kind = Kind::text, .required = true, .meaning = "A section of Models."}}};
   return {
       .name = "Contact",
       .meaning = "Contact between bodies, and of a body with itself. Without this section there is none.",
-      .keys =
-          {verbose,
-           {.name = "Search Radius", .unit = "m", .range = positive, .meaning = found},
-           {.name = "Search Frequency", .kind = Kind::integer, .unit = "steps", .range = {.low = 1}, .meaning = found}},
+      .keys = {verbose, without_effect({.name = "Search Radius", .unit = "m", .range = positive}, found),
+               without_effect({.name = "Search Frequency", .kind = Kind::integer, .unit = "steps", .range = {.low = 1}},
+                              found)},
       .sections = {{.name = "Models", .required = true, .meaning = "Models by name.", .sections = {model}},
                    {.name = "Interactions", .required = true, .meaning = "By any name.", .sections = {interaction}}}};
 }
@@ -265,17 +303,33 @@ Section conditions() {
                            .kind = Kind::text,
                            .fallback = "all",
                            .meaning = "A node set of the mesh or of Node Sets, a block's name, or `all`."}}};
-  Key type = {.name = "Type", .kind = Kind::choice, .required = true, .meaning = "It decides on further keys."};
-  return {.name = "Boundary Conditions",
-          .meaning = "What is imposed on points, initial conditions included.",
-          .sections = {with_cases(std::move(one), std::move(type),
-                                  {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
-                                   along_axis("Prescribed Displacement", "m", "The displacement at every time."),
-                                   along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
-                                   along_axis("Body Force", "N/m³", "A force per reference volume."),
-                                   plane("Symmetry Plane", "The points keep their distance to the plane."),
-                                   rigid_plane(), rigid_cylinder(), rigid_box(), open_end()})}};
+  const std::string no_temperature = "there is no temperature here";
+  Key type = {.name = "Type",
+              .kind = Kind::choice,
+              .required = true,
+              .meaning = "It decides on further keys.",
+              .hints = {{"Initial Displacement", "bodies start undeformed"},
+                        {"Prescribed Temperature", no_temperature},
+                        {"Initial Temperature", no_temperature},
+                        {"Thermal Flux", no_temperature}}};
+  return {
+      .name = "Boundary Conditions",
+      .meaning = "What is imposed on points, initial conditions included.",
+      .any_key = Key{.name = any_name,
+                     .kind = Kind::text,
+                     .meaning = "A set of points as Peridigm writes it: the name holds `Node Set`, the value is the "
+                                "numbers of elements (of points of a text file or grid) from 1, `1 4 7`, or the "
+                                "name of a file of them, relative to the deck's folder."},
+      .sections = {with_cases(std::move(one), std::move(type),
+                              {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."),
+                               along_axis("Prescribed Displacement", "m", "The displacement at every time."),
+                               along_axis("Prescribed Velocity", "m/s", "The velocity at every time."),
+                               along_axis("Body Force", "N/m³", "A force per reference volume."),
+                               plane("Symmetry Plane", "The points keep their distance to the plane."), rigid_plane(),
+                               rigid_cylinder(), rigid_box(), open_end()})}};
 }
+
+const char* const own_solver = "equilibria are found in another way";
 
 Section quasi_static() {
   return {.name = "QuasiStatic",
@@ -301,7 +355,15 @@ Section quasi_static() {
                     .kind = Kind::integer,
                     .range = {.low = 1},
                     .fallback = "20",
-                    .meaning = "Newton's, of one load step, before it is cut."}}};
+                    .meaning = "Newton's, of one load step, before it is cut."},
+                   without_effect({.name = "Absolute Tolerance", .range = positive},
+                                  "what may be left is a part of the forces that act: Tolerance"),
+                   without_effect({.name = "Belos Linear Solver", .kind = Kind::text}, own_solver),
+                   without_effect({.name = "Disable Heuristics", .kind = Kind::boolean}, own_solver),
+                   without_effect({.name = "Damped Newton Diagonal Scale Factor"}, own_solver),
+                   without_effect({.name = "Damped Newton Diagonal Shift Factor"}, own_solver)},
+          .hints = {{"Adaptive Load-Stepping",
+                     "unknown section; a load step that finds no equilibrium is cut in halves by itself"}}};
 }
 
 Section solver() {
@@ -314,6 +376,8 @@ Section solver() {
             .kind = Kind::boolean,
             .fallback = "false",
             .meaning = "With QuasiStatic, each iteration is told."},
+           without_effect({.name = "Peridigm Preconditioner", .kind = Kind::text}, own_solver),
+           without_effect({.name = "Finite Difference Probe Length", .range = positive}, own_solver),
            {.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."},
            {.name = "Final Time", .unit = "s", .required = true, .meaning = "When it ends: after the initial time."}},
       .sections = {{.name = "Verlet",
@@ -333,7 +397,6 @@ Section solver() {
 }
 
 Section output() {
-  const std::string none = "Accepted for Peridigm's decks; no effect.";
   return {.name = "Output",
           .meaning = "The fields of the points in time. Without this section there are none.",
           .keys = {{.name = "Output File Type",
@@ -354,8 +417,10 @@ Section output() {
                     .unit = "s",
                     .range = positive,
                     .meaning = "Every so much time. Where neither is given: 1/20 of the run."},
-                   {.name = "Output Format", .kind = Kind::text, .meaning = none},
-                   {.name = "Parallel Write", .kind = Kind::boolean, .meaning = none}},
+                   without_effect({.name = "Output Format", .kind = Kind::text, .fallback = "BINARY"},
+                                  "an Exodus file is binary"),
+                   without_effect({.name = "Parallel Write", .kind = Kind::boolean, .fallback = "true"},
+                                  "all ranks write one file")},
           .sections = {
               {.name = "Output Variables",
                .meaning = "The fields to write.",
@@ -443,13 +508,20 @@ std::string expected(const Key& key) {
 }
 
 const Section& schema() {
+  static const std::string one_solver =
+      "unknown section; a deck has one 'Solver': runs in several parts are several decks";
   static const Section whole = {
       .meaning = "",
       .keys = {verbose},
       .sections = {discretization(), node_sets(), materials_section(), blocks(), contact(), conditions(), solver(),
                    output(), history(), restart()},
-      .hints = {{"Damage Models", reserved},
-                {"Compute Class Parameters", "unknown section; numbers of the whole body are chosen in 'History'"}}};
+      .hints = {{"Damage Models", bonds_hold},
+                {"Interfaces", "unknown section; there are no interfaces between elements"},
+                {"Problem",
+                 "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "
+                 "deck itself"},
+                {"Solver1", one_solver},
+                {"Solver2", one_solver}}};
   return whole;
 }
 

@@ -47,6 +47,7 @@ struct Key {
   bool required = false;
   std::string meaning = {};
   std::vector<Hint> hints = {};  // about choices
+  std::string no_effect = {};  // why, of keys that other programs need; told where the deck gives another than fallback
 };
 
 inline const char* const any_name = "(any name)";

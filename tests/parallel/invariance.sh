@@ -50,7 +50,7 @@ contact_section='<ParameterList name="Contact">
       </ParameterList>
     </ParameterList>
     <ParameterList name="Interactions">
-      <ParameterList name="General Contact">
+      <ParameterList name="each with all">
         <Parameter name="Contact Model" type="string" value="touch"/>
       </ParameterList>
     </ParameterList>

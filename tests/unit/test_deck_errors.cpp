@@ -112,8 +112,13 @@ const std::vector<Case> names = {
      R"(<ParameterList name="Node Sts"/><ParameterList name="Solver">)",
      "Node Sts: unknown section (did you mean 'Node Sets'?)"},
     {"KeyAmongSections", R"(<ParameterList name="flight">)",
-     R"(<Parameter name="Min X Node Set" type="string" value="1"/><ParameterList name="flight">)",
-     "Boundary Conditions > Min X Node Set: unknown key; expected none here"},
+     R"(<Parameter name="Min X Nodes" type="string" value="1"/><ParameterList name="flight">)",
+     "Boundary Conditions > Min X Nodes: unknown key; expected sections, or sets of points by number, whose names hold "
+     "'Node Set'"},
+    {"SetOfNeitherNumbersNorFile", R"(<ParameterList name="flight">)",
+     R"(<Parameter name="Min X Node Set" type="string" value="0 3"/><ParameterList name="flight">)",
+     "Boundary Conditions > Min X Node Set: '0 3' is neither a list of numbers, the first 1, nor a file of them in the "
+     "deck's folder"},
     {"NoHorizon", R"(<Parameter name="Horizon" type="double" value="0.01"/>)", "",
      "Blocks > plate > Horizon: missing; expected a real number > 0, in m, or 'Horizon Factor' in its place"},
     {"TwoHorizons", R"(<Parameter name="Horizon" type="double" value="0.01"/>)",
@@ -164,8 +169,10 @@ const std::vector<Case> names = {
      "Contact > Models > touch > Contact Radius: '0'; expected a real number > 0, in m"},
     {"ReservedDamage", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Damage Models"/><ParameterList name="Solver">)",
-     "Damage Models: reserved: not in this version"},
-    {"PeridigmsHourglass", "Stabilization Coefficient", "Hourglass Coefficient",
+     "Damage Models: reserved: not in this version (bonds do not break)"},
+    {"PeridigmsHourglassBesideOurs", R"("Stabilization Coefficient" type="double" value="0.05"/>)",
+     R"("Stabilization Coefficient" type="double" value="0.05"/>
+      <Parameter name="Hourglass Coefficient" type="double" value="0.02"/>)",
      "Materials > copper > Hourglass Coefficient: unknown key; 'Stabilization Coefficient' is its counterpart, but "
      "another quantity: in units of (λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},
     {"StabilizationOfOrdinaryBonds", R"(value="Elastic Correspondence")", R"(value="Elastic")",

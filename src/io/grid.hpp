@@ -1,0 +1,18 @@
+// Points without a file: the centres of the equal cells of a block.
+#pragma once
+
+#include <array>
+
+#include "points/cloud.hpp"
+
+namespace strut {
+class Communicator;
+}
+
+namespace strut::io {
+
+// Collective. `points` cells along x, y, z, x fastest, in the block "block_1"; each rank receives a contiguous slice.
+PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
+                     const Communicator& communicator);
+
+}  // namespace strut::io
