@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/timing.hpp"
+#include "solvers/line_search.hpp"
 #include "solvers/near_matrix.hpp"
 
 namespace strut {
@@ -18,11 +19,15 @@ constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 // Of the error, where a point begins to touch a tool: the residual is then that of a stiff spring, and what the body
 // will carry a small part of it.
 constexpr double of_touch = 1e-2;
-constexpr int most_products = 800;
+constexpr int most_products = 400;
 
-// Of a step, in the search along it. Beyond a kink, a point that begins to touch or to flow, more force may be left
-// than before; close to it there is always less. An evaluation costs a hundredth of the step.
-constexpr int most_halvings = 10;
+// Damping: where it begins, and below which it ends; factors where the tangent is not positive along the step, where
+// only a short part of the step is downhill, and where the forces fall, quickly or at all.
+constexpr double first_damping = 1e-2, least_damping = 1e-5;
+constexpr double where_unstable = 10, where_short = 4, where_quick = 0.1, where_slow = 0.4;
+constexpr double short_part = 0.1, long_part = 0.5;  // of a step
+constexpr int most_damped = 8;                       // iterations: what takes more is left to relaxation
+constexpr int most_products_damped = 200;            // directions are not worth more, and GMRES not a restart
 
 // A hierarchy is kept until systems take so much longer than just after it was made.
 constexpr double wear = 1.5;
@@ -34,10 +39,6 @@ bool is_a_way(const Field& way, const Body& body) {
     farthest = std::max(farthest, way[i].norm() / body.domain.cloud.spacings[i]);
   }
   return body.domain.communicator.max(farthest) > 1e-9;
-}
-
-void move_by(Body& body, double factor, const Field& step) {
-  for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * step[i].array();
 }
 
 }  // namespace
@@ -55,14 +56,36 @@ double Newton::mean_spring(const BlockRows& matrix) const {
   return sums[0] / sums[1];
 }
 
+// Without what is not the body's own: contact would keep points from sliding, too.
+void Newton::renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra) {
+  drag_.resize(extra.size());
+  for (std::size_t i = 0; i < extra.size(); ++i) {
+    const Tensor& freedom = equilibrium_.held().freedom(static_cast<int>(i));
+    const Tensor own = freedom * (matrix.blocks[matrix.start[i]] - extra[i]) * freedom;
+    drag_[i] = own.trace() / std::max(1.0, freedom.trace());
+  }
+}
+
+void Newton::damp_less(double factor) {
+  damping_ *= factor;
+  if (damping_ < least_damping) damping_ = 0;
+}
+
+void Newton::damp_more(double factor) { damping_ = std::max(first_damping, factor * damping_); }
+
 void Newton::renew_preconditioner() {
   static Teuchos::Time& timer = phase("Preconditioner");
   const Timed timed(timer);
   Body& body = equilibrium_.body();
-  const BlockRows matrix =
-      near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), equilibrium_.contact_springs(), krylov_.first());
+  std::vector<Tensor> extra = equilibrium_.contact_springs();
+  if (damping_ > 0) {
+    for (std::size_t i = 0; i < extra.size(); ++i) extra[i] += damping_ * drag_[i] * Tensor::Identity();
+  }
+  const BlockRows matrix = near_matrix(body, equilibrium_.tangents(), equilibrium_.held(), extra, krylov_.first());
   krylov_.precondition(matrix, rigid_motions(body));
   spring_ = mean_spring(matrix);
+  renew_drag(matrix, extra);
+  damping_when_new_ = damping_;
   preconditioner_due_ = false;
   products_when_new_ = 0;
 }
@@ -71,7 +94,8 @@ void Newton::renew_preconditioner() {
 int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
   equilibrium_.linearise();
   const bool changed = equilibrium_.contact_has_changed();
-  if (preconditioner_due_ || changed) renew_preconditioner();
+  const bool worn = damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
+  if (preconditioner_due_ || changed || worn) renew_preconditioner();
   const Held& held = equilibrium_.held();
   Field right = equilibrium_.residual();
   if (moves) {
@@ -84,12 +108,17 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     Field free = in;
     held.remove(free);
     equilibrium_.apply(free, out);
+    if (damping_ > 0) {
+      for (std::size_t i = 0; i < in.size(); ++i) out[i] += damping_ * drag_[i] * free[i];
+    }
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
-  const Krylov::Outcome outcome =
-      changed ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most_products, step)
-              : krylov_.solve(product, right, Krylov::Measure::residual, accuracy, most_products, step);
+  const int most = damping_ > 0 ? most_products_damped : most_products;
+  const Krylov::Outcome outcome = changed
+                                      ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most, step)
+                                      : krylov_.solve(product, right, Krylov::Measure::residual, accuracy, most, step);
+  if (!outcome.converged) damp_more(where_unstable);
   held.remove(step);
   for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];
   if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
@@ -97,32 +126,39 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   return outcome.iterations;
 }
 
-// Along the step to where fewer forces are left: the whole of it, or a half, a quarter … ; where none of these leaves
-// fewer, to the least found. A step that moves what is held is taken whole: there is nothing to compare with.
+// The whole of the step where it leaves fewer forces, else as much of it as is downhill. A step that moves what is held
+// is taken whole: there is nothing to compare with. What damping keeps back is the motion that the tangent finds soft
+// or unstable: it is Levenberg's and Marquardt's, or an implicit step of a motion through something viscous.
 Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   Body& body = equilibrium_.body();
-  double taken = 1;
-  move_by(body, taken, step);
-  Imbalance next = equilibrium_.evaluate();
-  double best = taken;
-  Imbalance least = next;
-  for (int n = 0; n < most_halvings && !moves; ++n) {
-    if (!next.failed && next.norm < (1 - 1e-4 * taken) * now.norm) return next;
-    move_by(body, -0.5 * taken, step);
-    taken *= 0.5;
-    next = equilibrium_.evaluate();
-    if (least.failed || (!next.failed && next.norm < least.norm)) least = next, best = taken;
+  const double power = power_along(equilibrium_, body, step);
+  move_by(body, 1, step);
+  const Imbalance next = equilibrium_.evaluate();
+  if (moves) return next;
+  if (damping_ > 0) ++damped_;
+  if (!next.failed && next.norm < (1 - 1e-4) * now.norm) {
+    damp_less(next.norm < 0.5 * now.norm ? where_quick : where_slow);
+    return next;
   }
-  if (best == taken) return next;
-  move_by(body, best - taken, step);
-  return equilibrium_.evaluate();
+  if (power <= 0) {
+    damp_more(where_unstable);
+    move_by(body, -1, step);
+    return equilibrium_.evaluate();
+  }
+  double drag = 0;
+  for (std::size_t i = 0; i < step.size(); ++i) drag += damping_ * drag_[i] * step[i].squaredNorm();
+  const Stop stop = search_downhill(equilibrium_, step, power, body.domain.communicator.sum(drag), next);
+  if (stop.fraction < short_part) damp_more(where_short);
+  if (stop.fraction > long_part) damp_less(where_slow);
+  return stop.left;
 }
 
 void Newton::tell(const Search& search, int products) const {
   if (!audience_.iterations) return;
-  char line[120];
-  std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N%s", search.iterations + 1,
-                products, search.left.norm, search.left.scale, search.left.failed ? "  failed" : "");
+  char line[160];
+  std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N, damping %.0e%s",
+                search.iterations + 1, products, search.left.norm, search.left.scale, damping_,
+                search.left.failed ? "  failed" : "");
   audience_.iterations(line);
 }
 
@@ -132,7 +168,9 @@ Search Newton::solve(const Tolerance& tolerance) {
   Field way = equilibrium_.held().way_left(equilibrium_.body()), step;
   bool moves = is_a_way(way, equilibrium_.body());
   double before = search.left.norm;
+  damping_ = 0, damped_ = 0;
   for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
+    if (damped_ == most_damped) break;
     if (!moves && is_balanced(search.left, tolerance)) break;
     const double gain = search.left.norm / before;
     const double enough = 0.3 * tolerance.relative * search.left.scale / search.left.norm;

@@ -1,4 +1,5 @@
-// Equilibrium by Newton's method: the consistent tangent, GMRES, a line search.
+// Equilibrium by Newton's method: the consistent tangent, GMRES, a search along the step; and damping where the tangent
+// leads nowhere.
 #pragma once
 
 #include "solvers/krylov.hpp"
@@ -21,6 +22,9 @@ class Newton {
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void renew_preconditioner();
   double mean_spring(const BlockRows& matrix) const;
+  void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
+  void damp_less(double factor);
+  void damp_more(double factor);
   void tell(const Search& search, int products) const;
 
   Equilibrium& equilibrium_;
@@ -29,6 +33,11 @@ class Newton {
   double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true;
+
+  // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.
+  double damping_ = 0, damping_when_new_ = 0;
+  std::vector<double> drag_;  // N/m: what a point's near neighbours hold it with
+  int damped_ = 0;            // iterations with damping in this search
 };
 
 }  // namespace strut

@@ -12,7 +12,9 @@ namespace strut {
 namespace {
 
 constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
-constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried where Newton fails
+constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried from the start of a step
+constexpr int most_turns = 6;            // of relaxation and Newton, where Newton stalls
+constexpr int turn = 125;                // iterations of relaxation in each, for one of Newton that the deck allows
 constexpr int most_rounds = 30;          // of the multipliers of tools, in a step
 constexpr int easily = 6;                // Newton's iterations of a round after which the next step may be longer
 constexpr double round_off = 1e-9;
@@ -68,17 +70,30 @@ Search QuasiStatic::search_from_start(bool with_tangent) {
   return whole;
 }
 
+// Where Newton stalls the body is about to jump, folding or crushed in layers: relaxation goes on from there, through
+// states where the tangent is of no use, and Newton ends what it leaves.
 Search QuasiStatic::search(bool with_tangent) {
-  const Search found = with_tangent ? newton_.solve(control_.tolerance) : relaxation_.solve(control_.tolerance);
+  const Tolerance& tolerance = control_.tolerance;
+  Search found = with_tangent ? newton_.solve(tolerance) : relaxation_.solve(tolerance, Relaxation::most(tolerance));
+  const auto goes_on = [&] { return with_tangent && !found.converged && !found.interrupted && !found.left.failed; };
+  const auto add = [&](Search more) {
+    more.iterations += found.iterations, more.evaluations += found.evaluations;
+    found = more;
+  };
+  for (int n = 0; n < most_turns && goes_on(); ++n) {
+    add(relaxation_.solve(tolerance, turn * tolerance.most_iterations));
+    if (goes_on()) add(newton_.solve(tolerance));
+  }
   iterations_ += found.iterations;
   evaluations_ += found.evaluations;
   return found;
 }
 
-// Relaxation takes many times as long as Newton: it is left for steps that Newton could not make by being cut.
+// Where Newton turned points inside out there is nothing to go on from: relaxation is tried from the start, but it
+// takes many times as long as Newton, and is left for steps that could not be made by being cut.
 Search QuasiStatic::attempt() {
   const Search search = search_from_start(control_.with_tangent);
-  if (search.converged || search.interrupted || !control_.with_tangent || dt_ > patience * longest_) return search;
+  if (!search.left.failed || search.interrupted || !control_.with_tangent || dt_ > patience * longest_) return search;
   equilibrium_.go_back();
   return search_from_start(false);
 }

@@ -10,7 +10,6 @@ namespace {
 
 constexpr int ramp = 40;      // iterations over which what is held is moved
 constexpr int renewal = 200;  // iterations after which the masses follow the deformation
-constexpr int per_newton_iteration = 1000;
 
 // A step of 1 is so much of the stable one, which shrinks while masses are not renewed.
 constexpr double safety = 0.8;
@@ -50,7 +49,7 @@ void Relaxation::renew_masses() {
   body.density = density;
 }
 
-Search Relaxation::solve(const Tolerance& tolerance) {
+Search Relaxation::solve(const Tolerance& tolerance, int most) {
   Body& body = equilibrium_.body();
   const Communicator& ranks = body.domain.communicator;
   const Held& held = equilibrium_.held();
@@ -58,7 +57,6 @@ Search Relaxation::solve(const Tolerance& tolerance) {
   search.left = equilibrium_.evaluate();
   Field velocity(body.owned(), Vector::Zero()), before;
   double damping = 0;
-  const int most = per_newton_iteration * tolerance.most_iterations;
   for (int n = 0; n < most && !search.left.failed; ++n) {
     if (n % renewal == 0) {
       renew_masses();

@@ -11,9 +11,11 @@ class Relaxation {
  public:
   Relaxation(Equilibrium& equilibrium, const Audience& audience) : equilibrium_(equilibrium), audience_(audience) {}
 
-  // Collective. From the present places, within the step that the equilibrium has begun. Its own count of iterations
-  // is some thousand times Newton's.
-  Search solve(const Tolerance& tolerance);
+  // Of iterations, which are some thousand times Newton's.
+  static int most(const Tolerance& tolerance) { return 1000 * tolerance.most_iterations; }
+
+  // Collective. From the present places, within the step that the equilibrium has begun.
+  Search solve(const Tolerance& tolerance, int most);
 
   void begin_anew() { stable_ = {}; }  // the next search does not depend on earlier ones
 
