@@ -163,6 +163,7 @@ void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) 
   for (const int block : blocks_) {
     numbers.insert(numbers.end(), std::begin(reaches[block].along), std::end(reaches[block].along));
   }
+  numbers.push_back(deepest().penetration);
 }
 
 void Contact::take_agreed(std::span<const double> numbers, double dt) {
@@ -170,6 +171,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
   double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
   for (std::size_t m = 0; m < meetings_.size(); ++m) stiffness += numbers[m];
   stiffness_ = std::max(stiffness, decay * stiffness_);
+  penetration_ = numbers.back();
   const auto reach = [&](int block) {
     const auto at = std::find(blocks_.begin(), blocks_.end(), block) - blocks_.begin();
     return numbers.data() + meetings_.size() + 6 * at;
@@ -194,6 +196,12 @@ double Contact::energy() const {
   double sum = 0;
   for (const Meeting& meeting : meetings_) sum += meeting.tally.energy;
   return sum;
+}
+
+Deepest Contact::deepest() const {
+  Deepest deepest;
+  for (const Meeting& meeting : meetings_) deepest.take(meeting.tally.deepest);
+  return deepest;
 }
 
 FrictionWork Contact::friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const {

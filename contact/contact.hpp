@@ -50,6 +50,10 @@ class Contact {
   double stiffness() const { return stiffness_; }  // a bound of ω² of all touching points, 1/s²; as last agreed
   double energy() const;                           // stored by this rank's points, J
 
+  // Of the last forces: over all ranks, as last agreed, and of this rank's points.
+  double penetration() const { return penetration_; }
+  Deepest deepest() const;
+
   // Of the last forces of friction on this rank's points, over a kick of length `kick` (s) from the velocities `before`
   // to those `after`.
   FrictionWork friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const;
@@ -79,7 +83,7 @@ class Contact {
 
   std::vector<Meeting> meetings_;
   std::vector<int> blocks_;  // that take part
-  double stiffness_ = 0;
+  double stiffness_ = 0, penetration_ = 0;
   int searches_ = 0, renewals_ = 0;
 };
 

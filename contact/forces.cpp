@@ -101,6 +101,7 @@ Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, st
     Tensor springs = Tensor::Zero();
     for_each_touch(pairs, model, k, [&](const Touch& touch) {
       force -= touch.force() * touch.direction;
+      tally.deepest.take({1 - touch.distance / touch.touching, pairs.owned[k]});
       tally.energy += 0.5 * stored_energy(touch.stiffness, touch.touching, touch.distance);
       const double mass = pairs.masses[k];
       const double weight = touch.stiffness * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));

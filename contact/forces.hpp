@@ -7,8 +7,20 @@
 
 namespace strut::contact {
 
+// The owned point that another has come nearest to, as a part of the distance at which the two touch: 0 where none
+// touches, 1 at the same place.
+struct Deepest {
+  double penetration = 0;
+  int point = -1;  // local index in the body
+
+  void take(const Deepest& other) {
+    if (other.penetration > penetration) *this = other;
+  }
+};
+
 // Of this rank's points.
 struct Tally {
+  Deepest deepest;
   double energy = 0;  // stored by the penalty, J: half of each pair
   // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n. For a
   // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)².

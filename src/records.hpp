@@ -79,17 +79,18 @@ struct Records {
     history.keep(archive, time);
   }
   // Collective. Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked
-  // where a line is written.
+  // where a line is written. Returns its ledger.
   template <class Solver, class OfConditions>
-  void write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
+  std::optional<Ledger> write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
     const double now = solver.time();
     const auto wanted = [&](const auto& sink) {
       return sink.enabled() && !sink.has(now) && (last || sink.schedule.due(solver.steps(), now));
     };
     if (wanted(frames)) frames.write(now, body);
-    if (wanted(history)) {
-      history.write(solver.ledger(), reactions(), body);
-    }
+    if (!wanted(history)) return std::nullopt;
+    const Ledger ledger = solver.ledger();
+    history.write(ledger, reactions(), body);
+    return ledger;
   }
 
   Frames frames;

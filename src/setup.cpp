@@ -413,14 +413,15 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   std::int64_t dropped = 0;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   Domain domain = healthy_domain(deck, std::move(cloud), communicator, dropped);
-  Scene scene{make_body(std::move(domain), influence_of(deck.discretization.influence), materials),
-              {},
-              {},
-              {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling},
-              quasi_static_of(deck.solver),
-              0,
-              0,
-              dropped};
+  Scene scene{
+      make_body(std::move(domain), influence_of(deck.discretization.influence), materials),
+      {},
+      {},
+      {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
+      quasi_static_of(deck.solver),
+      0,
+      0,
+      dropped};
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
   add_conditions(deck, scene, communicator);

@@ -11,6 +11,7 @@
 #include "restarts.hpp"
 #include "setup.hpp"
 #include "views.hpp"
+#include "watch.hpp"
 
 namespace strut {
 
@@ -29,12 +30,25 @@ void say(const Communicator& communicator, const std::string& text) {
   if (communicator.rank() == 0) std::cout << text << std::flush;
 }
 
+// On the rank that has something to tell.
+void tell(const std::string& line) { std::cout << line << std::endl; }
+
+// The fields as they are, where a run ends in an error: they show where. What went wrong first is what is told.
+void leave_frame(Records& records, double time, const Body& body) {
+  if (!records.frames.enabled() || records.frames.has(time)) return;
+  try {
+    records.frames.write(time, body);
+  } catch (const Error&) {
+  }
+}
+
 // Everything after set-up: the loop over steps. Returns the ledger at the end.
 Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Records& records,
                     Restarts& restarts) {
   using Wish = CentralDifference::Wish;
   const double final_time = deck.solver.final_time;
   const Body& body = scene.body;
+  Watch watch(deck.watch, body, tell);
   Progress progress(body.domain.communicator, deck.solver.initial_time, solver.time(), final_time);
   bool warned = false;
   bool ending = false;  // a step after the ranks agreed to stop, so that its energies are known everywhere
@@ -48,32 +62,30 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
       say(body.domain.communicator, step_warning(scene.control, solver.stable_step(), now));
       warned = true;
     }
-    records.write(
+    watch.look_at_step(solver);
+    const auto ledger = records.write(
         body, solver, [&] { return solver.reactions(); }, last);
+    if (ledger) watch.look_at_energy(*ledger);
     progress.show(solver.steps(), now, solver.dt());
     if (last) break;
     solver.request(signalled ? Wish::stop : restarts.due_by_the_clock() ? Wish::save : Wish::none);
     const double next = now + solver.dt();
     ending = solver.agreed() == Wish::stop;
-    try {
-      solver.move(next >= final_time || ending || records.due(solver.steps() + 1, next));
-    } catch (const Error&) {
-      // The fields as they are now show where.
-      if (records.frames.enabled()) records.frames.write(solver.time(), body);
-      throw;
-    }
+    solver.move(next >= final_time || ending || records.due(solver.steps() + 1, next));
   }
   progress.finish();
   return solver.ledger();
 }
 
-// The same by load steps. One that fails leaves the last equilibrium in the files.
+// The same by load steps.
 Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Records& records, Restarts& restarts) {
   const int conditions = records.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   const Communicator& ranks = scene.body.domain.communicator;
+  Watch watch(deck.watch, scene.body, tell);
   const auto record_now = [&](bool last) {
-    records.write(
+    const auto ledger = records.write(
         scene.body, solver, [&] { return solver.reactions(conditions); }, last);
+    if (ledger) watch.look_at_energy(*ledger);
   };
   bool ending = false, save = false;
   for (;;) {
@@ -119,6 +131,7 @@ bool carry_out(const deck::Deck& deck, Scene& scene, Records& records, Solver& s
     try {
       return through(restarts);
     } catch (const Error& error) {
+      leave_frame(records, solver.time(), scene.body);
       throw Error(error.what() + restarts.hint());
     }
   }();

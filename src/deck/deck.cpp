@@ -454,6 +454,15 @@ Restart restart(const Values* values, const fs::path& deck, Problems& problems) 
   return restart;
 }
 
+Watch watch(const Values* values) {
+  if (!values) return {};
+  return {.stops = values->text("Beyond Limits") == "Stop",
+          .stops_inverted = values->text("Inverted Points") == "Stop",
+          .balance_error = values->real("Balance Error"),
+          .smallest_step = values->real("Smallest Step"),
+          .penetration = values->real("Penetration")};
+}
+
 // What has no meaning where nothing has inertia.
 void check_quasi_static(const Deck& deck, Problems& problems) {
   if (!deck.solver.quasi_static) return;
@@ -492,6 +501,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.output = output(values.find("Output"), deck.solver, problems);
   deck.history = history(values.find("History"), deck.solver, problems);
   deck.restart = restart(values.find("Restart"), file, problems);
+  deck.watch = watch(values.find("Watch"));
   return deck;
 }
 

@@ -158,6 +158,15 @@ struct Restart {
   double minutes = 30;             // and every so many of the clock on the wall
 };
 
+// What ends a run that has gone wrong.
+struct Watch {
+  bool stops = true;            // else it is told once
+  bool stops_inverted = true;   // else points that are turned inside out go on as masses
+  double balance_error = 0.5;   // of the largest energy
+  double smallest_step = 1e-3;  // of the first step
+  double penetration = 0.95;    // of the distance at which points touch
+};
+
 struct Deck {
   std::filesystem::path file;
   std::string text;  // as it was read
@@ -172,6 +181,7 @@ struct Deck {
   Output output;
   History history;
   Restart restart;
+  Watch watch;
   std::vector<std::string> notes;  // what was accepted but has no effect, or another than in another program
 };
 

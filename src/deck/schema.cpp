@@ -473,7 +473,42 @@ Section restart() {
                     .unit = "min",
                     .range = positive,
                     .fallback = "30",
-                    .meaning = "And every so many minutes of computing."}}};
+                    .meaning = "And every so many minutes of computing."},
+                   without_effect({.name = "Restart", .kind = Kind::boolean, .fallback = "true"},
+                                  "what it takes to go on is kept in any case, and `strut --continue deck.xml` does")}};
+}
+
+Section watch() {
+  const std::vector<std::string> actions = {"Stop", "Continue"};
+  return {.name = "Watch",
+          .meaning =
+              "What ends a run that has gone wrong, with the point, the likely cause and a last frame. A number "
+              "that is not finite always does.",
+          .keys = {{.name = "Beyond Limits",
+                    .kind = Kind::choice,
+                    .choices = actions,
+                    .fallback = "Stop",
+                    .meaning = "What happens where a limit of this section is passed. Continue: it is told once."},
+                   {.name = "Inverted Points",
+                    .kind = Kind::choice,
+                    .choices = actions,
+                    .fallback = "Stop",
+                    .meaning = "What happens where a point is turned inside out (det F ≤ 0). Continue: it goes on as a "
+                               "mass without stress while it is; in explicit steps."},
+                   {.name = "Balance Error",
+                    .range = positive,
+                    .fallback = "0.5",
+                    .meaning = "The largest error of the balance of energy, as a part of the largest energy, looked at "
+                               "with each line of the history after the first ten."},
+                   {.name = "Smallest Step",
+                    .range = {.low = 0, .high = 1},
+                    .fallback = "1e-3",
+                    .meaning = "As a part of the first one; in explicit steps."},
+                   {.name = "Penetration",
+                    .range = {.low = 0, .high = 1},
+                    .fallback = "0.95",
+                    .meaning = "How far two points may come nearer than the distance at which they touch, as a part of "
+                               "it; in explicit steps."}}};
 }
 
 }  // namespace
@@ -514,7 +549,7 @@ const Section& schema() {
       .meaning = "",
       .keys = {verbose},
       .sections = {discretization(), node_sets(), materials_section(), blocks(), contact(), conditions(), solver(),
-                   output(), history(), restart()},
+                   output(), history(), restart(), watch()},
       .hints = {{"Damage Models", bonds_hold},
                 {"Interfaces", "unknown section; there are no interfaces between elements"},
                 {"Problem",

@@ -358,8 +358,7 @@ Energies stored_energies(const Body& body) {
   return {values[0], values[1], values[2]};
 }
 
-std::string describe(const Failure& failure, const Body& body) {
-  const int i = failure.point;
+std::string locate(const Body& body, int i) {
   const PointCloud& cloud = body.domain.cloud;
   const auto place = [](const Vector& x) {
     std::ostringstream text;
@@ -368,7 +367,13 @@ std::string describe(const Failure& failure, const Body& body) {
   };
   std::ostringstream text;
   text << word(cloud.at) << " " << cloud.element_ids[i] << " of block " << cloud.block_names[cloud.blocks[i]]
-       << ", reference position " << place(cloud.positions[i]) << " m, now at " << place(body.current(i)) << " m: ";
+       << ", reference position " << place(cloud.positions[i]) << " m, now at " << place(body.current(i)) << " m";
+  return text.str();
+}
+
+std::string describe(const Failure& failure, const Body& body) {
+  std::ostringstream text;
+  text << locate(body, failure.point) << ": ";
   switch (failure.kind) {
     case Failure::Kind::inverted:
       text << "the deformation gradient has no positive determinant (the point is turned inside out, or its place is "

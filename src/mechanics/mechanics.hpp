@@ -60,7 +60,10 @@ struct Energies {
 // Collective: sums over all ranks, after a step with_views.
 Energies stored_energies(const Body& body);
 
-// "element 17 of block foam, reference position (…), now at (…): …": what the failure is and its likely cause.
+// "element 17 of block foam, reference position (…) m, now at (…) m"
+std::string locate(const Body& body, int i);
+
+// The same, and what the failure is and its likely cause.
 std::string describe(const Failure& failure, const Body& body);
 
 }  // namespace strut

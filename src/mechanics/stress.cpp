@@ -151,6 +151,11 @@ struct Update {
   void store_failed(const Group& g, int l) const {
     MaterialPoint& point = *g.points[l];
     point.stabilization = point.mean_stabilization = 0;
+    drop_forces(g, l);
+  }
+
+  void drop_forces(const Group& g, int l) const {
+    const MaterialPoint& point = *g.points[l];
     const int i = block.points[g.k[l]];
     body.force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
     if (block.material.mean_stabilization > 0) {
@@ -253,6 +258,7 @@ struct Update {
       }
       if (!(J[l] > 0)) {  // NaN too
         failure.report(g.k[l], Failure::Kind::inverted);
+        drop_forces(g, l);
         continue;
       }
       store_point(g, l, polar, F, A);

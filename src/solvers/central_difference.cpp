@@ -213,7 +213,8 @@ void CentralDifference::move(bool with_views) {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{report.failure ? 1.0 : 0.0, static_cast<double>(wish_), report.pace, report.damping};
+  std::vector<double> agreed{static_cast<double>(gravity(report)), static_cast<double>(wish_), report.pace,
+                             report.damping};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(crowd(), agreed);
   {
@@ -226,12 +227,22 @@ void CentralDifference::check(const StepReport& report) {
   pace_ = agreed[2];
   damping_ = agreed[3];
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
-  if (agreed[0] == 0) return;
+  went_on_ = agreed[0] == passable;
+  warning_.clear();
+  if (agreed[0] == harmless) return;
   std::ostringstream text;
   if (report.failure) {
     text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);
   }
-  raise_together(body_.domain.communicator, text.str());
+  if (!went_on_) raise_together(body_.domain.communicator, text.str());
+  warning_ = text.str();
+}
+
+// A point without a place takes others with it: there is no going on.
+CentralDifference::Gravity CentralDifference::gravity(const StepReport& report) const {
+  if (!report.failure) return harmless;
+  const bool inverted = report.failure->kind == Failure::Kind::inverted;
+  return control_.with_inverted && inverted && body_.current(report.failure->point).allFinite() ? passable : fatal;
 }
 
 void CentralDifference::keep(Archive& archive) {

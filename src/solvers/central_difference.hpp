@@ -13,7 +13,8 @@ namespace strut {
 struct StepControl {
   double fixed_dt = 0;  // s; 0: from the stable step
   double safety_factor = 0.8;
-  bool subcycling = true;  // of the points that limit the step; none with a fixed one
+  bool subcycling = true;      // of the points that limit the step; none with a fixed one
+  bool with_inverted = false;  // goes on with points that are turned inside out, as masses while they are
 };
 
 class CentralDifference {
@@ -47,6 +48,10 @@ class CentralDifference {
   // Collective; after kick(). Forces at time(): impulses over the times that they stand for.
   Reactions reactions() const;
 
+  // What the last move() went on with, on the ranks that have such a point; the same on all ranks: whether any has.
+  const std::string& warning() const { return warning_; }
+  bool went_on() const { return went_on_; }
+
   // Of any rank: agreed upon by all at the end of move(), the greatest wish of all.
   enum class Wish { none, save, stop };
   Wish agreed() const { return agreed_; }
@@ -69,6 +74,8 @@ class CentralDifference {
   StepReport substep(int order, double t);
   PointSteps point_steps() const { return {dt_, &subcycles_.motions()}; }
   void start();
+  enum Gravity { harmless, passable, fatal };
+  Gravity gravity(const StepReport& report) const;
   void check(const StepReport& report);
   double imbalance(const Ledger& now) const;
 
@@ -89,6 +96,8 @@ class CentralDifference {
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;
   bool regroup_due_ = true, estimate_due_ = true;
+  std::string warning_;
+  bool went_on_ = false;
   Wish wish_ = Wish::none, agreed_ = Wish::none;
 };
 

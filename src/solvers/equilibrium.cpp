@@ -207,13 +207,8 @@ std::string Equilibrium::weakest_point() const {
   const double highest = ranks.max(rating);
   std::string text;
   if (rating == highest && worst >= 0) {
-    const PointCloud& cloud = body_.domain.cloud;
-    const Vector X = cloud.positions[worst], y = body_.current(worst);
     std::ostringstream line;
-    line << "the largest force that is left, " << largest << " N, is at " << word(cloud.at) << " "
-         << cloud.element_ids[worst] << " of block " << cloud.block_names[cloud.blocks[worst]]
-         << ", reference position (" << X[0] << ", " << X[1] << ", " << X[2] << ") m, now at (" << y[0] << ", " << y[1]
-         << ", " << y[2] << ") m";
+    line << "the largest force that is left, " << largest << " N, is at " << locate(body_, worst);
     text = failure_ ? describe(*failure_, body_) : line.str();
   }
   return text;
