@@ -90,8 +90,8 @@ const std::vector<Case> values = {
       <Parameter name="Axis" type="string" value="0 0 1"/> <Parameter name="Radius" type="double" value="0"/>)",
      "Boundary Conditions > wall > Radius: '0'; expected a real number > 0, in m"},
     {"ExpressionOfUnknown", "1e-3*y*t", "1e-3*q",
-     "Boundary Conditions > pull > Value: '1e-3*q' is not an expression in x, y, z, t: Error at line 1: Use of "
-     "undeclared variable: q; expected a number or an expression in x, y, z, t, in m"},
+     "Boundary Conditions > pull > Value: '1e-3*q' is not an expression in x, y, z, t: at character 6, before "
+     "'q': 'q' is not a variable; expected a number or an expression in x, y, z, t, in m"},
     {"ExpressionTooLarge", "1e-3*y*t", "1e999",
      "Boundary Conditions > pull > Value: '1e999' is not finite; expected a number or an expression in x, y, z, t, in "
      "m"},
