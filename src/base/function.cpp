@@ -1,5 +1,6 @@
 #include "base/function.hpp"
 
+#include <cctype>
 #include <charconv>
 #include <optional>
 
@@ -20,9 +21,12 @@ std::optional<double> as_number(const std::string& text) {
   return number;
 }
 
+// For an error: what is long cut off, and no characters that would end the line or the text.
 std::string shortened(const std::string& text) {
-  constexpr std::size_t shown = 200;
-  return text.size() <= shown ? text : text.substr(0, shown) + "…";
+  constexpr std::size_t longest = 200;
+  std::string shown = text.substr(0, longest);
+  for (char& c : shown) c = std::iscntrl(static_cast<unsigned char>(c)) != 0 ? '?' : c;
+  return text.size() <= longest ? shown : shown + "…";
 }
 
 }  // namespace
