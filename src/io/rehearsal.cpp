@@ -70,9 +70,9 @@ int status_of(pid_t process) {
 }  // namespace
 
 bool is_hdf5(const std::filesystem::path& file) {
-  std::string magic(8, '\0');
-  std::ifstream(file, std::ios::binary).read(magic.data(), 8);
-  return magic == "\x89HDF\r\n\x1a\n";
+  std::string magic(4, '\0');  // the rest may be damaged
+  std::ifstream(file, std::ios::binary).read(magic.data(), 4);
+  return magic == "\x89HDF";
 }
 
 void rehearse(const std::filesystem::path& file, const std::function<void()>& read) {
