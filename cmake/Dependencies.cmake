@@ -27,4 +27,3 @@ strut_trilinos(trilinos_tpetra tpetra teuchosparameterlist teuchoscomm teuchosco
 strut_trilinos(trilinos_krylov muelu muelu-adapters muelu-interface belostpetra belos ifpack2 xpetra xpetra-sup
   amesos2 tpetra teuchosnumerics teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
 strut_trilinos(trilinos_zoltan zoltan)
-strut_trilinos(trilinos_pamgen pamgen_extras pamgen)

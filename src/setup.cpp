@@ -39,10 +39,21 @@ std::size_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, Poi
   return found;
 }
 
+// The value at X; throws Error where the arithmetic has no result (the root of a negative number, a division by zero).
+double finite(const Function& function, const Vector& X, double t) {
+  const double value = function(X[0], X[1], X[2], t);
+  if (std::isfinite(value)) return value;
+  std::ostringstream text;
+  text << "'" << function.text() << "' is " << value << " at (" << X[0] << ", " << X[1] << ", " << X[2]
+       << ") m, t = " << t << " s; expected a number everywhere";
+  throw Error(text.str());
+}
+
 void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vector& X = cloud.positions[i];
-    if (set.where(X[0], X[1], X[2], 0) != 0) cloud.sets[i] |= bit;
+    const double value = finite(set.where, X, 0);
+    if (value != 0) cloud.sets[i] |= bit;
   }
 }
 
@@ -288,8 +299,7 @@ Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicat
 
 void set_initial_velocity(const deck::Condition& condition, const std::vector<int>& points, double t, Body& body) {
   for (const int i : points) {
-    const Vector& X = body.domain.positions[i];
-    body.velocity[i][condition.component] = condition.value(X[0], X[1], X[2], t);
+    body.velocity[i][condition.component] = finite(condition.value, body.domain.positions[i], t);
   }
 }
 
@@ -307,6 +317,7 @@ Shape shape_of(const deck::Condition& condition) {
 // `place`: of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, double t, Scene& scene) {
   std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
+  for (const int i : points) finite(condition.value, scene.body.domain.positions[i], t);
   Conditions& all = scene.conditions;
   const Vector normal = condition.normal.normalized();
   switch (condition.type) {

@@ -6,5 +6,8 @@ target_link_libraries(strut_foam PUBLIC strut_io PRIVATE ${VORO_LIBRARY})
 # The same seed gives the same foam on any machine, with fused multiply-add or without.
 target_compile_options(strut_foam PRIVATE -ffp-contract=off)
 
-add_executable(strut-mesh mesh.cpp mesh/recipe.cpp mesh/section.cpp mesh/layers.cpp mesh/body.cpp mesh/foam.cpp mesh/arrays.cpp)
-target_link_libraries(strut-mesh PRIVATE strut_foam)
+add_library(strut_recipe STATIC mesh/recipe.cpp mesh/section.cpp mesh/layers.cpp mesh/body.cpp mesh/foam.cpp mesh/arrays.cpp)
+target_link_libraries(strut_recipe PUBLIC strut_foam)
+
+add_executable(strut-mesh mesh.cpp)
+target_link_libraries(strut-mesh PRIVATE strut_recipe)

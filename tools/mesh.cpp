@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
@@ -17,8 +18,17 @@ namespace {
 
 constexpr std::size_t most_sets = 64;  // that a run can tell apart
 
-strut::io::Mesh from_recipe(const std::string& recipe) {
+// What is read is not written over, by whatever name or link.
+void check_output(const std::string& output, const std::filesystem::path& read, const std::string& what) {
+  std::error_code failure;
+  if (!std::filesystem::equivalent(output, read, failure)) return;
+  throw strut::Error(output + " is " + what + "; expected another file for the mesh");
+}
+
+strut::io::Mesh from_recipe(const std::string& recipe, const std::string& output) {
+  check_output(output, recipe, "the recipe");
   const std::vector<strut::mesh::Body> bodies = strut::mesh::read_recipe(recipe);
+  for (const strut::mesh::Body& body : bodies) check_output(output, body.file, "a mesh that the recipe reads");
   strut::io::Mesh mesh;
   std::string summary;
   for (const strut::mesh::Body& body : bodies) {
@@ -49,7 +59,7 @@ void write(const strut::io::Mesh& mesh, const std::string& source, const std::st
 }
 
 void make(const std::string& source, const std::string& output) {
-  if (source != "--arrays") return write(from_recipe(source), source, output);
+  if (source != "--arrays") return write(from_recipe(source, output), source, output);
   std::ios::sync_with_stdio(false);
   write(strut::mesh::read_arrays(std::cin, "standard input"), "standard input", output);
 }

@@ -47,6 +47,7 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string>& 
   const std::string* nearest = nullptr;
   std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // farther than this is no likeness
   for (const std::string& candidate : valid) {
+    if (name.size() >= candidate.size() + best) continue;  // no need to compare what a damaged file may call a name
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best) {
       best = distance;

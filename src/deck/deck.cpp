@@ -79,10 +79,12 @@ void check_mesh(const fs::path& mesh, Problems& problems) {
   problems.add("Discretization > Input Mesh File", what + "; expected a mesh, its path relative to the deck's folder");
 }
 
-// What a run writes may not be what it reads, nor one file be two.
+// What a run writes may not be what it reads, nor one file be two, by whatever name or link.
 void check_files(const Deck& deck, Problems& problems) {
   const auto same = [](const fs::path& one, const fs::path& other) {
     std::error_code failure;
+    if (fs::equivalent(one, other, failure)) return true;
+    failure.clear();
     const fs::path a = fs::weakly_canonical(one, failure), b = fs::weakly_canonical(other, failure);
     return !failure && !a.empty() && a == b;
   };
@@ -90,7 +92,13 @@ void check_files(const Deck& deck, Problems& problems) {
     const char* read = same(file, deck.discretization.mesh) ? "the input mesh"
                        : same(file, deck.file)              ? "this deck"
                                                             : "";
-    if (*read) problems.add(path, "'" + file.string() + "' is " + read + "; expected a file that may be replaced");
+    std::error_code failure;
+    const fs::file_status status = fs::status(file, failure);
+    if (*read) {
+      problems.add(path, "'" + file.string() + "' is " + read + "; expected a file that may be replaced");
+    } else if (fs::exists(status) && !fs::is_regular_file(status)) {
+      problems.add(path, "'" + file.string() + "' is a folder or a device; expected a file that may be replaced");
+    }
   };
   if (deck.output.enabled) check("Output > Output Filename", deck.output.file);
   if (deck.history.enabled) check("History > Filename", deck.history.file);
@@ -531,10 +539,16 @@ Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) 
   return deck;
 }
 
+constexpr std::uintmax_t largest_deck = 1'000'000;  // bytes; a long one has twenty thousand
+
 std::string contents(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!fs::exists(file)) throw Error(file.string() + ": the deck does not exist");
   if (!fs::is_regular_file(file) || !stream) throw Error(file.string() + ": the deck is not a file that can be read");
+  if (fs::file_size(file) > largest_deck) {
+    throw Error(file.string() + ": the deck has " + std::to_string(fs::file_size(file)) + " bytes, expected at most " +
+                std::to_string(largest_deck));
+  }
   std::ostringstream text;
   text << stream.rdbuf();
   const std::string byte_order_mark = "\xef\xbb\xbf";

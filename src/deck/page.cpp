@@ -108,7 +108,11 @@ std::string expressions() {
          ".\n`pow` and `atan2` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. There is no `abs` (it is "
          "`fabs`),\n"
          "`min`, `max` or `?:`. Instead of an expression there may be statements that assign to `value`:\n"
-         "`value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`. In XML `<` is written `&lt;` and `&` `&amp;`.\n";
+         "`value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`. They know `if`, `else`, and variables of their own "
+         "(`double r = "
+         "x*x;`), but no loops.\nA sign and a power need brackets, `-(x^2)` or `(-x)^2`. At most 10,000 characters. In "
+         "XML "
+         "`<` is written `&lt;` and `&` `&amp;`.\n";
 }
 
 }  // namespace

@@ -50,6 +50,29 @@ void report_duplicates(const List& list, const std::string& path, Problems& prob
   }
 }
 
+// Before Teuchos sees it, which calls itself for each level, and would take a document type's words for text. Quotes
+// hold no tags: a '<' in a value is refused by Teuchos.
+std::string problem_before_parsing(const std::string& text) {
+  constexpr int deepest = 100;
+  int depth = 0;
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    if (text.compare(at, 4, "<!--") == 0) {
+      at = text.find("-->", at);
+      if (at == std::string::npos) return "";
+      continue;
+    }
+    if (text.compare(at, 2, "<!") == 0) {
+      return "'" + text.substr(at, 20) + "': no document type, entities or CDATA; expected elements only";
+    }
+    const std::size_t end = text.find('>', at);
+    const bool closes = text.compare(at, 2, "</") == 0, is_empty = end != std::string::npos && text[end - 1] == '/';
+    if (closes) --depth;
+    if (!closes && !is_empty && text.compare(at, 2, "<?") != 0) ++depth;
+    if (depth > deepest) return "more than " + std::to_string(deepest) + " elements within each other";
+  }
+  return "";
+}
+
 List read_list(const Teuchos::XMLObject& xml, const std::string& path, Problems& problems) {
   List list;
   if (xml.hasAttribute("name")) list.name = xml.getAttribute("name");
@@ -74,6 +97,11 @@ List read_list(const Teuchos::XMLObject& xml, const std::string& path, Problems&
 }  // namespace
 
 std::optional<List> parse_xml(const std::string& text, Problems& problems) {
+  const std::string problem = problem_before_parsing(text);
+  if (!problem.empty()) {
+    problems.add("XML", problem);
+    return std::nullopt;
+  }
   try {
     const Teuchos::XMLObject root = Teuchos::StringInputSource(text).getObject();
     if (root.getTag() == "ParameterList") return read_list(root, "", problems);

@@ -131,7 +131,7 @@ class Header {
     for (const Variable& v : variables) {
       if (v.record && (records_ == 0 || records_ == streaming)) continue;
       const double last = v.record ? static_cast<double>(records_ - 1) * static_cast<double>(record_size) : 0;
-      if (v.begin < 0 || last > 1e15) throw Error("its header is malformed");
+      if (v.begin < 0 || static_cast<double>(v.begin) > 1e15 || last > 1e15) throw Error("its header is malformed");
       end = std::max(end, v.begin + static_cast<std::int64_t>(last) + v.size);
     }
     return end;

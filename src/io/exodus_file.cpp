@@ -2,6 +2,7 @@
 
 #include <exodusII.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -12,6 +13,7 @@
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
 #include "io/classic_netcdf.hpp"
+#include "io/rehearsal.hpp"
 
 namespace strut::io {
 
@@ -86,6 +88,15 @@ void check_names(const fs::path& path, const std::vector<std::string>& names) {
   }
 }
 
+// What of it is compressed, as HDF5 can do, may be this much larger in memory: deflate's limit.
+constexpr std::int64_t densest = 1032;
+
+std::int64_t largest_content(const fs::path& path) {
+  std::error_code ignored;
+  const auto size = static_cast<std::int64_t>(fs::file_size(path, ignored));
+  return is_hdf5(path) ? densest * size : size;
+}
+
 ex_entity_type entity(ExodusFile::On on) { return on == ExodusFile::On::nodes ? EX_NODAL : EX_ELEM_BLOCK; }
 
 template <class Item>
@@ -124,6 +135,7 @@ ExodusFile ExodusFile::open(const fs::path& path, Access access) {
   const int handle = ex_open(path.c_str(), mode, &word_size, &file_word_size, &version);
   if (handle < 0) fail(path, "open it", cause_of(handle));
   ExodusFile file(path, handle);
+  file.largest_ = largest_content(path);
   ex_set_int64_status(handle, EX_ALL_INT64_API);
   ex_set_max_name_length(handle, longest_name);
   return file;
@@ -149,7 +161,7 @@ ExodusFile::~ExodusFile() {
 }
 
 ExodusFile::ExodusFile(ExodusFile&& other) noexcept
-    : path_(std::move(other.path_)), handle_(std::exchange(other.handle_, -1)) {}
+    : path_(std::move(other.path_)), handle_(std::exchange(other.handle_, -1)), largest_(other.largest_) {}
 
 void ExodusFile::check(int code, std::string_view doing) const {
   if (code < 0) fail(path_, doing, cause_of(code));
@@ -163,10 +175,18 @@ std::int64_t ExodusFile::inquire(int what, std::string_view doing) const {
 
 // ---- reading
 
+// Before memory is taken because a file says so: `count` of `what`, each of at least so many bytes in the file.
+std::int64_t ExodusFile::plausible(std::int64_t count, std::int64_t bytes, const std::string& what) const {
+  if (count >= 0 && count <= largest_ / bytes) return count;
+  fail(path_, "read it", "it claims " + std::to_string(count) + " " + what + ", for which it is too small (damaged?)");
+}
+
 ExodusFile::Sizes ExodusFile::sizes() const {
   ex_init_params params = {};
   check(ex_get_init_ext(handle_, &params), "read its sizes");
-  return {params.num_dim, params.num_nodes, params.num_elem, params.num_elem_blk, params.num_node_sets};
+  constexpr int number = 4;  // bytes, of the smallest type that Exodus has
+  return {params.num_dim, plausible(params.num_nodes, number, "nodes"), plausible(params.num_elem, 1, "elements"),
+          plausible(params.num_elem_blk, number, "blocks"), plausible(params.num_node_sets, number, "node sets")};
 }
 
 std::vector<ExodusFile::Block> ExodusFile::blocks() const {
@@ -182,7 +202,10 @@ std::vector<ExodusFile::Block> ExodusFile::blocks() const {
     raw.id = ids[i];
     raw.type = EX_ELEM_BLOCK;
     check(ex_get_block_param(handle_, &raw), "read block " + std::to_string(ids[i]));
-    NameTable attributes(raw.num_attribute);
+    const std::string whose = " of block " + std::to_string(ids[i]);
+    plausible(raw.num_entry, 1, "elements" + whose);
+    plausible(raw.num_nodes_per_entry, 1, "nodes an element" + whose);
+    NameTable attributes(plausible(raw.num_attribute, 1, "attributes" + whose));
     if (raw.num_attribute > 0) {
       check(ex_get_attr_names(handle_, EX_ELEM_BLOCK, raw.id, attributes.data()), "read the names of attributes");
     }
@@ -203,7 +226,7 @@ std::vector<ExodusFile::NodeSet> ExodusFile::node_sets() const {
     std::int64_t nodes = 0;
     std::int64_t factors = 0;
     check(ex_get_set_param(handle_, EX_NODE_SET, ids[i], &nodes, &factors), "read node set " + std::to_string(ids[i]));
-    sets.push_back({ids[i], names[i], nodes});
+    sets.push_back({ids[i], names[i], plausible(nodes, 4, "nodes of node set " + std::to_string(ids[i]))});
   }
   return sets;
 }
@@ -217,6 +240,10 @@ std::array<std::vector<double>, 3> ExodusFile::coordinates() const {
 }
 
 std::vector<std::int64_t> ExodusFile::connectivity(const Block& block) const {
+  // Neither of the two is negative or more than the file has bytes.
+  const double entries = static_cast<double>(block.elements) * static_cast<double>(block.nodes_per_element);
+  plausible(static_cast<std::int64_t>(std::min(entries, 1e18)), 4,
+            "nodes of elements in block " + quoted(block.name, block.id));
   std::vector<std::int64_t> nodes(block.elements * block.nodes_per_element);
   if (nodes.empty()) return nodes;
   check(ex_get_conn(handle_, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
@@ -252,7 +279,7 @@ std::vector<std::int64_t> ExodusFile::node_numbers() const {
 }
 
 std::vector<double> ExodusFile::times() const {
-  std::vector<double> times(inquire(EX_INQ_TIME, "read its number of time steps"));
+  std::vector<double> times(plausible(inquire(EX_INQ_TIME, "read its number of time steps"), 4, "time steps"));
   if (!times.empty()) check(ex_get_all_times(handle_, times.data()), "read its times");
   return times;
 }
@@ -261,7 +288,7 @@ std::vector<std::string> ExodusFile::variable_names(On on) const {
   int count = 0;
   check(ex_get_variable_param(handle_, entity(on), &count), "read its number of variables");
   if (count == 0) return {};
-  NameTable names(count);
+  NameTable names(plausible(count, 1, "variables"));
   check(ex_get_variable_names(handle_, entity(on), count, names.data()), "read the names of its variables");
   return names.names();
 }
@@ -277,7 +304,7 @@ std::vector<double> ExodusFile::nodal_values(int step, int variable) const {
 std::vector<double> ExodusFile::element_values(int step, int variable) const {
   const std::vector<Block> all = blocks();
   const int variables = static_cast<int>(variable_names(On::elements).size());
-  std::vector<int> defined(all.size() * variables);
+  std::vector<int> defined(plausible(std::ssize(all) * variables, 4, "variables of blocks"));
   check(ex_get_truth_table(handle_, EX_ELEM_BLOCK, static_cast<int>(all.size()), variables, defined.data()),
         "read which blocks its variables are defined on");
   std::vector<double> values(sizes().elements, std::numeric_limits<double>::quiet_NaN());

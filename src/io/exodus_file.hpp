@@ -86,9 +86,11 @@ class ExodusFile {
   void check(int code, std::string_view doing) const;
   void put_attribute_names(const Block& block) const;
   std::int64_t inquire(int what, std::string_view doing) const;
+  std::int64_t plausible(std::int64_t count, std::int64_t bytes, const std::string& what) const;
 
   std::filesystem::path path_;
   int handle_ = -1;
+  std::int64_t largest_ = 0;  // bytes of data that a file of this size can hold
 };
 
 }  // namespace strut::io

@@ -6,6 +6,7 @@
 #include "io/exodus_file.hpp"
 #include "io/mesh_points.hpp"
 #include "io/mesh_read.hpp"
+#include "io/rehearsal.hpp"
 
 namespace strut::io {
 
@@ -31,7 +32,7 @@ PointCloud read_cloud(const std::filesystem::path& path, PointsAt at) {
 
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator, PointsAt at) {
   PointCloud whole;
-  run_on_root(communicator, [&] { whole = read_cloud(file, at); });
+  run_on_root(communicator, [&] { whole = rehearsed(file, [&] { return read_cloud(file, at); }); });
   return distribute(whole, communicator);
 }
 

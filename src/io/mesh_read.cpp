@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "io/elements.hpp"
+#include "io/rehearsal.hpp"
 
 namespace strut::io {
 
@@ -124,6 +125,8 @@ class Reader {
 
 Mesh mesh_of(const ExodusFile& file) { return Reader(file).read(); }
 
-Mesh read_mesh(const std::filesystem::path& file) { return mesh_of(ExodusFile::open(file)); }
+Mesh read_mesh(const std::filesystem::path& file) {
+  return rehearsed(file, [&] { return mesh_of(ExodusFile::open(file)); });
+}
 
 }  // namespace strut::io

@@ -123,8 +123,75 @@ TEST(Function, KnowsWhetherItDependsOnThePlace) {
   for (const char* text : {"3", "exp(-t)", "value = t"}) EXPECT_FALSE(Function::parse(text).depends_on_place()) << text;
 }
 
+TEST(Function, OperatorsAndTheirRanks) {
+  const std::pair<const char*, double> cases[] = {
+      {"2 + 3*4", 14},
+      {"10 - 3 - 2", 5},
+      {"12/3/2", 2},
+      {"2^3^2", 512},
+      {"2^-1", 0.5},
+      {"(-x)^2", 9},
+      {"-(x^2)", -9},
+      {"x-2*-x", 9},
+      {"!x", 0},
+      {"!(x > 5) + 1", 2},
+      {"x > 1 && y > 1", 0},
+      {"x > 1 || y > 1", 1},
+      {"1 < 2 == 1", 1},
+      {"x != 3", 0},
+      {"+x--x", 6},
+      {"pow(x, 2)", 9},
+      {"atan2(0, 1)", 0},
+      {"1/0", INFINITY},
+      {"i1(-1) + i1(1)", 0},
+      {"i0(1e6)", INFINITY},
+      {"double r = 2; int n = 2.9; value = r*n", 4},
+      {"if (x > 5) { value = 1; } else if (x > 2) { value = 2; } else { value = 3; }", 2}};
+  for (const auto& [text, expected] : cases) EXPECT_EQ(Function::parse(text)(3, 0, 0, 0), expected) << text;
+  EXPECT_TRUE(std::isnan(Function::parse("log(x)")(-1, 0, 0, 0)));
+}
+
 TEST(Function, WhatDoesNotCompileIsAnError) {
-  for (const char* text : {"3*q", "x +", "sin(", "1e999"}) EXPECT_THROW(Function::parse(text), Error) << text;
+  for (const char* text : {"3*q",
+                           "x +",
+                           "sin(",
+                           "1e999",
+                           "sin(x, y)",
+                           "pow(x)",
+                           "x y",
+                           "2 3",
+                           "1.5.5",
+                           "1e",
+                           "()",
+                           "-x^2",
+                           "x = 5; value = 1",
+                           "value",
+                           "x ? 1 : 2",
+                           "5 % 2",
+                           "\"x\"",
+                           "x[1]",
+                           "value = 1; }",
+                           "if (x > 1) value = 1;",
+                           "sin",
+                           "double x = 1; value = x"}) {
+    EXPECT_THROW(Function::parse(text), Error) << text;
+  }
+}
+
+// What a deck could do to the machine it runs on: nothing, and it could not keep it busy.
+TEST(Function, OnlyComputesAndEnds) {
+  for (const char* text : {"while (1) { value = 1; }", "for (int i = 0; i < 1; i = i) { value = 1; }", "rand()",
+                           "readline(x, y)", "printf(x)", "double a[1000000000]; value = 1;"}) {
+    EXPECT_THROW(Function::parse(text), Error) << text;
+  }
+  const auto nested = [](int n) { return std::string(n, '(') + "x" + std::string(n, ')'); };
+  EXPECT_EQ(Function::parse(nested(90))(3, 0, 0, 0), 3);
+  EXPECT_THROW(Function::parse(nested(101)), Error);
+  EXPECT_THROW(Function::parse(nested(1000000)), Error);
+  EXPECT_EQ(Function::parse("x" + std::string(9000, '-') + "x")(3, 0, 0, 0), 6);
+  std::string right = "x";
+  for (int n = 0; n < 90; ++n) right = "(0 || 1 && 1 == 1 < 2 + 3 * " + right + ")";
+  EXPECT_EQ(Function::parse(right)(3, 0, 0, 0), 1);
 }
 
 // The list that the reference page shows.

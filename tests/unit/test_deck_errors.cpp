@@ -90,8 +90,8 @@ const std::vector<Case> values = {
       <Parameter name="Axis" type="string" value="0 0 1"/> <Parameter name="Radius" type="double" value="0"/>)",
      "Boundary Conditions > wall > Radius: '0'; expected a real number > 0, in m"},
     {"ExpressionOfUnknown", "1e-3*y*t", "1e-3*q",
-     "Boundary Conditions > pull > Value: '1e-3*q' is not an expression in x, y, z, t: Error at line 1: Use of "
-     "undeclared variable: q; expected a number or an expression in x, y, z, t, in m"},
+     "Boundary Conditions > pull > Value: '1e-3*q' is not an expression in x, y, z, t: at character 6, before "
+     "'q': 'q' is not a variable; expected a number or an expression in x, y, z, t, in m"},
     {"ExpressionTooLarge", "1e-3*y*t", "1e999",
      "Boundary Conditions > pull > Value: '1e999' is not finite; expected a number or an expression in x, y, z, t, in "
      "m"},
@@ -315,6 +315,51 @@ TEST(DeckErrors, TablesAreChecked) {
   expect(
       "0 0.1", "60e6 70e6",
       "Yield Stress: '5e+07' is not the first of Hardening > Stresses, 6e+07; expected the same, or no Yield Stress");
+}
+
+// ---- What a deck may do --------------------------------------------------------------------------------------------
+
+TEST(DeckErrors, NothingIsReadThatTheDeckDoesNotName) {
+  const DeckFolder folder;
+  const std::string list = "<ParameterList>", entity = "<!DOCTYPE d [<!ENTITY e SYSTEM \"file:///etc/passwd\">]>";
+  EXPECT_EQ(
+      folder.error(entity + changed(small_deck, "8960", "&e;")),
+      "deck.xml: 1 problem\n  XML: '<!DOCTYPE d [<!ENTIT': no document type, entities or CDATA; expected elements "
+      "only");
+  EXPECT_NE(folder.error(changed(small_deck, "8960", "&e;")).find("malformed XML"), std::string::npos);
+  const std::string include = "<ParameterList><xi:include href=\"bar.txt\"/>";
+  EXPECT_NE(folder.error(changed(small_deck, list, include)).find("<xi:include>: expected"), std::string::npos);
+}
+
+// Nor by another name of the same file.
+TEST(DeckErrors, WhatIsReadIsNotReplaced) {
+  namespace fs = std::filesystem;
+  const DeckFolder folder;
+  folder.write("deck.xml", "");
+  run_on_root(folder.world(), [&] {
+    fs::create_symlink(folder / "bar.txt", folder / "soft.e");
+    fs::create_hard_link(folder / "bar.txt", folder / "hard.e");
+    fs::create_hard_link(folder / "deck.xml", folder / "deck.e");
+    fs::create_directory(folder / "folder.e");
+  });
+  for (const auto& [name, problem] : {std::pair("soft.e", "is the input mesh"),
+                                      {"hard.e", "is the input mesh"},
+                                      {"deck.e", "is this deck"},
+                                      {"folder.e", "is a folder or a device"}}) {
+    const std::string text = changed(full_deck, "value=\"bar\"", "value=\"" + (folder / name).string() + "\"");
+    EXPECT_EQ(folder.error(text), "deck.xml: 1 problem\n  Output > Output Filename: '" + std::string(name) + "' " +
+                                      problem + "; expected a file that may be replaced");
+  }
+}
+
+TEST(DeckErrors, DecksThatNeverEnd) {
+  const DeckFolder folder;
+  std::string deep;
+  for (int n = 0; n < 30000; ++n) deep += "<ParameterList name=\"a\">";
+  EXPECT_EQ(folder.error(deep), "deck.xml: 1 problem\n  XML: more than 100 elements within each other");
+  EXPECT_NE(folder.error(small_deck + std::string(2'000'000, ' ')).find("expected at most 1000000"), std::string::npos);
+  const std::string name(200'000, 'x');
+  EXPECT_NE(folder.error(changed(small_deck, "Density", name)).find("unknown key"), std::string::npos);
 }
 
 // ---- Whole decks ---------------------------------------------------------------------------------------------------

@@ -108,6 +108,27 @@ TEST_F(BrokenFile, DamagedBytesNeverCrash) {
   }
 }
 
+// A count in the header, of nodes as of anything else, is compared with the file's size before memory is taken.
+TEST_F(BrokenFile, SmallFilesThatClaimToBeLarge) {
+  const fs::path file = mesh_file(row_of_cubes(3));
+  const std::string bytes = read_bytes(file), nodes = std::string("num_nodes") + std::string(3, '\0');
+  const std::size_t at = bytes.find(nodes);
+  ASSERT_NE(at, std::string::npos);
+  for (const char* const count : {"\x7f\xff\xff\xff", "\x10\x00\x00\x00", "\xff\xff\xff\xff"}) {
+    std::string damaged = bytes;
+    damaged.replace(at + nodes.size(), 4, std::string(count, 4));
+    run_on_root(world, [&] { write_bytes(folder / "large.g", damaged); });
+    EXPECT_NE(error_of([&] { read_exodus(folder / "large.g", world); }), "");
+  }
+  // Where no variable has the dimension, the walk through the header sees nothing wrong.
+  run_on_root(world, [&] {
+    const ExodusFile hollow = ExodusFile::create(folder / "hollow.g");
+    hollow.put_sizes("", {3, 8, 1'000'000'000, 1, 0});
+    hollow.put_blocks({{1, "one", "HEX8", 1, 8, {}}});
+  });
+  expect_error(world, folder / "hollow.g", "1000000000 elements, for which it is too small");
+}
+
 TEST_F(BrokenFile, ElementsThatCannotBePoints) {
   Mesh mesh = row_of_cubes(3);
   std::swap(mesh.nodes[8], mesh.nodes[4]);

@@ -87,5 +87,18 @@ TEST_F(FileRecipe, WrongRecipesAreRefused) {
                "two blocks are called 'scan'");
 }
 
+TEST_F(FileRecipe, WhatIsReadIsNotReplaced) {
+  make_scan();
+  const auto size = std::filesystem::file_size(path("scan.g"));
+  std::filesystem::create_hard_link(path("scan.g"), path("link.g"));
+  for (const char* output : {"scan.g", "link.g"}) {
+    EXPECT_NE(make("shape = file\nfile = scan.g\n", output).text.find("is a mesh that the recipe reads"),
+              std::string::npos);
+  }
+  EXPECT_NE(make("shape = box\nsize = 1 1 1\nspacing = 1\n", "mesh.recipe").text.find("is the recipe"),
+            std::string::npos);
+  EXPECT_EQ(std::filesystem::file_size(path("scan.g")), size);
+}
+
 }  // namespace
 }  // namespace strut

@@ -4,6 +4,7 @@ import contextlib
 import difflib
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -105,7 +106,29 @@ def check_output(path):
         fail(f"{path} cannot be written: there is no folder {folder}")
 
 
-# Libraries that print
+# Libraries that crash, and those that print
+
+
+def run_guarded(main, no_memory):
+    """main() in a process of its own: where a damaged file makes a library crash, this one is left to say so."""
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        try:
+            return main()
+        except MemoryError:
+            fail(no_memory)
+        except OSError as error:
+            fail(str(error))
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal tells both
+    signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))
+    _, status = os.waitpid(child, 0)
+    code = os.waitstatus_to_exitcode(status)
+    if code == -signal.SIGKILL:
+        fail(f"it was killed; {no_memory}")
+    if code < 0 and -code not in (signal.SIGINT, signal.SIGTERM):
+        fail(f"the file is damaged: the library that reads it ended by signal {-code}")
+    sys.exit(code if code >= 0 else 128 - code)
 
 
 class Said:

@@ -1,0 +1,197 @@
+#include "subjects.hpp"
+
+#include <exodusII.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "base/errors.hpp"
+#include "base/function.hpp"
+#include "compare/series.hpp"
+#include "files.hpp"
+#include "io/exodus.hpp"
+#include "mesh/arrays.hpp"
+#include "mesh/body.hpp"
+#include "mesh/recipe.hpp"
+#include "meshes.hpp"
+#include "mutate.hpp"
+#include "point/path.hpp"
+
+namespace strut::fuzz {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string change_text(const std::string& sample, const std::string& other, Random& random) {
+  if (random.chance(0.6)) return reworded(sample, random);
+  return damaged(random.chance(0.5) ? sample : reworded(sample, random), other, random);
+}
+
+// ---- Exodus
+
+// The same file in another format of netCDF.
+std::string converted(const fs::path& file, int mode) {
+  const fs::path copy = fs::path(file).replace_extension(".copy");
+  int word = 8, stored = 0;
+  float version = 0;
+  const int in = ex_open(file.c_str(), EX_READ, &word, &stored, &version);
+  int stored_word = 8;
+  const int out = ex_create(copy.c_str(), EX_CLOBBER | mode, &word, &stored_word);
+  if (in < 0 || out < 0 || ex_copy(in, out) < 0) throw std::runtime_error("cannot convert " + file.string());
+  ex_close(in);
+  ex_close(out);
+  return contents(copy);
+}
+
+void write_result(const fs::path& file, const Communicator& world) {
+  PointCloud cloud;
+  cloud.block_names = {"a", "b"};
+  cloud.set_names = {"left"};
+  for (int n = 0; n < 6; ++n) {
+    cloud.ids.push_back(n);
+    cloud.element_ids.push_back(n + 1);
+    cloud.positions.emplace_back(n, 0, 0);
+    cloud.volumes.push_back(1);
+    cloud.spacings.push_back(1);
+    cloud.blocks.push_back(n / 3);
+    cloud.sets.push_back(n == 0);
+  }
+  io::ExodusWriter writer(file, world, cloud, {{"Displacement", 3, true}, {"Volume", 1, false}});
+  const std::vector<std::vector<double>> columns = {std::vector<double>(18, 1), std::vector<double>(6, 1)};
+  for (const double time : {0.0, 1.0}) writer.write(time, columns);
+}
+
+std::vector<std::string> exodus_samples(const fs::path& folder, const Communicator& world) {
+  io::Mesh boxes;
+  add_box(boxes, "bar", 1e-3, 0, {"foot", "top"});
+  add_box(boxes, "plate", 1e-3, 5e-3, {});
+  io::write_mesh(folder / "hexahedra.g", boxes);
+  io::write_mesh(folder / "tetrahedra.g", tetrahedra());
+  io::write_mesh(folder / "spheres.g", spheres());
+  write_result(folder / "result.g", world);
+  std::vector<std::string> samples;
+  for (const char* name : {"hexahedra.g", "tetrahedra.g", "spheres.g", "result.g"}) {
+    samples.push_back(contents(folder / name));
+    samples.push_back(converted(folder / name, EX_NETCDF4 | EX_NOCLASSIC));
+  }
+  samples.push_back(converted(folder / "tetrahedra.g", EX_NORMAL_MODEL));
+  return samples;
+}
+
+std::vector<Subject> exodus(const fs::path& folder, const Communicator& world) {
+  const std::vector<std::string> all = exodus_samples(folder, world);
+  const std::vector<std::string> solids(all.begin(), all.begin() + 4);  // hexahedra and tetrahedra, in both formats
+  const auto elements = [&world](const fs::path& file) { io::read_exodus(file, world); };
+  const auto nodes = [&world](const fs::path& file) { io::read_exodus(file, world, PointsAt::nodes); };
+  return {{"exodus", "mesh.g", all, damaged, elements},
+          {"nodes", "solid.g", solids, damaged, nodes},
+          {"mesh", "raw.g", all, damaged, [](const fs::path& file) { io::read_mesh(file); }},
+          {"result", "result.e", all, damaged, [](const fs::path& file) { io::read_result(file); }}};
+}
+
+// ---- text
+
+Subject points(const Communicator& world) {
+  const auto read = [&world](const fs::path& file) { io::read_text(file, world); };
+  return {
+      "text", "points.txt", {"# points\n0 0 0 1 1e-9\n1e-3 0 0 1 1e-9\n\n0 1e-3 0 2 2e-9 # last\n"}, change_text, read};
+}
+
+// A million cells are what a recipe may ask for; here they would only cost time.
+bool is_small(const mesh::Body& body) {
+  const double across = 2 * std::max(body.radius, body.top_radius);
+  const Vector extent = body.size.cwiseMax(Vector(across, across, body.length)) / body.spacing;
+  if (body.shape == mesh::Body::Shape::file) return true;
+  const double cells = extent.cwiseMax(1).prod();
+  const bool foam = body.shape == mesh::Body::Shape::foam;
+  const double seeds = foam ? (body.size / body.cell).cwiseMax(1).prod() : 0;
+  return !(cells < 1e8) || (cells < 1e5 && !(seeds > 1e4));  // of too many an error is expected
+}
+
+void read_recipe(const fs::path& file) {
+  io::Mesh mesh;
+  std::string summary;
+  for (const mesh::Body& body : mesh::read_recipe(file)) {
+    if (is_small(body)) mesh::append(mesh, mesh::mesh_of(body, summary));
+  }
+}
+
+Subject recipes() {
+  const std::vector<std::string> samples = {
+      "name = bar\nshape = cylinder\nlength = 0.01\nradius = 0.002\nspacing = 1e-3\ncentred = point\n",
+      "shape = cylinder\nmethod = fitted\nlength = 0.01\nradius = 0.002\nspacing = 5e-4\ngrading = 1.1\nuniform = "
+      "2e-3\n"
+      "coarsest = 1e-3\norigin = 0 0 1\n",
+      "elements = sphere\nspacing = 1e-3\n[body]\nname = a\nshape = box\nsize = 3e-3 3e-3 4e-3\n[body]\nname = "
+      "b\nshape = "
+      "cone\nlength = 5e-3\nradius = 2e-3\ntop_radius = 1e-3\n",
+      "shape = foam\nsize = 1e-3 1e-3 1e-3\nspacing = 5e-5\ncell = 4e-4\nrelative_density = 0.1\nseed = "
+      "3\nirregularity = "
+      "0.5\n",
+      "[body]\nname = scan\nshape = file\nfile = spheres.g\norigin = 0 0 1\n[body]\nname = plate\nshape = box\nspacing "
+      "= "
+      "1\nsize = 3 3 1\n"};
+  return {"recipe", "body.recipe", samples, change_text, read_recipe};
+}
+
+std::string arrays_sample() {
+  const auto raw = [](const auto& numbers) {
+    return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0]));
+  };
+  return "strut-mesh arrays 1\nnodes 4\n" + raw(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
+         "block tips TET4 1 4\n" + raw(std::vector<std::int32_t>{0, 1, 2, 3}) + "block points SPHERE 1 1\n" +
+         raw(std::vector<std::int32_t>{2}) + raw(std::vector<double>{0.5}) + "set foot 2\n" +
+         raw(std::vector<std::int32_t>{0, 1}) + "end\n";
+}
+
+Subject arrays() {
+  const auto read = [](const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    mesh::read_arrays(stream, "arrays");
+  };
+  return {"arrays", "mesh.arrays", {arrays_sample()}, change_text, read};
+}
+
+Subject histories() {
+  const auto read = [](const fs::path& file) { compare::read_series(file); };
+  return {"history", "run.csv", {"Time,Step_Size,Kinetic_Energy\n0,1e-8,0.5\n1e-8,1e-8,0.25\n"}, change_text, read};
+}
+
+Subject paths() {
+  const auto read = [](const fs::path& file) { point::read_path(file, point::all_strain); };
+  return {"path",
+          "path.csv",
+          {"t, xx, yy, zz, xy, yz, zx\n0,0,0,0,0,0,0\n1, 0.1, 0,0,0,0,0\n# end\n2,0.2,0,0,0,0,0\n"},
+          change_text,
+          read};
+}
+
+Subject expressions() {
+  const auto change = [](const std::string& sample, const std::string& other, Random& random) {
+    if (random.chance(0.7)) return expression(random);
+    return random.chance(0.5) ? reworded(sample, random) : damaged(sample, other, random);
+  };
+  const auto read = [](const fs::path& file) {
+    const Function function = Function::parse(contents(file));
+    for (const double x : {0.0, -1.0, 1e300}) function(x, 0.5, -x, 1e-3);
+  };
+  const std::vector<std::string> samples = {
+      "-1.5*t*(1 + 100*x)*(2 - 200*y)", "value = 0; if (t < 1e-4) { value = 5*sin(x); } else { value = t^2; }",
+      "double r = x*x + y*y; value = sqrt(r) < 0.5 && !(z > 1) || pow(x, 2) == 0;"};
+  return {"expression", "expression.txt", samples, change, read};
+}
+
+}  // namespace
+
+std::vector<Subject> all_subjects(const fs::path& folder, const Communicator& world) {
+  std::vector<Subject> all = exodus(folder, world);
+  const Subject deck = decks(folder, world);
+  all.insert(all.end(), 4, deck);  // the most can be said wrongly there
+  for (const Subject& subject : {points(world), recipes(), arrays(), histories(), paths(), expressions()}) {
+    all.push_back(subject);
+  }
+  return all;
+}
+
+}  // namespace strut::fuzz

@@ -1,0 +1,28 @@
+// What reads inputs, and inputs that are right for each.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "random.hpp"
+
+namespace strut::fuzz {
+
+struct Subject {
+  std::string name;
+  std::string file;  // that its reader is given
+  std::vector<std::string> samples;
+  std::function<std::string(const std::string& sample, const std::string& other, Random& random)> change;
+  // Returns or throws Error; anything else is what we are looking for.
+  std::function<void(const std::filesystem::path&)> read;
+};
+
+// Meshes that decks name are written into the folder.
+std::vector<Subject> all_subjects(const std::filesystem::path& folder, const Communicator& communicator);
+
+Subject decks(const std::filesystem::path& folder, const Communicator& communicator);
+
+}  // namespace strut::fuzz
