@@ -14,6 +14,7 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "io/classic_netcdf.hpp"
+#include "io/rehearsal.hpp"
 
 namespace strut::io {
 
@@ -283,6 +284,7 @@ File opened(const fs::path& path) {
   if (const std::string problem = classic_netcdf_problem(path); !problem.empty()) {
     throw Error(path.string() + ": not a restart file, or damaged: " + problem);
   }
+  if (is_hdf5(path)) throw Error(path.string() + ": is no restart file of strut");  // which HDF5 might not survive
   File file = File::open(path);
   if (!file.has_attribute(mark)) throw Error(path.string() + ": is no restart file of strut");
   if (const double found = file.number(mark); found != version) {
@@ -456,8 +458,8 @@ void remove_restart(const fs::path& path, const Communicator& communicator) {
     std::error_code failure;
     fs::remove(part_of(path), failure);
     if (!fs::exists(path, failure)) return;
-    const bool ours =
-        fs::is_regular_file(path) && classic_netcdf_problem(path).empty() && File::open(path).has_attribute(mark);
+    const bool ours = fs::is_regular_file(path) && classic_netcdf_problem(path).empty() && !is_hdf5(path) &&
+                      File::open(path).has_attribute(mark);
     if (!ours) {
       throw Error(path.string() + ": is no restart file of strut, and a run would replace it: expected another " +
                   "name in Restart > Filename");

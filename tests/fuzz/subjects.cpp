@@ -10,6 +10,7 @@
 #include "compare/series.hpp"
 #include "files.hpp"
 #include "io/exodus.hpp"
+#include "io/restart_file.hpp"
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
 #include "mesh/recipe.hpp"
@@ -182,13 +183,37 @@ Subject expressions() {
   return {"expression", "expression.txt", samples, change, read};
 }
 
+// ---- what a run leaves to go on
+
+Snapshot small_snapshot() {
+  Snapshot snapshot;
+  snapshot.groups = {{"all points", {2, 0, 1}, {{"position", 3, std::vector<double>(9, 0.5)}, {"state", 1, {1, 2, 3}}}},
+                     {"block a", {}, {{"state", 2, {}}}}};
+  snapshot.numbers = {{"time", 1e-6}, {"steps", 12}};
+  snapshot.shares = {{"work", -3.5}};
+  return snapshot;
+}
+
+Subject restarts(const fs::path& folder, const Communicator& world) {
+  io::write_restart(folder / "run.restart", world, small_snapshot(), "<ParameterList/>");
+  const auto read = [&world](const fs::path& file) {
+    Snapshot snapshot = small_snapshot();
+    io::read_restart(file, world, snapshot);
+    if (snapshot.groups[0].columns[1].values != small_snapshot().groups[0].columns[1].values) {
+      throw std::logic_error("a damaged file was taken for a good one");
+    }
+  };
+  return {"restart", "broken.restart", {contents(folder / "run.restart")}, damaged, read};
+}
+
 }  // namespace
 
 std::vector<Subject> all_subjects(const fs::path& folder, const Communicator& world) {
   std::vector<Subject> all = exodus(folder, world);
   const Subject deck = decks(folder, world);
   all.insert(all.end(), 4, deck);  // the most can be said wrongly there
-  for (const Subject& subject : {points(world), recipes(), arrays(), histories(), paths(), expressions()}) {
+  for (const Subject& subject :
+       {points(world), recipes(), arrays(), histories(), paths(), expressions(), restarts(folder, world)}) {
     all.push_back(subject);
   }
   return all;
