@@ -92,8 +92,9 @@ class File {
     return value;
   }
 
-  // A variable of so many values.
+  // A variable of so many values; of none there is no variable (a size of 0 would mean one that grows).
   void define(const std::string& name, nc_type type, std::size_t size) const {
+    if (size == 0) return;
     int dimension = 0, variable = 0;
     check(nc_def_dim(handle_, ("of_" + name).c_str(), size, &dimension), "define '" + name + "'");
     check(nc_def_var(handle_, name.c_str(), type, 1, &dimension, &variable), "define '" + name + "'");
@@ -316,7 +317,7 @@ void compare(const fs::path& path, const File& file, const Snapshot& snapshot,
       differs(path, group.name + ": " + std::to_string(count) + " points there, " + std::to_string(counts[g]) +
                         " in the deck's mesh");
     }
-    lists += 1 + static_cast<int>(group.columns.size());
+    if (count > 0) lists += 1 + static_cast<int>(group.columns.size());
     for (const Snapshot::Column& column : group.columns) {
       if (file.size(name_of(g, column.name)) != count * static_cast<std::size_t>(column.width)) {
         differs(path, group.name + ": no column '" + column.name + "' that fits");

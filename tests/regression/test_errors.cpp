@@ -370,7 +370,9 @@ TEST_F(Mistake, StepFarAboveTheStableOne) {
   ASSERT_GE(result.times.size(), 2u);
   EXPECT_EQ(result.times[0], 0);
   EXPECT_EQ(result.nodal[0].size(), result.times.size());
-  EXPECT_EQ(read_history(folder / "history.csv").at("Time"), result.times);  // both were written at every step
+  std::vector<double> lines = read_history(folder / "history.csv").at("Time");
+  lines.push_back(result.times.back());
+  EXPECT_EQ(lines, result.times) << "both were written at every step, and a frame where it failed";
 }
 
 }  // namespace
