@@ -297,9 +297,11 @@ class Test:
         folder = self.folder(f"{scene}-two-runs", scene)
         first = self.start(folder)
         self.wait_for(folder / f"{scene}.csv", first, folder / "log")
+        first.send_signal(signal.SIGSTOP)  # or it may be over before the second begins
         second = subprocess.run([self.strut, "deck.xml"], cwd=folder, capture_output=True, text=True, timeout=60)
         if second.returncode != 1 or "another run is writing to it" not in second.stderr:
             self.fail(f"{folder}: a second run was not refused: {second.returncode} {second.stderr}")
+        first.send_signal(signal.SIGCONT)
         if first.wait(timeout=60) != 0:
             self.fail(f"{folder}: the first run was disturbed", folder / "log")
         self.same(whole, folder, scene)

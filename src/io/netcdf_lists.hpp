@@ -1,0 +1,49 @@
+// A netCDF file that holds numbers, texts and lists of numbers by name. Serial.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace strut::io {
+
+// Of the classic model with 64-bit sizes: plain, and whole or recognisably not. Every call throws Error with the file,
+// what was being done and the cause. A list of no values is not in the file, and comes back as one.
+class NetcdfLists {
+ public:
+  static NetcdfLists create(const std::filesystem::path& path);
+  // `path`: whole (classic_netcdf.hpp) and not HDF5, which the library might not survive.
+  static NetcdfLists open(const std::filesystem::path& path);
+  ~NetcdfLists();
+  NetcdfLists(NetcdfLists&& other) noexcept;
+  NetcdfLists& operator=(NetcdfLists&&) = delete;
+
+  // First numbers, texts and the sizes of lists, then their values.
+  void put(const std::string& name, double number) const;
+  void put(const std::string& name, const std::string& text) const;
+  enum class Of { reals, integers };
+  void define(const std::string& name, Of kind, std::size_t size) const;
+  void end_definitions() const;
+  void put(const std::string& name, const std::vector<double>& values) const;
+  void put(const std::string& name, const std::vector<std::int64_t>& values) const;
+  void close();
+
+  double number(const std::string& name) const;
+  std::string text(const std::string& name) const;
+  std::vector<double> reals(const std::string& name) const;
+  std::vector<std::int64_t> integers(const std::string& name) const;
+  bool has_number(const std::string& name) const;
+  std::size_t size(const std::string& name) const;  // of a list; 0 where there is none
+  int lists() const;
+
+ private:
+  explicit NetcdfLists(std::filesystem::path path);
+  int variable(const std::string& name) const;
+  void check(int code, const std::string& doing) const;
+
+  std::filesystem::path path_;
+  int handle_ = -1;
+};
+
+}  // namespace strut::io
