@@ -81,9 +81,9 @@ write_deck() {
 END
 }
 
-# Until the run has written 20 lines, or 20 s.
+# Until the run has written 20 lines, or 40 s: a busy machine takes its time.
 wait_for_lines() {
-  tries=200
+  tries=400
   while [ "$(wc -l 2> /dev/null < history.csv || echo 0)" -lt 20 ]; do
     tries=$((tries - 1))
     [ $tries -gt 0 ] || { fail "$1: the run has not begun"; cat log; return; }
