@@ -6,14 +6,12 @@
 //             deformation d = Rᵀ D R, one of the second form by the stretch reached. A step is inline: what a law does
 //             not ask for is not computed.
 //   State     a struct of doubles only; state_names names them in order, as they appear in output. State{} is that of
-//   an
-//             undeformed point; a law whose output should begin with other numbers says so in virgin_state().
+//             an undeformed point; a law whose output should begin with other numbers says so in virgin_state().
 //   moduli    the elastic moduli that bound the stable step, of the Cauchy stress; of the state, where they change.
 //   energies  elastic_energy and dissipation feed the ledger of a run.
 //   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
 //   tangent   if it has one: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
-//   with
-//             its mirror image, and J with it (J = det U). NaN where the step does not converge. tangent_of
+//             with its mirror image, and J with it (J = det U). NaN where the step does not converge. tangent_of
 //             (tangent.hpp) finds it by differences for laws that have none.
 #pragma once
 

@@ -1,5 +1,6 @@
 // strut: correspondence peridynamics of foams and bars under impact.
 // What it can be told stands in `help`.
+#include <algorithm>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ usage: strut [option] deck.xml              on one core
   --check deck.xml     say what is wrong with it, or what the run would do: points, memory, step, time. Writes nothing
   --keys               all keys of a deck, their units and defaults, as a page of Markdown
   --version            the version and how it was built, as every file that it writes has it
-  --help               this page
+  --help, -h           this page
 
 Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and what is
 kept to go on (relative to this folder).
@@ -41,6 +42,19 @@ int run(const std::string& deck, const strut::Communicator& world, strut::Start 
   return strut::run(deck, world, start) ? 0 : 3;
 }
 
+// Of words that ask for nothing that there is.
+std::string what_is_wrong(const std::vector<std::string>& words) {
+  static const std::vector<std::string> options = {"--continue", "--check", "--keys", "--version", "--help"};
+  if (words.empty()) return "no deck is named";
+  for (const std::string& word : words) {
+    const bool known = std::find(options.begin(), options.end(), word) != options.end();
+    if (word.starts_with("-") && !known)
+      return "there is no option '" + word + "'" + strut::did_you_mean(word, options);
+  }
+  if (words.size() == 1) return "'" + words[0] + "' needs a deck";
+  return "'" + strut::joined(words, " ") + "' does not say what to do";
+}
+
 int act(const std::vector<std::string>& words, const strut::Communicator& world) {
   const std::string first = words.empty() ? "" : words[0];
   if (words.size() == 1) {
@@ -53,12 +67,8 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
     if (first == "--continue") return run(words[1], world, strut::Start::continued);
     if (first == "--check") return strut::check(words[1], world), 0;
   }
-  const std::string unknown =
-      first.starts_with("-")
-          ? "'" + first + "'" + strut::did_you_mean(first, {"--continue", "--check", "--keys", "--version", "--help"})
-          : "its arguments";
   if (world.rank() == 0) {
-    std::cerr << "strut: cannot make sense of " << unknown << "; expected: strut [--continue | --check] deck.xml\n"
+    std::cerr << "strut: " << what_is_wrong(words) << "; expected: strut [--continue | --check] deck.xml\n"
               << "'strut --help' tells more\n";
   }
   return 2;

@@ -28,7 +28,7 @@ void in_pieces(std::size_t size, Piece&& piece) {
 
 Runtime::Runtime(int& argc, char**& argv) {
   MPI_Init(&argc, &argv);
-  Kokkos::initialize(argc, argv);
+  Kokkos::initialize();  // without the words: Kokkos would answer --help with a page of its own
 }
 
 Runtime::~Runtime() {

@@ -449,11 +449,10 @@ History history(const Values* values, const Solver& solver, Problems& problems) 
   return history;
 }
 
-Restart restart(const Values* values, const fs::path& deck, Problems& problems) {
-  Restart restart{.file = fs::path(deck.filename()).replace_extension(".restart")};
+Restart restart(const Values* values, bool asked_for, const fs::path& deck, Problems& problems) {
+  Restart restart{.asked_for = asked_for, .file = fs::path(deck.filename()).replace_extension(".restart")};
   if (!values) return restart;
   restart.enabled = values->flag("Enabled");
-  restart.asked_for = true;
   if (values->has("Filename")) restart.file = values->text("Filename");
   check_one_of(*values, "Frequency", "Interval", problems);
   if (values->has("Frequency")) restart.frequency = values->integer("Frequency");
@@ -508,7 +507,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   check_quasi_static(deck, problems);
   deck.output = output(values.find("Output"), deck.solver, problems);
   deck.history = history(values.find("History"), deck.solver, problems);
-  deck.restart = restart(values.find("Restart"), file, problems);
+  deck.restart = restart(values.find("Restart"), values.has_section("Restart"), file, problems);
   deck.watch = watch(values.find("Watch"));
   return deck;
 }

@@ -1,4 +1,5 @@
-// The table of laws that every contract test loops over. A new law is one line in table_of_laws().
+// The table of laws that every contract test loops over. A new law is one line in table_of_laws(), and one below "What
+// sets laws apart" for each way in which it is not like a metal.
 #pragma once
 
 #include <ostream>
@@ -10,6 +11,31 @@
 #include "polyurethane.hpp"
 
 namespace strut::testing {
+
+// ---- What sets laws apart -------------------------------------------------------------------------------------------
+
+// Of the second form, by the stretch: then J and the stretch belong to the path, and logarithmic strains of more than
+// about 1 are no path that a body could take.
+template <class L>
+inline constexpr bool from_stretch = false;
+template <>
+inline constexpr bool from_stretch<materials::PolymerFoam> = true;
+
+// Hooke's law of the logarithmic strain, and flow, if any, that keeps the volume: the closed forms of that, and the
+// balance of work at J = 1, are checked. A law that is not has its own closed forms in a file of its own.
+template <class L>
+inline constexpr bool like_a_metal = true;
+template <>
+inline constexpr bool like_a_metal<materials::DeshpandeFleck> = false;
+template <>
+inline constexpr bool like_a_metal<materials::PolymerFoam> = false;
+
+// How far stress and energy below yield may be from Hooke's law at a strain of 1e-4, as a part of themselves. 0: not
+// but by round-off. A law that curves from the start departs by some strains.
+template <class L>
+inline constexpr double departs_from_hooke = 0;
+
+// ---- The table ------------------------------------------------------------------------------------------------------
 
 struct NamedLaw {
   std::string name;  // letters, digits and _: part of the name of a test

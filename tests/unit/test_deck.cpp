@@ -198,6 +198,16 @@ TEST(Deck, HasDefaults) {
   EXPECT_FALSE(deck.solver.verbose);
   EXPECT_FALSE(deck.output.enabled);
   EXPECT_FALSE(deck.history.enabled);
+  EXPECT_TRUE(deck.restart.enabled);
+  EXPECT_FALSE(deck.restart.asked_for);  // nothing is left when the run is over
+}
+
+TEST(Deck, ARestartSectionAsksForTheFileToStay) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(changed(small_deck, R"(<ParameterList name="Solver">)",
+                                        R"(<ParameterList name="Restart"/><ParameterList name="Solver">)"));
+  EXPECT_TRUE(deck.restart.enabled);
+  EXPECT_TRUE(deck.restart.asked_for);
 }
 
 Deck with_quasi_static(const DeckFolder& folder, const std::string& parameters) {

@@ -1,0 +1,45 @@
+#!/bin/sh
+# help.sh STRUT: --help is the program's own page and names every option; wrong words are told for what they are.
+strut=$1
+failed=0
+
+fail() {
+  echo "FAILED: $1"
+  failed=1
+}
+
+# says STATUS TEXT WORD…: strut WORD… ends with the status, and TEXT is in what it says.
+says() {
+  status=$1 text=$2
+  shift 2
+  said=$("$strut" "$@" 2>&1)
+  found=$?
+  [ $found = "$status" ] || fail "strut $*: status $found, expected $status"
+  case $said in
+    *"$text"*) ;;
+    *) fail "strut $*: expected '$text' in: $said" ;;
+  esac
+}
+
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+page=$("$strut" --help)
+case $page in
+  strut:*) ;;
+  *) fail "strut --help does not begin with its own page: $page" ;;
+esac
+# Every option that the source compares a word with.
+for option in $(grep -o '== "-[a-z-]*"' "$(dirname "$0")/../../src/main.cpp" | tr -d '="'); do
+  case $page in
+    *" $option"*) ;;
+    *) fail "strut --help does not name $option" ;;
+  esac
+done
+says 0 "usage" -h
+says 0 "strut 0" --version
+says 2 "no deck is named"
+says 2 "did you mean '--check'?" --chek deck.xml
+says 2 "'--continue' needs a deck" --continue
+says 2 "there is no option '--kokkos-help'" --kokkos-help
+says 2 "does not say what to do" deck.xml --check
+says 1 "nothere.xml: the deck does not exist" nothere.xml
+exit $failed
