@@ -185,6 +185,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
 
 void Contact::keep(Archive& archive, const Crowd& crowd, double dt) {
   archive.number("contact_stiffness", stiffness_);
+  archive.number("penetration", penetration_);
   if (!archive.restores()) return;
   std::vector<Vector> forces(crowd.domain.owned, Vector::Zero());  // the solver has them; here are pairs and friction
   for (Meeting& meeting : meetings_) meeting.due = true;

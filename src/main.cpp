@@ -21,7 +21,7 @@ usage: strut [option] deck.xml              on one core
 
   deck.xml             run it: results are written where the deck says, seen from this folder, in place of older ones
   --continue deck.xml  go on with a run that was ended, by a signal, an error or the machine, from where it was last
-                       kept (section Restart); on any number of ranks. Begins anew where nothing was kept
+                       kept (section Restart); on any number of ranks. Begins anew where nothing was kept, unless the result is complete
   --check deck.xml     say what is wrong with it, or what the run would do: points, memory, step, time. Writes nothing
   --keys               all keys of a deck, their units and defaults, as a page of Markdown
   --version            the version and how it was built, as every file that it writes has it

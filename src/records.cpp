@@ -30,7 +30,10 @@ void Frames::write(double time, const Body& body) {
 }
 
 void Frames::keep(Archive& archive, double time) {
-  if (writer_) before_ = writer_->frames();
+  if (writer_) {
+    writer_->sync();
+    before_ = writer_->frames();
+  }
   archive.number("frames", before_);
   archive.number("last_frame", last_);
   schedule.keep(archive, "frames", time);
@@ -70,10 +73,22 @@ void History::write(const Ledger& now, const Reactions& reactions, const Body& b
 }
 
 void History::keep(Archive& archive, double time) {
-  if (file_) before_ = file_->bytes();
+  if (file_) {
+    file_->sync();
+    before_ = file_->bytes();
+  }
   archive.number("history_bytes", before_);
   archive.number("last_line", last_);
   schedule.keep(archive, "history", time);
+}
+
+bool is_over(const deck::Deck& deck, const Communicator& communicator) {
+  double over = 0;
+  if (communicator.rank() == 0 && deck.output.enabled) {
+    const std::optional<double> last = io::last_time_of_result(deck.output.file);
+    over = last && *last >= deck.solver.final_time ? 1 : 0;
+  }
+  return communicator.max(over) > 0;
 }
 
 }  // namespace strut

@@ -65,6 +65,9 @@ class History {
   std::optional<io::HistoryFile> file_;
 };
 
+// Collective. Whether the result that the deck names is of a run that came to its end.
+bool is_over(const deck::Deck& deck, const Communicator& communicator);
+
 // Both, as one.
 struct Records {
   Records(const deck::Deck& deck, const Views& views) : frames(deck, views), history(deck, views) {}

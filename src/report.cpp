@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -135,7 +136,7 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
                            int before) {
   std::ostringstream text;
   text << table_of_phases(scene, seconds) << searches(solver.contact());
-  const int steps = solver.steps() - before;
+  const int steps = std::max(1, solver.steps() - before);  // none where a run that was over goes on
   const double core_seconds = seconds * scene.body.domain.communicator.size();
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
                     static_cast<double>(scene.points) * steps / seconds,

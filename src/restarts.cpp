@@ -9,6 +9,12 @@
 
 namespace strut {
 
+bool restart_is_there(const deck::Deck& deck, const Communicator& communicator) {
+  std::error_code failure;
+  const bool there = communicator.rank() == 0 && std::filesystem::exists(deck.restart.file, failure);
+  return communicator.max(there ? 1.0 : 0.0) > 0;
+}
+
 Restarts::Restarts(const deck::Deck& deck, const Communicator& communicator, Keep keep)
     : settings_(deck.restart),
       deck_name_(deck.file.string()),
@@ -17,12 +23,15 @@ Restarts::Restarts(const deck::Deck& deck, const Communicator& communicator, Kee
       keep_(std::move(keep)),
       schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
   schedule_.done(deck.solver.initial_time);
+  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_file()); });
 }
 
-bool Restarts::there() const {
-  std::error_code failure;
-  return communicator_.max(communicator_.rank() == 0 && std::filesystem::exists(settings_.file, failure) ? 1.0 : 0.0) >
-         0;
+std::filesystem::path Restarts::lock_file() const { return settings_.file.string() + ".lock"; }
+
+void Restarts::close() {
+  if (!due_at_the_end()) forget();
+  std::error_code ignored;
+  if (lock_) std::filesystem::remove(lock_file(), ignored);
 }
 
 // The state as it is says what is asked of the file.

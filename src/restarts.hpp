@@ -3,27 +3,31 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "base/archive.hpp"
 #include "base/communicator.hpp"
 #include "deck/deck.hpp"
+#include "io/file_lock.hpp"
 #include "schedule.hpp"
 
 namespace strut {
+
+bool restart_is_there(const deck::Deck& deck, const Communicator& communicator);  // collective: a run has left one
 
 class Restarts {
  public:
   // What is kept, by an archive that saves or restores.
   using Keep = std::function<void(Archive&)>;
 
+  // Collective. Throws Error on all ranks: another run that is on keeps things under the same name.
   Restarts(const deck::Deck& deck, const Communicator& communicator, Keep keep);
-
-  bool there() const;  // collective: a run has left something
 
   // Collective. Throws Error on all ranks: what is there is damaged, or of another model.
   void take_up();
-  void forget();  // collective: what an earlier run has left
+  void forget();  // collective: what an earlier run has left; throws Error where it is no such thing
+  void close();   // collective; at the end of a run that is over: what it kept stays if the deck asks for that
 
   bool due(int step, double time) const;  // by the steps or the time of the simulation
   bool due_by_the_clock() const;          // on this rank
@@ -34,6 +38,8 @@ class Restarts {
   std::string hint() const;
 
  private:
+  std::filesystem::path lock_file() const;
+
   deck::Restart settings_;
   std::string deck_name_, deck_text_;
   Communicator communicator_;
@@ -43,6 +49,7 @@ class Restarts {
   int last_step_ = 0;  // that was written, or taken up
   double last_time_ = 0;
   bool written_ = false;
+  std::optional<io::FileLock> lock_;  // on rank 0, of a file beside: the kept one is replaced by each new one
 };
 
 }  // namespace strut

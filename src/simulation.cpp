@@ -44,18 +44,18 @@ void leave_frame(Records& records, double time, const Body& body) {
 
 // Everything after set-up: the loop over steps. Returns the ledger at the end.
 Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& solver, Records& records,
-                    Restarts& restarts) {
+                    Restarts& restarts, Watch& watch) {
   using Wish = CentralDifference::Wish;
   const double final_time = deck.solver.final_time;
   const Body& body = scene.body;
-  Watch watch(deck.watch, body, tell);
   Progress progress(body.domain.communicator, deck.solver.initial_time, solver.time(), final_time);
   bool warned = false;
-  bool ending = false;  // a step after the ranks agreed to stop, so that its energies are known everywhere
+  // A step after the ranks agreed, so that energies are known everywhere at the times that are looked at or kept.
+  bool ending = false, saving = false;
   for (;;) {
     const double now = solver.time();
     const bool over = now >= final_time, last = over || ending;
-    const bool save = over ? restarts.due_at_the_end() : ending || solver.agreed() == Wish::save;
+    const bool save = over ? restarts.due_at_the_end() : ending || saving;
     if (save || restarts.due(solver.steps(), now)) restarts.write(solver.steps(), now);
     solver.kick(final_time);
     if (!warned && scene.control.fixed_dt > solver.stable_step()) {
@@ -70,34 +70,39 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
     if (last) break;
     solver.request(signalled ? Wish::stop : restarts.due_by_the_clock() ? Wish::save : Wish::none);
     const double next = now + solver.dt();
+    const int step = solver.steps() + 1;
     ending = solver.agreed() == Wish::stop;
-    solver.move(next >= final_time || ending || records.due(solver.steps() + 1, next));
+    saving = solver.agreed() == Wish::save;
+    solver.move(next >= final_time || ending || saving || records.due(step, next) || restarts.due(step, next));
   }
   progress.finish();
   return solver.ledger();
 }
 
 // The same by load steps.
-Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Records& records, Restarts& restarts) {
+Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, Records& records, Restarts& restarts,
+                    Watch& watch) {
   const int conditions = records.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   const Communicator& ranks = scene.body.domain.communicator;
-  Watch watch(deck.watch, scene.body, tell);
-  const auto record_now = [&](bool last) {
-    const auto ledger = records.write(
+  const auto record = [&](bool last) {
+    return records.write(
         scene.body, solver, [&] { return solver.reactions(conditions); }, last);
-    if (ledger) watch.look_at_energy(*ledger);
   };
   bool ending = false, save = false;
   for (;;) {
     const bool over = solver.time() >= deck.solver.final_time, last = ending || over;
     if (over) save = restarts.due_at_the_end();
     if (save || restarts.due(solver.steps(), solver.time())) restarts.write(solver.steps(), solver.time());
-    record_now(last);
+    const auto ledger = record(last);
+    if (ledger) watch.look_at_energy(*ledger);
     if (last) return solver.ledger();
     try {
       ending = !solver.advance();
     } catch (const Error&) {
-      record_now(true);
+      try {
+        record(true);
+      } catch (const Error&) {  // what went wrong first is what is told
+      }
       throw;
     }
     ending = ranks.max(ending || signalled ? 1.0 : 0.0) > 0;
@@ -117,26 +122,30 @@ template <class Solver, class Through>
 bool carry_out(const deck::Deck& deck, Scene& scene, Records& records, Solver& solver, Start start,
                Clock::time_point began, const Through& through) {
   const Communicator& communicator = scene.body.domain.communicator;
+  Watch watch(deck.watch, scene.body, tell);
   Restarts restarts(deck, communicator, [&](Archive& archive) {
     solver.keep(archive);
+    watch.keep(archive);
     records.keep(archive, solver.time());
   });
-  const bool goes_on = start == Start::continued && restarts.there();
-  if (goes_on) restarts.take_up();
-  records.open(scene.body);  // which ends this run here if another one is writing
-  if (!goes_on) restarts.forget();
+  if (start == Start::continued && restart_is_there(deck, communicator)) {
+    restarts.take_up();
+  } else {
+    restarts.forget();
+  }
+  records.open(scene.body);
   const int before = solver.steps();
   catch_signals();
   const Ledger ledger = [&] {
     try {
-      return through(restarts);
+      return through(restarts, watch);
     } catch (const Error& error) {
       leave_frame(records, solver.time(), scene.body);
       throw Error(error.what() + restarts.hint());
     }
   }();
   const bool over = solver.time() >= deck.solver.final_time;
-  if (over && !restarts.due_at_the_end()) restarts.forget();
+  if (over) restarts.close();
   const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
   say(communicator, closing_report(scene, solver, ledger, seconds, before));
   if (!over) say(communicator, "ended by a signal" + restarts.hint() + "\n");
@@ -148,6 +157,10 @@ bool carry_out(const deck::Deck& deck, Scene& scene, Records& records, Solver& s
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
   const deck::Deck deck = deck::read(deck_file, communicator);
+  if (start == Start::continued && !restart_is_there(deck, communicator) && is_over(deck, communicator)) {
+    say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
+    return true;
+  }
   Scene scene = set_up(deck, communicator);
   say(communicator, describe_scene(scene));
   const Views views = views_of(deck, scene.body);  // all names are checked before a file is replaced
@@ -155,14 +168,16 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                        deck.solver.initial_time, deck.solver.final_time, audience(deck, communicator));
-    return carry_out(deck, scene, records, solver, start, began,
-                     [&](Restarts& restarts) { return load_through(deck, scene, solver, records, restarts); });
+    return carry_out(deck, scene, records, solver, start, began, [&](Restarts& restarts, Watch& watch) {
+      return load_through(deck, scene, solver, records, restarts, watch);
+    });
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
   if (records.history.has_reactions()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
-  return carry_out(deck, scene, records, solver, start, began,
-                   [&](Restarts& restarts) { return step_through(deck, scene, solver, records, restarts); });
+  return carry_out(deck, scene, records, solver, start, began, [&](Restarts& restarts, Watch& watch) {
+    return step_through(deck, scene, solver, records, restarts, watch);
+  });
 }
 
 }  // namespace strut

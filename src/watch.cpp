@@ -54,17 +54,18 @@ void Watch::look_at_step(const CentralDifference& solver) {
     if (!solver.warning().empty()) tell_("WARNING: " + solver.warning() + " (Watch > Inverted Points; told once)");
     told_[point] = true;
   }
-  if (first_step_ == 0) first_step_ = solver.dt();
+  const double now = solver.stable_step();  // the one that is taken may be short for the end of the run
+  if (first_step_ == 0) first_step_ = now;
   const contact::Contact& contact = solver.contact();
-  if (!(solver.dt() >= limits_.smallest_step * first_step_) && !(told_[step] && std::isfinite(solver.dt()))) {
+  if (!(now >= limits_.smallest_step * first_step_) && !(told_[step] && std::isfinite(now))) {
     std::ostringstream text;
     const std::string point = fastest_point(body_);
-    text << at(solver.time()) << "the step has fallen to " << solver.dt() << " s from " << first_step_
+    text << at(solver.time()) << "the stable step has fallen to " << now << " s from " << first_step_
          << " s (Watch > Smallest Step): the stiffest is " << point
          << ". Likely causes: a point is being crushed flat or turned inside out, too little stabilisation, or bodies "
             "in contact that are far too stiff";
     passed(step, point.empty() ? "" : text.str());
-    if (!std::isfinite(solver.dt())) raise_together(body_.domain.communicator, text.str());
+    if (!std::isfinite(now)) raise_together(body_.domain.communicator, point.empty() ? "" : text.str());
   }
   if (contact.penetration() > limits_.penetration && !told_[penetration]) {
     const contact::Deepest deepest = contact.deepest();
@@ -78,8 +79,14 @@ void Watch::look_at_step(const CentralDifference& solver) {
   }
 }
 
+void Watch::keep(Archive& archive) {
+  archive.number("first_step", first_step_);
+  archive.number("ledgers", ledgers_);
+}
+
 void Watch::look_at_energy(const Ledger& ledger) {
-  if (++ledgers_ <= first_ledgers || ledger.balance_error <= limits_.balance_error) return;
+  const bool early = ++ledgers_ <= first_ledgers && std::isfinite(ledger.balance_error);
+  if (early || ledger.balance_error <= limits_.balance_error) return;
   std::ostringstream text;
   text << at(ledger.time) << "the balance of energy has an error of " << 100 * ledger.balance_error
        << " % of the largest energy (Watch > Balance Error): the run has become unstable or is far too coarse in "

@@ -23,6 +23,8 @@ class Watch {
   void look_at_step(const CentralDifference& solver);  // after kick()
   void look_at_energy(const Ledger& ledger);
 
+  void keep(Archive& archive);
+
  private:
   enum What { step, energy, penetration, point, count };
   void passed(What what, const std::string& text);
@@ -30,7 +32,7 @@ class Watch {
   deck::Watch limits_;
   const Body& body_;
   std::function<void(const std::string&)> tell_;
-  double first_step_ = 0;  // s
+  double first_step_ = 0;  // s, stable
   int ledgers_ = 0;
   bool told_[count] = {};
 };

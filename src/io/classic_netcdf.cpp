@@ -167,4 +167,15 @@ std::string classic_netcdf_problem(const std::filesystem::path& path) {
   }
 }
 
+// The number stands after the magic one, in four bytes (eight in CDF-5), the highest first.
+void keep_records(const std::filesystem::path& path, int count) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  char magic[4] = {};
+  file.read(magic, 4);
+  for (int byte = (magic[3] == 5 ? 8 : 4) - 1; byte >= 0; --byte) {
+    file.put(static_cast<char>(byte < 4 ? static_cast<unsigned>(count) >> 8 * byte & 0xff : 0));
+  }
+  if (!file.flush()) throw Error(path.string() + ": cannot cut it");
+}
+
 }  // namespace strut::io

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,6 +51,7 @@ class ExodusWriter {
   void write(double time, std::span<const std::vector<double>> columns);
 
   int frames() const;  // so far
+  void sync() const;   // collective: they are on the disk
 
  private:
   struct File;
@@ -64,6 +66,8 @@ struct ExodusResult {
   std::vector<std::vector<std::vector<double>>> nodal, element;
 };
 ExodusResult read_result(const std::filesystem::path& file);
+// Of its last frame, s; nothing where there is no such file, no frame or no sense in it.
+std::optional<double> last_time_of_result(const std::filesystem::path& file);
 
 // Of HEX8, TET4 and SPHERE; throws Error for other types.
 int nodes_per_element(const std::string& type);

@@ -7,11 +7,13 @@
 
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
+#include "io/classic_netcdf.hpp"
 #include "io/elements.hpp"
 #include "io/exodus.hpp"
 #include "io/exodus_file.hpp"
 #include "io/file_lock.hpp"
 #include "io/numbering.hpp"
+#include "io/to_disk.hpp"
 
 namespace strut::io {
 
@@ -101,7 +103,7 @@ void ExodusWriter::File::begin(const std::filesystem::path& path, const PointClo
   if (all.ids.empty()) throw Error(path.string() + ": there are no points to write");
   order(all);
   define_blocks(cloud, all);
-  lock.emplace(path);
+  lock.emplace(path, steps > 0 ? FileLock::File::there : FileLock::File::made);
   steps > 0 ? go_on(path) : create(path, cloud, all);
 }
 
@@ -113,16 +115,21 @@ std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
   return names;
 }
 
-// Frames that are there beyond the first `steps` are written again: a run that goes on comes to the same ones.
+// Frames beyond the first `steps` are dropped: the run comes to them again.
 void ExodusWriter::File::go_on(const std::filesystem::path& path) {
-  exodus.emplace(ExodusFile::open(path, ExodusFile::Access::write));
   const auto [element, nodal] = names();
-  const bool fits = exodus->sizes().nodes == std::ssize(node_order) && std::ssize(exodus->times()) >= steps &&
-                    exodus->variable_names(ExodusFile::On::elements) == element &&
-                    exodus->variable_names(ExodusFile::On::nodes) == nodal;
-  if (fits) return;
-  throw Error(path.string() + ": is not the result that the run left: it has other points or fields, or fewer than " +
-              std::to_string(steps) + " frames");
+  const bool fits = [&] {
+    const ExodusFile found = ExodusFile::open(path);
+    return found.sizes().nodes == std::ssize(node_order) && std::ssize(found.times()) >= steps &&
+           found.variable_names(ExodusFile::On::elements) == element &&
+           found.variable_names(ExodusFile::On::nodes) == nodal;
+  }();
+  if (!fits) {
+    throw Error(path.string() + ": is not the result that the run left: it has other points or fields, or fewer than " +
+                std::to_string(steps) + " frames");
+  }
+  keep_records(path, steps);
+  exodus.emplace(ExodusFile::open(path, ExodusFile::Access::write));
 }
 
 // The layout first, then what fills it: the library would move what is there if the layout grew.
@@ -246,6 +253,10 @@ ExodusWriter::~ExodusWriter() = default;
 ExodusWriter::ExodusWriter(ExodusWriter&&) noexcept = default;
 
 int ExodusWriter::frames() const { return file_->steps; }
+
+void ExodusWriter::sync() const {
+  run_on_root(file_->communicator, [this] { force_to_disk(file_->exodus->path()); });
+}
 
 // Rank 0 goes on receiving after a failure, so that no rank waits; the failure is raised on all ranks at the end.
 void ExodusWriter::write(double time, std::span<const std::vector<double>> columns) {

@@ -12,9 +12,12 @@
 namespace strut::io {
 
 // A lock of the open file, not of the process: libraries that open and close the same file do not let it go.
-FileLock::FileLock(const std::filesystem::path& path)
-    : handle_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-  if (handle_ < 0) throw Error(path.string() + ": cannot create it: " + std::strerror(errno));
+FileLock::FileLock(const std::filesystem::path& path, File file)
+    : handle_(::open(path.c_str(), O_RDWR | O_CLOEXEC | (file == File::made ? O_CREAT : 0), 0666)) {
+  if (handle_ < 0) {
+    throw Error(path.string() + (file == File::made ? ": cannot create it: " : ": cannot go on with it: ") +
+                std::strerror(errno));
+  }
   struct flock whole = {};
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;

@@ -5,11 +5,13 @@
 
 namespace strut::io {
 
-// Holds a file, which is made if it is not there, against other runs until it goes out of scope or the process ends,
-// however it ends. Throws Error: another run holds it, it cannot be created. File systems without locks hold nothing.
+// Holds a file against other runs until it goes out of scope or the process ends,
+// however it ends. Throws Error: another run holds it, it cannot be created, or is not there. File systems without
+// locks hold nothing.
 class FileLock {
  public:
-  explicit FileLock(const std::filesystem::path& path);
+  enum class File { made, there };  // made if it is not there
+  explicit FileLock(const std::filesystem::path& path, File file = File::made);
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&&) = delete;

@@ -7,6 +7,7 @@
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "io/to_disk.hpp"
 
 namespace strut::io {
 
@@ -36,7 +37,7 @@ HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& 
     : path_(path), communicator_(communicator), columns_(column_names.size()), bytes_(bytes) {
   run_on_root(communicator_, [&] {
     check_names(column_names);
-    lock_.emplace(path_);
+    lock_.emplace(path_, bytes_ > 0 ? FileLock::File::there : FileLock::File::made);
     const std::string header = joined(column_names, ",");
     bytes_ > 0 ? go_on(header) : begin(header);
   });
@@ -77,6 +78,10 @@ void HistoryFile::write(std::span<const double> row) {
     }
     write_line(line + "0");
   });
+}
+
+void HistoryFile::sync() const {
+  run_on_root(communicator_, [this] { force_to_disk(path_); });
 }
 
 void HistoryFile::write_line(const std::string& line) {

@@ -28,6 +28,7 @@ class HistoryFile {
   void write(std::span<const double> row);
 
   std::int64_t bytes() const { return bytes_; }  // so far, on rank 0
+  void sync() const;                             // collective: they are on the disk
 
  private:
   void begin(const std::string& header);

@@ -38,7 +38,7 @@ NetcdfLists opened(const fs::path& path) {
 
 [[noreturn]] void differs(const fs::path& path, const std::string& what) {
   throw Error(path.string() + ": is of another deck or mesh: " + what +
-              ". A run can go on with another final time, output or restart, not with another model");
+              ". A run can go on with another final time, and other times of output, not with another model");
 }
 
 // That the file has what the snapshot has. The numbers of points are those over all ranks.

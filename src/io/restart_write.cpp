@@ -11,6 +11,7 @@
 #include "io/netcdf_lists.hpp"
 #include "io/restart_file.hpp"
 #include "io/restart_layout.hpp"
+#include "io/to_disk.hpp"
 
 namespace strut::io {
 
@@ -19,17 +20,8 @@ using namespace restart;
 
 namespace {
 
-// What is in the file is on the disk.
-void sync(const fs::path& path) {
-  const int handle = ::open(path.c_str(), O_RDONLY);
-  const bool good = handle >= 0 && ::fsync(handle) == 0;
-  const int why = errno;
-  if (handle >= 0) ::close(handle);
-  if (!good) throw Error(path.string() + ": cannot write it to disk: " + std::strerror(why));
-}
-
 void replace(const fs::path& path, const fs::path& part) {
-  sync(part);
+  force_to_disk(part);
   std::error_code failure;
   fs::rename(part, path, failure);
   if (failure) throw Error(path.string() + ": cannot replace it: " + failure.message());

@@ -1,4 +1,5 @@
 // A finished result, whole, for comparison.
+#include "base/errors.hpp"
 #include "io/exodus.hpp"
 #include "io/exodus_file.hpp"
 #include "io/rehearsal.hpp"
@@ -31,6 +32,15 @@ ExodusResult read_whole(const std::filesystem::path& path) {
 
 ExodusResult read_result(const std::filesystem::path& path) {
   return rehearsed(path, [&] { return read_whole(path); });
+}
+
+std::optional<double> last_time_of_result(const std::filesystem::path& file) {
+  try {
+    const std::vector<double> times = rehearsed(file, [&] { return ExodusFile::open(file).times(); });
+    if (!times.empty()) return times.back();
+  } catch (const Error&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace strut::io

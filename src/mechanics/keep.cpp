@@ -1,5 +1,7 @@
 #include "mechanics/keep.hpp"
 
+#include "base/errors.hpp"
+
 namespace strut {
 
 namespace {
@@ -10,6 +12,19 @@ void keep_vectors(Archive& archive, const std::string& name, std::vector<Vector>
 
 void keep_numbers(Archive& archive, const std::string& name, std::vector<double>& numbers) {
   archive.field(name, 1, [&](std::size_t i, int) -> double& { return numbers[i]; });
+}
+
+// Collective. The mesh, to know it again: nothing of it is restored.
+void compare_reference(Archive& archive, const Body& body) {
+  std::vector<Eigen::Array4d> kept;
+  for (int i = 0; i < body.owned(); ++i) kept.push_back(body.sites[i].reference);
+  archive.field("reference", 4, [&](std::size_t i, int c) -> double& { return kept[i][c]; });
+  bool same = true;
+  for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.sites[i].reference).all();
+  raise_together(body.domain.communicator,
+                 same ? ""
+                      : "the mesh is not the one with which the run began: points are at other places, or of "
+                        "other volumes; a run can go on with the same one only");
 }
 
 void keep_motion(Archive& archive, Body& body) {
@@ -32,8 +47,8 @@ void keep_points(Archive& archive, Body& body) {
   keep_numbers(archive, "residual", body.residual);
 }
 
-void keep_block(Archive& archive, const Body& body, MaterialBlock& block) {
-  archive.points("block " + block.name, ids_of(body, block.points));
+void keep_block(Archive& archive, const Body& body, std::size_t number, MaterialBlock& block) {
+  archive.points("block " + std::to_string(number) + " (" + block.name + ")", ids_of(body, block.points));
   const std::size_t size = block.points.size();
   const int columns =
       std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
@@ -64,10 +79,11 @@ std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& point
 void keep(Archive& archive, Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     archive.number("undisturbed_" + std::to_string(b), body.blocks[b].undisturbed);
-    keep_block(archive, body, body.blocks[b]);
+    keep_block(archive, body, b, body.blocks[b]);
   }
   const auto owned = body.domain.cloud.ids.begin() + body.owned();
   archive.points("all points", {body.domain.cloud.ids.begin(), owned});
+  compare_reference(archive, body);
   keep_motion(archive, body);
   keep_points(archive, body);
   if (!archive.restores()) return;

@@ -376,16 +376,16 @@ std::string describe(const Failure& failure, const Body& body) {
   text << locate(body, failure.point) << ": ";
   switch (failure.kind) {
     case Failure::Kind::inverted:
-      text << "the deformation gradient has no positive determinant (the point is turned inside out, or its place is "
-              "not a number). Likely causes: a step above the stable one, too little stabilisation, a load too sudden";
+      text << "the deformation gradient has no positive determinant (the point is turned inside out). Likely causes: a "
+              "step above the stable one, too little stabilisation, a load too sudden";
       break;
     case Failure::Kind::no_stress:
       text << "the material law found no stress. Likely causes: a strain increment that is not finite or far too large "
               "for one step, material constants of the wrong unit";
       break;
     case Failure::Kind::not_finite:
-      text << "its dilatation is not a number (places are not, or two points met). Likely causes: a step above the "
-              "stable one, a load too sudden";
+      text << "its strain is not a number (places are not, or two points met). Likely causes: a step above the stable "
+              "one, a load too sudden, an expression without a value";
   }
   return text.str();
 }

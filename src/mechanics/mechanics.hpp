@@ -12,15 +12,20 @@ struct PointTangent;
 
 // A point at which a step went wrong.
 struct Failure {
-  int point;  // owned, local index
-  enum class Kind { inverted, no_stress, not_finite } kind;
+  int point;                                                 // owned, local index
+  enum class Kind { not_finite, no_stress, inverted } kind;  // the worst first
 };
+
+// Leaves the worse of both in `worst`.
+inline void take_worse(const std::optional<Failure>& other, std::optional<Failure>& worst) {
+  if (other && (!worst || other->kind < worst->kind)) worst = other;
+}
 
 struct StepReport {
   double pace = 0;  // 1/s, the largest of any point, as a part of its step: the stable step shrinks with it
   // ζ, the largest part of the critical damping by viscosity: the stable step is √(1 + ζ²) − ζ of that without.
   double damping = 0;
-  std::optional<Failure> failure;  // the first on this rank; its stress is the old one
+  std::optional<Failure> failure;  // the worst on this rank; its stress is the old one
 };
 
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over

@@ -16,7 +16,7 @@ double energy(const materials::Moduli& moduli, double weighted_volume, double di
 }
 
 template <bool with_energy, class Weight>
-void advance_points(Body& body, MaterialBlock& block, Weight weight, Part part, FirstFailure& failure) {
+void advance_points(Body& body, MaterialBlock& block, Weight weight, Part part, WorstFailure& failure) {
   const auto [begin, end] = range(block, part);
   const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
   for_each_point(begin, end, [&, weight](int k) {
@@ -57,7 +57,7 @@ void set_views(Body& body, const MaterialBlock& block, Weight weight, Part part)
 }  // namespace
 
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report) {
-  FirstFailure failure;
+  WorstFailure failure;
   bonds::with_influence(body.influence, [&](auto weight) {
     if (!with_views) return advance_points<false>(body, block, weight, part, failure);
     advance_points<true>(body, block, weight, part, failure);
@@ -65,7 +65,7 @@ void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part pa
   });
   // Bonds in compression become no stiffer than they were.
   report.pace = std::max(report.pace, block.resting_pace);
-  if (!report.failure) report.failure = failure.found(block);
+  take_worse(failure.found(block), report.failure);
 }
 
 }  // namespace strut

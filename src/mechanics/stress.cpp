@@ -112,7 +112,7 @@ struct Update {
   const L& law;
   Weight weight;
   StressPass pass;
-  FirstFailure& failure;
+  WorstFailure& failure;
 
   // Stress and state of one point.
   void advance(const Group& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
@@ -257,7 +257,7 @@ struct Update {
         continue;
       }
       if (!(J[l] > 0)) {  // NaN too
-        failure.report(g.k[l], Failure::Kind::inverted);
+        failure.report(g.k[l], std::isnan(J[l]) ? Failure::Kind::not_finite : Failure::Kind::inverted);
         drop_forces(g, l);
         continue;
       }
@@ -271,7 +271,7 @@ struct Update {
 template <class L, class Weight>
 void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, const StressPass& pass, int begin,
                     int end, StepReport& report) {
-  FirstFailure failure;
+  WorstFailure failure;
   const Update<L, Weight> update{body, block, law, weight, pass, failure};
   const auto advance_group = [&update, begin, end](int group)
                                  STRUT_INLINE_ALL { return update.advance_group(begin + 4 * group, end); };
@@ -281,7 +281,7 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
     const auto damping = [&block](int k) { return block.viscous[k].damping; };
     report.damping = largest(begin, end, report.damping, damping);
   }
-  if (!report.failure) report.failure = failure.found(block);
+  take_worse(failure.found(block), report.failure);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Inside mechanics: the pass over the points of a block that ends in their force states.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "mechanics/mechanics.hpp"
@@ -17,18 +18,20 @@ inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
   return {block.interior, static_cast<int>(block.points.size())};
 }
 
-// The first failure of a loop over the points of a block, in their order, whichever thread finds it.
-class FirstFailure {
+// The worst failure of a loop over the points of a block, the first of these in their order, whichever thread finds it.
+class WorstFailure {
  public:
-  void report(int k, Failure::Kind kind) { Kokkos::atomic_fetch_min(&code_, kinds * k + static_cast<int>(kind)); }
+  void report(int k, Failure::Kind kind) {
+    Kokkos::atomic_fetch_min(&code_, (static_cast<std::int64_t>(kind) << 32) + k);
+  }
   std::optional<Failure> found(const MaterialBlock& block) const {
     if (code_ == none) return std::nullopt;
-    return Failure{block.points[code_ / kinds], static_cast<Failure::Kind>(code_ % kinds)};
+    return Failure{block.points[static_cast<std::uint32_t>(code_)], static_cast<Failure::Kind>(code_ >> 32)};
   }
 
  private:
-  static constexpr int kinds = 3, none = std::numeric_limits<int>::max();
-  int code_ = none;
+  static constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+  std::int64_t code_ = none;
 };
 
 // Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).

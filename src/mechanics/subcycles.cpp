@@ -234,9 +234,9 @@ void Subcycles::make_orders(Body& body) {
 }
 
 void Subcycles::keep(Archive& archive, Body& body) {
-  bool any = !body.halvings.empty();
+  bool any = body.domain.communicator.max(body.halvings.empty() ? 0.0 : 1.0) > 0;  // ranks without points have none
   std::vector<std::uint8_t> halvings(body.owned(), 0);
-  if (any) std::copy_n(body.halvings.begin(), body.owned(), halvings.begin());
+  if (!body.halvings.empty()) std::copy_n(body.halvings.begin(), body.owned(), halvings.begin());
   archive.number("has_halvings", any);
   archive.field("halvings", 1, [&](std::size_t i, int) -> std::uint8_t& { return halvings[i]; });
   if (!archive.restores()) return;

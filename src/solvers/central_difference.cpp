@@ -21,7 +21,7 @@ namespace {
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
-constexpr double round_off = 1e-9;  // of a step: times are sums of steps
+constexpr double round_off = 1e-6;  // of a step: times are sums of up to millions of steps
 
 }  // namespace
 
@@ -161,7 +161,7 @@ StepReport CentralDifference::substeps() {
   for (int n = 1; n < count; ++n) {
     const int order = orders - std::countr_zero(static_cast<unsigned>(n));
     const StepReport report = substep(order, time_ + n * (dt_ / count));
-    if (!first.failure) first.failure = report.failure;
+    take_worse(report.failure, first.failure);
   }
   return first;
 }
@@ -203,7 +203,7 @@ void CentralDifference::move(bool with_views) {
   updates_ += subcycles_.updates_a_point();
   most_substeps_ = std::max(most_substeps_, 1 << subcycles_.orders());
   StepReport report = advance_stress(body_, dt_, with_views);
-  if (between.failure) report.failure = between.failure;
+  take_worse(between.failure, report.failure);
   if (regroup_due_) regroup(report);
   sum_forces(body_, with_views);
   contact_.add_forces(crowd(), dt_, body_.force_density);
@@ -238,11 +238,10 @@ void CentralDifference::check(const StepReport& report) {
   warning_ = text.str();
 }
 
-// A point without a place takes others with it: there is no going on.
+// A point that only is turned inside out has a place; others take their neighbours with them.
 CentralDifference::Gravity CentralDifference::gravity(const StepReport& report) const {
   if (!report.failure) return harmless;
-  const bool inverted = report.failure->kind == Failure::Kind::inverted;
-  return control_.with_inverted && inverted && body_.current(report.failure->point).allFinite() ? passable : fatal;
+  return control_.with_inverted && report.failure->kind == Failure::Kind::inverted ? passable : fatal;
 }
 
 void CentralDifference::keep(Archive& archive) {

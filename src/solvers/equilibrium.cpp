@@ -165,7 +165,6 @@ void Equilibrium::keep(Archive& archive) {
   keep_field("outer_forces", outer_);
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
-  archive.number("scale", last_scale_);
   archive.number("largest_scale", largest_scale_);
   const contact::Crowd crowd{body_.domain, body_.sites, body_.velocity, body_.density};
   contact_.keep(archive, crowd, 0);

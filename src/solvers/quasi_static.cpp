@@ -44,13 +44,15 @@ double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
 
 // What moved over the last step goes on at its rate.
 void QuasiStatic::extrapolate() {
-  if (last_step_.empty()) return;
+  if (steps_ == 0) return;
   Body& body = equilibrium_.body();
   const double factor = dt_ / last_dt_;
   for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * last_step_[i].array();
 }
 
 Search QuasiStatic::search_from_start(bool with_tangent) {
+  newton_.begin_anew();  // or a run that was cut would not go on as one that was not
+  relaxation_.begin_anew();
   equilibrium_.begin(time_, dt_);
   extrapolate();
   // Rounds of the multipliers of tools, each from the equilibrium of the last.
@@ -102,11 +104,8 @@ void QuasiStatic::keep(Archive& archive) {
   equilibrium_.keep(archive);
   Body& body = equilibrium_.body();
   archive.points("motion", {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()});
-  bool moved = !last_step_.empty();
-  Field last_step = moved ? last_step_ : Field(body.owned(), Vector::Zero());
-  archive.number("moved", moved);
-  archive.field("last_step", 3, [&last_step](std::size_t i, int c) -> double& { return last_step[i][c]; });
-  last_step_ = moved ? std::move(last_step) : Field{};
+  last_step_.resize(body.owned(), Vector::Zero());
+  archive.field("last_step", 3, [this](std::size_t i, int c) -> double& { return last_step_[i][c]; });
   archive.number("time", time_);
   archive.number("dt", dt_);
   archive.number("last_dt", last_dt_);
@@ -117,8 +116,6 @@ void QuasiStatic::keep(Archive& archive) {
 }
 
 bool QuasiStatic::advance() {
-  newton_.begin_anew();  // or a run that was cut would not go on as one that was not
-  relaxation_.begin_anew();
   dt_ = std::min(dt_, final_time_ - time_);
   for (;;) {
     const Search search = attempt();

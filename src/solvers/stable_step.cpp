@@ -36,13 +36,14 @@ Vector noise(std::int64_t id) {
   return v;
 }
 
-Field start_field(const Body& body, const StoredField& mode) {
+Field start_field(const Body& body, const StoredField* mode) {
   Field field(body.owned());
   for (int i = 0; i < body.owned(); ++i) field[i] = noise(body.domain.cloud.ids[i]);
-  if (mode.empty()) return field;
+  if (!mode) return field;
   // Mostly the old mode; enough noise to find a new one that has overtaken it.
   const double scale = 0.1 / std::sqrt(inner(body, field, field));
-  for (int i = 0; i < body.owned(); ++i) field[i] = mode[i].cast<double>() + scale * field[i];  // a mode is of length 1
+  for (int i = 0; i < body.owned(); ++i)
+    field[i] = (*mode)[i].cast<double>() + scale * field[i];  // a mode is of length 1
   return field;
 }
 
@@ -115,11 +116,9 @@ double StableStep::bytes(const Body& body) {
 }
 
 void StableStep::keep(Archive& archive, const Body& body) {
-  bool any = !mode_.empty();
-  StoredField mode = any ? mode_ : StoredField(body.owned(), Eigen::Vector3f::Zero());
-  archive.number("has_mode", any);
-  archive.field("mode", 3, [&](std::size_t i, int c) -> float& { return mode[i][c]; });
-  mode_ = any ? std::move(mode) : StoredField{};
+  archive.number("has_mode", found_);
+  mode_.resize(body.owned(), Eigen::Vector3f::Zero());
+  archive.field("mode", 3, [&](std::size_t i, int c) -> float& { return mode_[i][c]; });
 }
 
 double StableStep::estimate(Body& body) {
@@ -127,7 +126,8 @@ double StableStep::estimate(Body& body) {
   const Timed timed(timer);
   double bound = 0;
   for (int cycle = 0; cycle < most_cycles; ++cycle) {
-    const Lanczos lanczos = iterate(body, cycle == 0 ? start_field(body, mode_) : widened(mode_), basis_size);
+    const Lanczos lanczos =
+        iterate(body, cycle == 0 ? start_field(body, found_ ? &mode_ : nullptr) : widened(mode_), basis_size);
     const int n = static_cast<int>(lanczos.diagonal.size());
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
     const Eigen::Map<const Eigen::VectorXd> diagonal(lanczos.diagonal.data(), n), beside(lanczos.beside.data(), n - 1);
@@ -136,6 +136,7 @@ double StableStep::estimate(Body& body) {
     const double value = ritz.eigenvalues()[n - 1];
     const double residual = std::abs(lanczos.beside[n - 1] * weights[n - 1]);
     mode_ = combine(lanczos.basis, weights);
+    found_ = true;
     bound = value + residual;
     if (!(residual > accuracy * value)) break;
   }

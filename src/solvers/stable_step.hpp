@@ -25,6 +25,7 @@ class StableStep {
   static constexpr double accuracy = 0.02;  // of ω²_max: 1 % of the step
 
  private:
+  bool found_ = false;                 // on all ranks: those without points have none, too
   std::vector<Eigen::Vector3f> mode_;  // the mode found last, of length 1
 };
 

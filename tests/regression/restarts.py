@@ -328,6 +328,24 @@ class Test:
             if kept.read_bytes() != content:
                 self.fail(f"{folder}: {expected}: the file has been touched")
 
+        deck.write_text(text)
+        kept.write_bytes(good)
+        mesh = folder / "points.txt"
+        lines = mesh.read_text().splitlines()
+        x, rest = lines[0].split(" ", 1)
+        mesh.write_text("\n".join([f"{float(x) * 1.0001:.17g} {rest}", *lines[1:]]) + "\n")
+        if "the mesh is not the one with which the run began" not in self.run(folder, "--continue", expect=1):
+            self.fail(f"{folder}: a mesh of as many points is taken for the same", folder / "log")
+
+    def over(self, scene, whole):
+        """A job that comes after the end, and finds only the result, leaves it alone."""
+        folder = Path(f"{scene}-over")
+        shutil.copytree(whole, folder)
+        (folder / "deck.restart").unlink()
+        if "is of a run that is over" not in self.run(folder, "--continue"):
+            self.fail(f"{folder}: a run that is over is not known", folder / "log")
+        self.same(whole, folder, scene)
+
     def extended(self, scene, whole):
         """A run that is over goes on when its final time is put off: as far as what a step does not know of the end."""
         folder = self.folder(f"{scene}-extended", scene, 10**6)
@@ -361,6 +379,7 @@ class Test:
             self.two_in_a_folder(name, whole)
             self.refused(name, whole)
             self.extended(name, whole)
+            self.over(name, whole)
 
     seconds, setup = {}, {}
 
