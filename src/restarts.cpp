@@ -28,10 +28,13 @@ Restarts::Restarts(const deck::Deck& deck, const Communicator& communicator, Kee
 
 std::filesystem::path Restarts::lock_file() const { return settings_.file.string() + ".lock"; }
 
-void Restarts::close() {
-  if (!due_at_the_end()) forget();
+Restarts::~Restarts() {
   std::error_code ignored;
   if (lock_) std::filesystem::remove(lock_file(), ignored);
+}
+
+void Restarts::close() {
+  if (!due_at_the_end()) forget();
 }
 
 // The state as it is says what is asked of the file.

@@ -23,6 +23,9 @@ class Restarts {
 
   // Collective. Throws Error on all ranks: another run that is on keeps things under the same name.
   Restarts(const deck::Deck& deck, const Communicator& communicator, Keep keep);
+  ~Restarts();
+  Restarts(const Restarts&) = delete;
+  Restarts& operator=(const Restarts&) = delete;
 
   // Collective. Throws Error on all ranks: what is there is damaged, or of another model.
   void take_up();

@@ -82,8 +82,9 @@ TEST(Watch, StepThatCollapsesNamesThePointThatLimitsIt) {
   parts.verlet = key("Subcycling", "false");
   parts.watch = key("Smallest Step", "0.8");
   const Outcome o = outcome(folder, parts);
-  expect_words(o.error, {"at t = ", "the step has fallen to ", "Watch > Smallest Step", "the stiffest is element ",
-                         " of block bar, reference position (", "now at (", "det F = 0.", "Likely causes: "});
+  expect_words(o.error,
+               {"at t = ", "the stable step has fallen to ", "Watch > Smallest Step", "the stiffest is element ",
+                " of block bar, reference position (", "now at (", "det F = 0.", "Likely causes: "});
   if (folder.world.rank() == 0) EXPECT_EQ(o.result.times.size(), 2u);
 }
 

@@ -324,7 +324,7 @@ TEST(Failures, AStepFarTooLargeIsReported) {
   } catch (const Error& error) {
     text = error.what();
   }
-  EXPECT_NE(text.find("its dilatation is not a number"), std::string::npos) << text;
+  EXPECT_NE(text.find("its strain is not a number"), std::string::npos) << text;
 }
 
 // ---- Waves ---------------------------------------------------------------------------------------------------------
