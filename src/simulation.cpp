@@ -33,13 +33,19 @@ void say(const Communicator& communicator, const std::string& text) {
 // On the rank that has something to tell.
 void tell(const std::string& line) { std::cout << line << std::endl; }
 
-// The fields as they are, where a run ends in an error: they show where. What went wrong first is what is told.
-void leave_frame(Records& records, double time, const Body& body) {
-  if (!records.frames.enabled() || records.frames.has(time)) return;
+// After an error, which is what is told: not what goes wrong here.
+template <class Action>
+void quietly(Action&& action) {
   try {
-    records.frames.write(time, body);
+    action();
   } catch (const Error&) {
   }
+}
+
+// The fields as they are, where a run ends in an error: they show where.
+void leave_frame(Records& records, double time, const Body& body) {
+  if (!records.frames.enabled() || records.frames.has(time)) return;
+  quietly([&] { records.frames.write(time, body); });
 }
 
 // Everything after set-up: the loop over steps. Returns the ledger at the end.
@@ -99,10 +105,7 @@ Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, R
     try {
       ending = !solver.advance();
     } catch (const Error&) {
-      try {
-        record(true);
-      } catch (const Error&) {  // what went wrong first is what is told
-      }
+      quietly([&] { record(true); });
       throw;
     }
     ending = ranks.max(ending || signalled ? 1.0 : 0.0) > 0;

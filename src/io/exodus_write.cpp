@@ -13,6 +13,7 @@
 #include "io/exodus_file.hpp"
 #include "io/file_lock.hpp"
 #include "io/numbering.hpp"
+#include "io/on_root.hpp"
 #include "io/to_disk.hpp"
 
 namespace strut::io {
@@ -258,19 +259,10 @@ void ExodusWriter::sync() const {
   run_on_root(file_->communicator, [this] { force_to_disk(file_->exodus->path()); });
 }
 
-// Rank 0 goes on receiving after a failure, so that no rank waits; the failure is raised on all ranks at the end.
 void ExodusWriter::write(double time, std::span<const std::vector<double>> columns) {
   const Communicator& communicator = file_->communicator;
   raise_together(communicator, file_->size_problem(columns));
-  std::string problem;
-  const auto on_root = [&](auto&& action) {
-    if (communicator.rank() != 0 || !problem.empty()) return;
-    try {
-      action();
-    } catch (const std::exception& error) {
-      problem = error.what();
-    }
-  };
+  OnRoot on_root(communicator);
   on_root([&] { file_->exodus->put_time(file_->steps, time); });
   std::array<int, 2> variable = {0, 0};  // element, nodal
   for (std::size_t k = 0; k < file_->fields.size(); ++k) {
@@ -285,7 +277,7 @@ void ExodusWriter::write(double time, std::span<const std::vector<double>> colum
     }
   }
   on_root([&] { file_->exodus->flush(); });
-  raise_together(communicator, problem);
+  on_root.raise();
   ++file_->steps;
 }
 

@@ -9,6 +9,7 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "io/netcdf_lists.hpp"
+#include "io/on_root.hpp"
 #include "io/restart_file.hpp"
 #include "io/restart_layout.hpp"
 #include "io/to_disk.hpp"
@@ -29,28 +30,6 @@ void replace(const fs::path& path, const fs::path& part) {
   const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
   if (handle >= 0) ::fsync(handle), ::close(handle);  // some file systems cannot; then they need not
 }
-
-// Rank 0's part of what all ranks do: after a failure it goes on taking part, so that no rank waits for it.
-class OnRoot {
- public:
-  explicit OnRoot(const Communicator& communicator) : communicator_(communicator) {}
-
-  template <class Action>
-  void operator()(Action&& action) {
-    if (communicator_.rank() != 0 || !problem_.empty()) return;
-    try {
-      action();
-    } catch (const std::exception& error) {
-      problem_ = error.what();
-    }
-  }
-  const std::string& problem() const { return problem_; }
-  void raise() const { raise_together(communicator_, problem_); }
-
- private:
-  const Communicator& communicator_;
-  std::string problem_;
-};
 
 // The layout, on rank 0: of the groups, how many points all ranks have of each.
 void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
