@@ -1,13 +1,19 @@
-// 3×3 tensors over any scalar: double for one point, Lanes for four points side by side. The arithmetic of a point's
-// update is written once and runs four points at a time in the loop over points (mechanics/stress.cpp), where Eigen's
-// matrices of doubles would leave three quarters of each register empty.
+// 3×3 tensors over any scalar: double for one point, Lanes for some points side by side. The arithmetic of a point's
+// update and of its bonds is written once and runs a register's width of points at a time (mechanics), where Eigen's
+// matrices of doubles would leave most of each register empty.
 #pragma once
 
 #include "base/tensors.hpp"
 
 namespace strut::small {
 
-using Lanes = Eigen::Array4d;  // the same number of four points
+// The same number of as many points as a register holds; four at least.
+#ifdef __AVX512F__
+inline constexpr int lane_count = 8;
+#else
+inline constexpr int lane_count = 4;
+#endif
+using Lanes = Eigen::Array<double, lane_count, 1>;
 
 template <class T>
 struct Vector3 {
@@ -89,6 +95,16 @@ Vector3<T> product(const Symmetric3<T>& s, const Vector3<T>& v) {
   return {{s[0] * v.c[0] + s[3] * v.c[1] + s[5] * v.c[2], s[3] * v.c[0] + s[1] * v.c[1] + s[4] * v.c[2],
            s[5] * v.c[0] + s[4] * v.c[1] + s[2] * v.c[2]}};
 }
+
+// Of one lane.
+inline Tensor at(const Tensor3<Lanes>& t, int lane) {
+  Tensor r;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) r(i, j) = t.c[i][j][lane];
+  }
+  return r;
+}
+inline Vector at(const Vector3<Lanes>& v, int lane) { return {v.c[0][lane], v.c[1][lane], v.c[2][lane]}; }
 
 inline Tensor3<double> from_eigen(const Tensor& t) {
   Tensor3<double> r;

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "mechanics/bonds.hpp"
-#include "mechanics/lattice_sums.hpp"
+#include "mechanics/groups.hpp"
 #include "points/parallel.hpp"
 
 namespace strut {
@@ -73,27 +72,32 @@ void add_lattice_sums(Body& body) {
   }
 }
 
-Tensor shape_tensor(const Body& body, const MaterialBlock& block, int i, auto weight) {
-  if (block.lattice < 0) return bonds::gather(body.domain.families, body.sites.data(), i, weight);
-  const LatticeFamilies& lattice = body.domain.families.lattices[block.lattice];
-  return body.lattice_sums[block.lattice]->moment(i, places_in(lattice, body.sites));
+// K = Σ ω V ξ⊗ξ is what moments are in the undeformed state.
+void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K) {
+  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+  MaterialPoint& point = body.points[block.points[k]];
+  point.shape_inverse = symmetric_part(K.inverse());
+  if (block.is_ordinary()) {
+    block.ordinary[k].weighted_volume = K.trace();
+  } else {
+    point.stabilization = block.material.stabilization * modulus / (K.trace() / 3);
+    point.mean_stabilization = block.material.mean_stabilization * modulus / (K.trace() / 3);
+  }
 }
 
-// K = Σ ω V ξ⊗ξ is what moments are in the undeformed state.
-void set_shape(Body& body, MaterialBlock& block) {
-  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
+void set_shapes(Body& body, MaterialBlock& block) {
+  const Displacements places = block.lattice < 0
+                                   ? Displacements{body.sites.data()}
+                                   : places_in(body.domain.families.lattices[block.lattice], body.sites);
   bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(0, static_cast<int>(block.points.size()), [&, weight](int k) {
-      const int i = block.points[k];
-      const Tensor K = shape_tensor(body, block, i, weight);
-      body.points[i].shape_inverse = symmetric_part(K.inverse());
-      if (block.is_ordinary()) {
-        block.ordinary[k].weighted_volume = K.trace();
-      } else {
-        body.points[i].stabilization = block.material.stabilization * modulus / (K.trace() / 3);
-        body.points[i].mean_stabilization = block.material.mean_stabilization * modulus / (K.trace() / 3);
-      }
-    });
+    for (const Part part : {Part::interior, Part::boundary}) {
+      const Groups groups(body, block, part);
+      for_each_point(0, groups.count(), [&, weight](int g) {
+        const Group group = groups[g];
+        const auto K = moments(body, block, group, places, weight);
+        for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l));
+      });
+    }
   });
 }
 
@@ -149,7 +153,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   add_lattice_sums(body);
   for (MaterialBlock& block : body.blocks) {
     if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
-    set_shape(body, block);
+    set_shapes(body, block);
     if (block.material.viscosity.any()) block.viscous.resize(block.points.size());
   }
   set_what_blocks_feel(body);

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "base/timing.hpp"
-#include "mechanics/lattice_sums.hpp"
 #include "mechanics/ordinary_bonds.hpp"
 #include "mechanics/stress.hpp"
 #include "mechanics/tangent.hpp"
@@ -13,6 +12,8 @@
 namespace strut {
 
 namespace {
+
+using small::Lanes;
 
 constexpr int site_stride = sizeof(Site) / sizeof(double);
 
@@ -64,81 +65,130 @@ bool all_undisturbed(const Body& body) {
   return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.undisturbed; });
 }
 
+// Calls work(group, ω) for the points of a part of a block.
+template <class Work>
+void over_groups(const Body& body, const MaterialBlock& block, Part part, const Work& work) {
+  const Groups groups(body, block, part);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) { work(groups[g], weight); });
+  });
+}
+
+template <class Weight>
+bonds::Residual<Lanes> residuals(const Body& body, const MaterialBlock& block, const Group& group, const Site* places,
+                                 const std::vector<ForceState>& gradients, Weight weight) {
+  if (group.bundle) return bonds::residual(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
+  const LatticeSums& sums = *body.lattice_sums[block.lattice];
+  return {vectors(group, [&](int l) { return sums.residual_force(block.points[group.k[l]]); }),
+          tensors(group, [&](int l) { return sums.residual_moment(block.points[group.k[l]]); })};
+}
+
+template <class Weight>
+Lanes residual_energies(const Body& body, const MaterialBlock& block, const Group& group, const Site* places,
+                        const std::vector<ForceState>& gradients, Weight weight) {
+  if (group.bundle) return bonds::residual_energy(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
+  Lanes energies = Lanes::Zero();
+  for (int l = 0; l < group.count; ++l) {
+    const bonds::OfPoint family{body.domain.families, block.points[group.k[l]]};
+    energies[l] = bonds::residual_energy(family, places, gradients.data(), weight);
+  }
+  return energies;
+}
+
 // The stabilisation by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
-// is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `places`: y, or
+// is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `u`: of y, or of
 // the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
-void add_residual(const Body& body, Bodies bodies, const std::vector<Site>& places, const Displacements& u, Part part,
-                  ForceStates& states, std::vector<Vector>& result, std::span<double> energy) {
+void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part part, ForceStates& states,
+                  std::vector<Vector>& result, std::span<double> energy) {
   over_lattices(body, bodies, part, [&](LatticeSums& sums) { sums.add_residuals(body, u, states.gradients); });
   for (const MaterialBlock& block : body.blocks) {
     if (!is_due(block, bodies) || !(block.material.mean_stabilization > 0)) continue;
-    const auto [begin, end] = range(block, part);
-    bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
-      for_each_point(begin, end, [&, weight](int k) {
-        const int i = block.points[k];
-        bonds::Residual sums;
-        if (block.lattice < 0 || !energy.empty()) {
-          sums = bonds::residual(body.domain.families, places.data(), states.gradients.data(), i, weight);
-        }
-        if (!energy.empty()) energy[i] += sums.energy;
-        if (block.lattice >= 0) {
-          const LatticeSums& on_lattice = *body.lattice_sums[block.lattice];
-          sums.force = on_lattice.residual_force(i), sums.moment = on_lattice.residual_moment(i);
-        }
-        take_residual(states.tensors[i], sums.moment, body.points[i]);
-        result[i] = sums.force;
-      });
+    over_groups(body, block, part, [&](const Group& group, auto weight) {
+      const bonds::Residual<Lanes> sums = residuals(body, block, group, u.sites, states.gradients, weight);
+      for (int l = 0; l < group.count; ++l) {
+        const int i = block.points[group.k[l]];
+        take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
+        result[i] = at(sums.force, l);
+      }
+      if (energy.empty()) return;
+      const Lanes energies = residual_energies(body, block, group, u.sites, states.gradients, weight);
+      for (int l = 0; l < group.count; ++l) energy[block.points[group.k[l]]] += energies[l];
     });
   }
 }
 
-// The force on every point, summed over the formulations that its block feels. `places`: y, or the field that stands in
-// its place for a tangent; `extension`: of a bond between ordinary points.
-template <class Extension>
+bool any_springs(const Body& body) {
+  return std::any_of(body.blocks.begin(), body.blocks.end(),
+                     [](const MaterialBlock& b) { return b.material.stabilization > 0; });
+}
+
+template <class Weight>
+small::Vector3<Lanes> forces(const Body& body, const MaterialBlock& block, const Group& group, const Displacements& u,
+                             const std::vector<ForceState>& states, bool with_springs, Weight weight) {
+  if (group.bundle) {
+    const bonds::OfBundle family{*group.bundle};
+    const auto own = bonds::own_state(family, states.data());
+    return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
+                        : bonds::force<false>(family, u.sites, states.data(), own, weight);
+  }
+  const LatticeSums& sums = *body.lattice_sums[block.lattice];
+  return vectors(group, [&](int l) {
+    const int i = block.points[group.k[l]];
+    return sums.force(i, u, states[i]);
+  });
+}
+
+// The force on every point, summed over the formulations that its block feels. `u`: of y, or of the field that stands
+// in its place for a tangent; `extension_of`: a family, of a bond between ordinary points.
+template <class ExtensionOf>
 struct ForceSum {
   const Body& body;
   Bodies bodies;
-  const std::vector<Site>& places;
   Displacements u;
-  Extension extension;
+  ExtensionOf extension_of;
   ForceStates& states;
   std::vector<Vector>& result;
 
   void correspondence(Part part) const {
     over_lattices(body, bodies, part, [this](LatticeSums& sums) { sums.add_forces(body, u, states.tensors); });
-    over_points(part, &MaterialBlock::feels_correspondence, [this](const MaterialBlock& block, int i, auto weight) {
-      const Vector force = block.lattice < 0
-                               ? bonds::force(body.domain.families, places.data(), states.tensors.data(), i, weight)
-                               : body.lattice_sums[block.lattice]->force(i, u, states.tensors[i]);
-      result[i] = block.material.mean_stabilization > 0 ? result[i] + force : force;
-    });
+    const bool with_springs = any_springs(body);
+    over_blocks(part, &MaterialBlock::feels_correspondence,
+                [&](const MaterialBlock& block, const Group& group, auto weight) {
+                  const bool is_begun = block.material.mean_stabilization > 0;
+                  add(block, group, forces(body, block, group, u, states.tensors, with_springs, weight), is_begun);
+                });
   }
 
   void ordinary(Part part) const {
-    over_points(part, &MaterialBlock::feels_ordinary, [this](const MaterialBlock& block, int i, auto weight) {
-      const Vector force =
-          bonds::ordinary_force(body.domain.families, body.sites.data(), states.scalars.data(), i, weight, extension);
-      result[i] = block.feels_correspondence ? result[i] + force : force;
+    over_blocks(part, &MaterialBlock::feels_ordinary, [&](const MaterialBlock& block, const Group& group, auto weight) {
+      const bonds::OfBundle family{*group.bundle};
+      const auto force = bonds::ordinary_force(family, body.sites.data(), states.scalars.data(), weight,
+                                               extension_of(family));
+      add(block, group, force, block.feels_correspondence);
     });
   }
 
  private:
   template <class Work>
-  void over_points(Part part, bool MaterialBlock::*feels, const Work& work) const {
+  void over_blocks(Part part, bool MaterialBlock::*feels, const Work& work) const {
     for (const MaterialBlock& block : body.blocks) {
       if (!is_due(block, bodies) || !(block.*feels)) continue;
-      const auto [begin, end] = range(block, part);
-      bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
-        for_each_point(begin, end, [&, weight](int k) { work(block, block.points[k], weight); });
-      });
+      over_groups(body, block, part, [&](const Group& group, auto weight) { work(block, group, weight); });
+    }
+  }
+
+  void add(const MaterialBlock& block, const Group& group, const small::Vector3<Lanes>& force, bool is_begun) const {
+    for (int l = 0; l < group.count; ++l) {
+      Vector& sum = result[block.points[group.k[l]]];
+      sum = is_begun ? Vector(sum + at(force, l)) : at(force, l);
     }
   }
 };
 
 // Each formulation behind the exchange of its states. `timed`: what lives as long as a sum.
-template <class Extension, class Timed>
-void add_up(Halo& halo, const ForceSum<Extension>& sum, const Timed& timed) {
-  const auto behind = [&]<class State>(std::vector<State>& states, void (ForceSum<Extension>::*over)(Part) const) {
+template <class ExtensionOf, class Timed>
+void add_up(Halo& halo, const ForceSum<ExtensionOf>& sum, const Timed& timed) {
+  const auto behind = [&]<class State>(std::vector<State>& states, void (ForceSum<ExtensionOf>::*over)(Part) const) {
     if (states.empty()) return;
     const auto run = [&](Part part) {
       [[maybe_unused]] const auto time = timed();
@@ -146,8 +196,8 @@ void add_up(Halo& halo, const ForceSum<Extension>& sum, const Timed& timed) {
     };
     behind_exchange(halo, states, run);
   };
-  behind(sum.states.tensors, &ForceSum<Extension>::correspondence);
-  behind(sum.states.scalars, &ForceSum<Extension>::ordinary);
+  behind(sum.states.tensors, &ForceSum<ExtensionOf>::correspondence);
+  behind(sum.states.scalars, &ForceSum<ExtensionOf>::ordinary);
 }
 
 // The force state of the tangent at one point, for δF: δP = J C:sym(δF F⁻¹) F⁻ᵀ. A point that is stepped alone by a
@@ -162,54 +212,49 @@ ForceState tangent_state(const MaterialPoint& point, const materials::Moduli& mo
   return bonds::packed(share * share * A, share * share * point.stabilization);
 }
 
-// δt of an ordinary point: t is linear in the extensions, so it is the law itself of their changes.
-template <class Weight>
-ScalarState tangent_state(const Body& body, const std::vector<Site>& directions, const MaterialBlock& block, int k,
-                          const materials::Moduli& moduli, Weight weight) {
-  const double m = block.ordinary[k].weighted_volume;
-  const bonds::OfField change{directions.data()};
-  const double moment =
-      bonds::extensions<false>(body.domain.families, body.sites.data(), block.points[k], weight, change).moment;
-  return scalar_state(moduli, 3 * moment / m, m);
-}
-
-// δF of a point along a field.
-template <class Weight>
-Tensor change_of_gradient(const Body& body, const MaterialBlock& block, const std::vector<Site>& directions, int i,
-                          Weight weight) {
-  const Tensor N = block.lattice < 0 ? bonds::gather(body.domain.families, directions.data(), i, weight)
-                                     : body.lattice_sums[block.lattice]->moment(i, {directions.data(), true});
-  return N * to_tensor(body.points[i].shape_inverse);
-}
-
 // The same with ∂P/∂F as it is.
 ForceState tangent_state(const MaterialPoint& point, const PointTangent& tangent, const Tensor& dF) {
   const Tensor A = tangent.times(dF) * to_tensor(point.shape_inverse) - point.stabilization * dF;
   return bonds::packed(A, point.stabilization);
 }
 
-void set_tangent_states(const Body& body, const std::vector<Site>& directions,
-                        const std::vector<PointTangent>* tangents, Part part, ForceStates& result) {
-  over_lattices(body, Bodies::all, part, [&](LatticeSums& sums) { sums.add_moments(body, {directions.data(), true}); });
+// δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.
+template <class Weight>
+void set_tangent_scalars(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
+                         Weight weight, std::vector<ScalarState>& result) {
+  const bonds::OfBundle family{*group.bundle};
+  const Lanes moment = bonds::extensions(family, body.sites.data(), weight, bonds::OfField(family, field));
+  for (int l = 0; l < group.count; ++l) {
+    const double m = block.ordinary[group.k[l]].weighted_volume;
+    result[block.points[group.k[l]]] = scalar_state(block.moduli(group.k[l]), 3 * moment[l] / m, m);
+  }
+}
+
+void set_tangent_state(const Body& body, const MaterialBlock& block, int k, const Tensor& moment,
+                       const std::vector<PointTangent>* tangents, ForceStates& result) {
+  const int i = block.points[k];
+  const MaterialPoint& point = body.points[i];
+  const Tensor dF = moment * to_tensor(point.shape_inverse);
+  const double share = body.share(i);
+  result.tensors[i] =
+      tangents ? tangent_state(point, (*tangents)[i], dF) : tangent_state(point, block.moduli(k), dF, share);
+  if (block.material.mean_stabilization > 0) {
+    result.gradients[i] = bonds::packed(dF, point.mean_stabilization, share * share);
+  }
+}
+
+void set_tangent_states(const Body& body, const Displacements& field, const std::vector<PointTangent>* tangents,
+                        Part part, ForceStates& result) {
+  over_lattices(body, Bodies::all, part, [&](LatticeSums& sums) { sums.add_moments(body, field); });
   for (const MaterialBlock& block : body.blocks) {
-    const auto [begin, end] = range(block, part);
-    bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
-      for_each_point(begin, end, [&, weight](int k) {
-        const int i = block.points[k];
-        const materials::Moduli moduli = block.moduli(k);
-        if (block.is_ordinary()) {
-          result.scalars[i] = tangent_state(body, directions, block, k, moduli, weight);
-          return;
-        }
-        const MaterialPoint& point = body.points[i];
-        const Tensor dF = change_of_gradient(body, block, directions, i, weight);
-        const double share = body.share(i);
-        result.tensors[i] =
-            tangents ? tangent_state(point, (*tangents)[i], dF) : tangent_state(point, moduli, dF, share);
-        if (block.material.mean_stabilization > 0) {
-          result.gradients[i] = bonds::packed(dF, point.mean_stabilization, share * share);
-        }
-      });
+    over_groups(body, block, part, [&](const Group& group, auto weight) {
+      if (block.is_ordinary()) {
+        return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
+      }
+      const auto dN = moments(body, block, group, field, weight);
+      for (int l = 0; l < group.count; ++l) {
+        set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
+      }
     });
   }
 }
@@ -267,11 +312,12 @@ void sum_forces(Body& body, bool with_views) {
     const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
       const Timed timed(stabilizing);
-      add_residual(body, Bodies::disturbed, body.sites, u, part, body.force_states, body.force_density, energy);
+      add_residual(body, Bodies::disturbed, u, part, body.force_states, body.force_density, energy);
     });
   }
+  const auto extension_of = [](const auto& family) { return bonds::OfPlaces(family); };
   add_up(body.domain.halo,
-         ForceSum<bonds::OfPlaces>{body, Bodies::disturbed, body.sites, u, {}, body.force_states, body.force_density},
+         ForceSum{body, Bodies::disturbed, u, extension_of, body.force_states, body.force_density},
          [] { return Timed(summing); });
 }
 
@@ -303,18 +349,18 @@ double pace(const Body& body, const MaterialBlock& block, int k) {
 
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
                    const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result) {
-  const auto set_states = [&](Part part) { set_tangent_states(body, directions, tangents, part, scratch); };
+  const Displacements field{directions.data(), true};
+  const auto set_states = [&](Part part) { set_tangent_states(body, field, tangents, part, scratch); };
   behind_exchange(
       halo, places(directions), site_stride, 3, [&] { set_states(Part::interior); },
       [&] { set_states(Part::boundary); });
   if (!scratch.gradients.empty()) {
     behind_exchange(halo, scratch.gradients, [&](Part part) {
-      add_residual(body, Bodies::all, directions, {directions.data(), true}, part, scratch, result, {});
+      add_residual(body, Bodies::all, field, part, scratch, result, {});
     });
   }
-  add_up(halo,
-         ForceSum<bonds::OfField>{
-             body, Bodies::all, directions, {directions.data(), true}, {directions.data()}, scratch, result},
+  const auto change_of = [&](const auto& family) { return bonds::OfField(family, directions.data()); };
+  add_up(halo, ForceSum{body, Bodies::all, field, change_of, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] *= -1; });
 }

@@ -15,20 +15,20 @@ double energy(const materials::Moduli& moduli, double weighted_volume, double di
   return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / weighted_volume - theta2 / 9);
 }
 
-template <bool with_energy, class Weight>
-void advance_points(Body& body, MaterialBlock& block, Weight weight, Part part, WorstFailure& failure) {
-  const auto [begin, end] = range(block, part);
+template <class Weight>
+void advance_points(Body& body, MaterialBlock& block, Weight weight, const Groups& groups, WorstFailure& failure) {
   const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
-  for_each_point(begin, end, [&, weight](int k) {
-    const int i = block.points[k];
-    OrdinaryPoint& point = block.ordinary[k];
-    const bonds::Extensions sums =
-        bonds::extensions<with_energy>(body.domain.families, body.sites.data(), i, weight, bonds::OfPlaces{});
-    const double m = point.weighted_volume;
-    point.dilatation = 3 * sums.moment / m;
-    if constexpr (with_energy) point.energy = energy(moduli, m, point.dilatation, sums.square);
-    body.force_states.scalars[i] = scalar_state(moduli, point.dilatation, m);
-    if (!std::isfinite(point.dilatation)) failure.report(k, Failure::Kind::not_finite);
+  for_each_point(0, groups.count(), [&, weight](int g) {
+    const Group group = groups[g];
+    const bonds::OfBundle family{*group.bundle};
+    const bonds::Lanes moment = bonds::extensions(family, body.sites.data(), weight, bonds::OfPlaces(family));
+    for (int l = 0; l < group.count; ++l) {
+      OrdinaryPoint& point = block.ordinary[group.k[l]];
+      const double m = point.weighted_volume;
+      point.dilatation = 3 * moment[l] / m;
+      body.force_states.scalars[block.points[group.k[l]]] = scalar_state(moduli, point.dilatation, m);
+      if (!std::isfinite(point.dilatation)) failure.report(group.k[l], Failure::Kind::not_finite);
+    }
   });
 }
 
@@ -42,15 +42,21 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
 }
 
 template <class Weight>
-void set_views(Body& body, const MaterialBlock& block, Weight weight, Part part) {
-  const auto [begin, end] = range(block, part);
+void set_views(Body& body, MaterialBlock& block, Weight weight, const Groups& groups) {
   const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
-  for_each_point(begin, end, [&, weight](int k) {
-    MaterialPoint& point = body.points[block.points[k]];
-    const Tensor N = bonds::gather(body.domain.families, body.sites.data(), block.points[k], weight);
-    point.deformation_gradient = N * to_tensor(point.shape_inverse);
-    point.rotation = polar_rotation(point.deformation_gradient);
-    point.stress = stress_of(moduli, point.rotation.transpose() * point.deformation_gradient);
+  for_each_point(0, groups.count(), [&, weight](int g) {
+    const Group group = groups[g];
+    const bonds::OfBundle family{*group.bundle};
+    const bonds::Lanes squares = bonds::squared_extensions(family, body.sites.data(), weight);
+    const auto N = bonds::gather(family, body.sites.data(), weight);
+    for (int l = 0; l < group.count; ++l) {
+      OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
+      ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);
+      MaterialPoint& point = body.points[block.points[group.k[l]]];
+      point.deformation_gradient = at(N, l) * to_tensor(point.shape_inverse);
+      point.rotation = polar_rotation(point.deformation_gradient);
+      point.stress = stress_of(moduli, point.rotation.transpose() * point.deformation_gradient);
+    }
   });
 }
 
@@ -58,10 +64,10 @@ void set_views(Body& body, const MaterialBlock& block, Weight weight, Part part)
 
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report) {
   WorstFailure failure;
+  const Groups groups(body, block, part);
   bonds::with_influence(body.influence, [&](auto weight) {
-    if (!with_views) return advance_points<false>(body, block, weight, part, failure);
-    advance_points<true>(body, block, weight, part, failure);
-    set_views(body, block, weight, part);
+    advance_points(body, block, weight, groups, failure);
+    if (with_views) set_views(body, block, weight, groups);
   });
   // Bonds in compression become no stiffer than they were.
   report.pace = std::max(report.pace, block.resting_pace);

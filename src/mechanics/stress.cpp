@@ -3,8 +3,6 @@
 #include "mechanics/stress.hpp"
 
 #include "base/rotation.hpp"
-#include "mechanics/bonds.hpp"
-#include "mechanics/lattice_sums.hpp"
 
 // What is not inlined into the loop over groups passes its lanes through memory. Checking builds (debug, asan) go
 // without: it would take the compiler many minutes.
@@ -24,37 +22,31 @@ void store(MaterialBlock& block, std::size_t k, const typename L::State& state) 
   for (std::size_t c = 0; c < columns.size(); ++c) block.state[c * block.points.size() + k] = columns[c];
 }
 
-// ---- Four points side by side
-// ------------------------------------------------------------------------------------------
+// ---- Points side by side -------------------------------------------------------------------------------------------
 
 using small::Lanes;
 using LaneTensor = small::Tensor3<Lanes>;
 using LaneSymmetric = small::Symmetric3<Lanes>;
+constexpr int width = Group::width;
 
-// Four points of a block; the last stands in for those that the block lacks.
-struct Group {
-  std::array<int, 4> k;  // place in block.points
-  std::array<MaterialPoint*, 4> points;
-  int count;
-};
+// A group and its points.
+struct Members : Group {
+  std::array<MaterialPoint*, width> points;
 
-Group group_of(Body& body, const MaterialBlock& block, const std::vector<int>* chosen, int first, int end) {
-  Group group{{}, {}, std::min(4, end - first)};
-  for (int l = 0; l < 4; ++l) {
-    const int place = first + std::min(l, group.count - 1);
-    group.k[l] = chosen ? (*chosen)[place] : place;
-    group.points[l] = &body.points[block.points[group.k[l]]];
+  Members(const Group& group, Body& body, const MaterialBlock& block) : Group(group) {
+    for (int l = 0; l < width; ++l) points[l] = &body.points[block.points[k[l]]];
   }
-  return group;
-}
+};
 
 // The number that `of` finds in each point.
 template <class Of>
-Lanes lanes(const Group& g, Of of) {
-  return {of(*g.points[0]), of(*g.points[1]), of(*g.points[2]), of(*g.points[3])};
+Lanes lanes(const Members& g, Of of) {
+  alignas(Lanes) double values[width];
+  for (int l = 0; l < width; ++l) values[l] = of(*g.points[l]);
+  return Eigen::Map<const Lanes, Eigen::AlignedMax>(values);
 }
 
-LaneTensor tensors(const Group& g, Tensor MaterialPoint::*field) {
+LaneTensor tensors(const Members& g, Tensor MaterialPoint::*field) {
   LaneTensor t;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) t.c[i][j] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)(i, j); });
@@ -62,23 +54,15 @@ LaneTensor tensors(const Group& g, Tensor MaterialPoint::*field) {
   return t;
 }
 
-LaneSymmetric symmetrics(const Group& g, Symmetric MaterialPoint::*field) {
+LaneSymmetric symmetrics(const Members& g, Symmetric MaterialPoint::*field) {
   LaneSymmetric s;
   for (int c = 0; c < 6; ++c) s.c[c] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)[c]; });
   return s;
 }
 
-Tensor lane(const LaneTensor& t, int l) {
-  Tensor result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) result(i, j) = t.c[i][j][l];
-  }
-  return result;
-}
-
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
 // linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
-LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, const Lanes& dt) {
+LaneSymmetric strain_rate(const Members& g, const LaneSymmetric& stretch, const Lanes& dt) {
   const LaneTensor R = tensors(g, &MaterialPoint::rotation), F = tensors(g, &MaterialPoint::deformation_gradient);
   const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
   LaneSymmetric difference, middle;
@@ -90,7 +74,7 @@ LaneSymmetric strain_rate(const Group& g, const LaneSymmetric& stretch, const La
 }
 
 // A = P K⁻¹ − C F, P = J R (τ − q I) Rᵀ F⁻ᵀ = J R (τ − q I) U⁻¹; times the share of the step. `viscous`: q, Pa.
-LaneTensor force_states(const Group& g, const Polar<Lanes>& polar, const LaneSymmetric& inverse_stretch,
+LaneTensor force_states(const Members& g, const Polar<Lanes>& polar, const LaneSymmetric& inverse_stretch,
                         const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J, const Lanes& share,
                         const Lanes& viscous) {
   LaneSymmetric stress = symmetrics(g, &MaterialPoint::stress);
@@ -115,7 +99,7 @@ struct Update {
   WorstFailure& failure;
 
   // Stress and state of one point.
-  void advance(const Group& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
+  void advance_law(const Members& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
                double J) const {
     Symmetric rate, stretch;
     for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l], stretch[c] = stretches.c[c][l];
@@ -128,7 +112,7 @@ struct Update {
 
   // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
   // `stiffness`: M/(3ρ), of failed points 0.
-  Lanes viscous_pressure(const Group& g, const LaneSymmetric& rates, const LaneSymmetric& inverse_stretch,
+  Lanes viscous_pressure(const Members& g, const LaneSymmetric& rates, const LaneSymmetric& inverse_stretch,
                          const Lanes& stiffness, const Lanes& J, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
     const Lanes speed2 = 3 * stiffness * J, steepness2 = small::square(inverse_stretch) / 3;
@@ -148,13 +132,13 @@ struct Update {
   }
 
   // A failed point goes on as a mass. F and R stay as they were.
-  void store_failed(const Group& g, int l) const {
+  void store_failed(const Members& g, int l) const {
     MaterialPoint& point = *g.points[l];
     point.stabilization = point.mean_stabilization = 0;
     drop_forces(g, l);
   }
 
-  void drop_forces(const Group& g, int l) const {
+  void drop_forces(const Members& g, int l) const {
     const MaterialPoint& point = *g.points[l];
     const int i = block.points[g.k[l]];
     body.force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
@@ -164,57 +148,38 @@ struct Update {
   }
 
   // M/(3ρ) of the points of a group, m²/s²; 0 of those that have failed.
-  Lanes stiffness_of(const Group& g) const {
+  Lanes stiffness_of(const Members& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
-      for (int l = 0; l < 4; ++l) modulus[l] = law.moduli(block.state_of<L>(g.k[l])).longitudinal();
+      for (int l = 0; l < width; ++l) modulus[l] = law.moduli(block.state_of<L>(g.k[l])).longitudinal();
     }
     return modulus / (3 * block.material.density);
   }
 
-  void store_point(const Group& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A) const {
+  void store_point(const Members& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A) const {
     MaterialPoint& point = *g.points[l];
-    point.rotation = lane(polar.rotation, l);
-    point.deformation_gradient = lane(F, l);
+    point.rotation = at(polar.rotation, l);
+    point.deformation_gradient = at(F, l);
     const int i = block.points[g.k[l]];
     const double share = body.share(i, pass.order);
-    body.force_states.tensors[i] = bonds::packed(lane(A, l), share * point.stabilization);
+    body.force_states.tensors[i] = bonds::packed(at(A, l), share * point.stabilization);
     if (block.material.mean_stabilization > 0) {
       body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.mean_stabilization, share);
     }
   }
 
-  bool by_lattice_sums() const { return block.lattice >= 0 && !pass.chosen; }
-
-  // F K of one point; by sums over a lattice (F − I) K.
-  Tensor gather(int i) const {
-    if (!by_lattice_sums()) return bonds::gather(body.domain.families, body.sites.data(), i, weight);
-    return body.lattice_sums[block.lattice]->moment(i, {body.sites.data()});
-  }
-
-  // F of the points of a group; a point that stands in for a missing one gets the first one's.
-  LaneTensor deformation_gradient(const Group& g, const LaneSymmetric& shape_inverse) const {
-    LaneTensor N;
-    for (int l = 0; l < g.count; ++l) {
-      const Tensor moment = gather(block.points[g.k[l]]);
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) N.c[i][j][l] = moment(i, j);
-      }
-    }
-    for (int l = g.count; l < 4; ++l) {
-      for (auto& row : N.c) {
-        for (Lanes& entry : row) entry[l] = entry[0];
-      }
-    }
+  // F of the points of a group.
+  LaneTensor deformation_gradient(const Members& g, const LaneSymmetric& shape_inverse) const {
+    const LaneTensor N = moments(body, block, g, {body.sites.data()}, weight);
     LaneTensor F = small::product(N, small::full(shape_inverse));
-    if (by_lattice_sums()) {
+    if (!g.bundle) {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
     }
     return F;
   }
 
   // Each further update squares what the first one left.
-  Polar<Lanes> polar_of(const Group& g, const LaneTensor& F) const {
+  Polar<Lanes> polar_of(const Members& g, const LaneTensor& F) const {
     Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
     for (int n = 0; pass.of_any_size && n < 3; ++n) polar = polar_update(polar.rotation, F);
     return polar;
@@ -222,15 +187,15 @@ struct Update {
 
   // Of each point of a group.
   template <class Of>
-  Lanes of_points(const Group& g, Of of) const {
-    Lanes result;
-    for (int l = 0; l < 4; ++l) result[l] = of(block.points[g.k[l]]);
-    return result;
+  Lanes of_points(const Members& g, Of of) const {
+    alignas(Lanes) double values[width];
+    for (int l = 0; l < width; ++l) values[l] = of(block.points[g.k[l]]);
+    return Eigen::Map<const Lanes, Eigen::AlignedMax>(values);
   }
 
-  // The largest pace² of the points from `first` on, four at the most.
-  double advance_group(int first, int end) const {
-    const Group g = group_of(body, block, pass.chosen, first, end);
+  // The largest pace² of the points of a group.
+  double advance(const Group& group) const {
+    const Members g(group, body, block);
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
     const LaneTensor F = deformation_gradient(g, shape_inverse);
     const Lanes J = small::determinant(F);
@@ -241,7 +206,7 @@ struct Update {
     if (pass.dt > 0) {
       const LaneSymmetric rates = strain_rate(g, polar.stretch, pass.dt * share);
       for (int l = 0; l < g.count; ++l) {
-        if (J[l] > 0) advance(g, l, rates, polar.stretch, pass.dt * share[l], J[l]);
+        if (J[l] > 0) advance_law(g, l, rates, polar.stretch, pass.dt * share[l], J[l]);
       }
       if constexpr (materials::has_changing_moduli<L>) stiffness = stiffness_of(g);
       if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, stiffness, J, pass.dt * share);
@@ -269,17 +234,21 @@ struct Update {
 };
 
 template <class L, class Weight>
-void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, const StressPass& pass, int begin,
-                    int end, StepReport& report) {
+void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, const StressPass& pass,
+                    const Groups& groups, StepReport& report) {
   WorstFailure failure;
   const Update<L, Weight> update{body, block, law, weight, pass, failure};
-  const auto advance_group = [&update, begin, end](int group)
-                                 STRUT_INLINE_ALL { return update.advance_group(begin + 4 * group, end); };
-  const double fastest = largest(0, (end - begin + 3) / 4, 0, advance_group);
+  const auto advance_group = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };
+  const double fastest = largest(0, groups.count(), 0, advance_group);
   report.pace = std::max(report.pace, std::sqrt(fastest));
   if (!block.viscous.empty() && !pass.chosen) {  // a whole step asks for it
-    const auto damping = [&block](int k) { return block.viscous[k].damping; };
-    report.damping = largest(begin, end, report.damping, damping);
+    const auto damping = [&block, &groups](int g) {
+      const Group group = groups[g];
+      double most = 0;
+      for (const int k : group.k) most = std::max(most, block.viscous[k].damping);
+      return most;
+    };
+    report.damping = largest(0, groups.count(), report.damping, damping);
   }
   take_worse(failure.found(block), report.failure);
 }
@@ -287,25 +256,42 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
 }  // namespace
 
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report) {
-  auto [begin, end] = range(block, part);
-  if (pass.chosen) begin = 0, end = static_cast<int>(pass.chosen->size());
-  bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
-    std::visit([&](const auto& law) { advance_points(body, block, law, weight, pass, begin, end, report); },
+  const Groups groups = pass.chosen ? Groups(*pass.chosen) : Groups(body, block, part);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    std::visit([&](const auto& law) { advance_points(body, block, law, weight, pass, groups, report); },
                block.material.law);
   });
 }
 
+namespace {
+
+// Of each point of a group.
+template <class Weight>
+Lanes squared_residuals(const Body& body, const MaterialBlock& block, const Group& group, Weight weight) {
+  if (group.bundle) {
+    return bonds::squared_residual(bonds::OfBundle{*group.bundle}, body.sites.data(), body.points.data(), weight);
+  }
+  Lanes result = Lanes::Zero();
+  for (int l = 0; l < group.count; ++l) {
+    const int i = block.points[group.k[l]];
+    result[l] = body.lattice_sums[block.lattice]->squared_residual(i, {body.sites.data()}, body.points[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
 void view_residuals(Body& body, const MaterialBlock& block, Part part) {
-  const auto [begin, end] = range(block, part);
-  bonds::with_influence(body.influence, [&, begin = begin, end = end](auto weight) {
-    for_each_point(begin, end, [&, weight](int k) {
-      const int i = block.points[k];
-      const MaterialPoint& point = body.points[i];
-      body.residual[i] =
-          block.lattice < 0
-              ? bonds::squared_residual(body.domain.families, body.sites.data(), i, point.deformation_gradient, weight)
-              : body.lattice_sums[block.lattice]->squared_residual(i, {body.sites.data()}, point);
-      body.stabilization_work[i] = 0.5 * point.stabilization * body.residual[i];
+  const Groups groups(body, block, part);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const Group group = groups[g];
+      const Lanes squares = squared_residuals(body, block, group, weight);
+      for (int l = 0; l < group.count; ++l) {
+        const int i = block.points[group.k[l]];
+        body.residual[i] = squares[l];
+        body.stabilization_work[i] = 0.5 * body.points[i].stabilization * squares[l];
+      }
     });
   });
 }

@@ -4,19 +4,11 @@
 #include <cstdint>
 #include <limits>
 
+#include "mechanics/groups.hpp"
 #include "mechanics/mechanics.hpp"
 #include "points/parallel.hpp"
 
 namespace strut {
-
-enum class Part { interior, boundary };  // the points that need no ghost; the others
-
-// Sums over lattices are of all points at once, after the exchange: their points are all in the second part.
-inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
-  if (block.lattice >= 0) return {0, part == Part::interior ? 0 : static_cast<int>(block.points.size())};
-  if (part == Part::interior) return {0, block.interior};
-  return {block.interior, static_cast<int>(block.points.size())};
-}
 
 // The worst failure of a loop over the points of a block, the first of these in their order, whichever thread finds it.
 class WorstFailure {
@@ -36,12 +28,12 @@ class WorstFailure {
 
 // Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
 //   dt: of a step that is halved `order` times
-//   chosen: places in block.points, of those to advance; all points if null
+//   chosen: of those to advance; all points if null
 //   of_any_size: the step may turn a point far; its rotation is found to round-off
 struct StressPass {
   double dt;
   int order = 0;
-  const std::vector<int>* chosen = nullptr;
+  const Chosen* chosen = nullptr;
   bool of_any_size = false;
 };
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report);

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
-#include "mechanics/bonds.hpp"
 #include "mechanics/stress.hpp"
+
 
 namespace strut {
 
@@ -187,14 +186,20 @@ void exchange_states(Halo& halo, std::vector<ForceState>& states) {
 
 // Σ ω V (y_j − y_i) over the family, where its springs need it.
 template <class Weight>
-Eigen::Array4d own_stretch(const Body& body, const ForceState& state, int i, Weight weight) {
-  Eigen::Array4d sum = Eigen::Array4d::Zero();
+Vector own_stretch(const Body& body, const ForceState& state, int i, Weight weight) {
+  Vector sum = Vector::Zero();
   if (state.column[0][3] == 0) return sum;
-  bonds::over_family(body.domain.families, body.sites.data(), i, weight,
-                     [&](auto, int j, const Eigen::Array4d&, double w) {
-                       sum += w * (body.sites[j].current - body.sites[i].current);
-                     });
+  bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), weight,
+              [&](int j, double w, const auto&, double) { sum += w * (body.current(j) - body.current(i)); });
   return sum;
+}
+
+// Global ids of owned points and ghosts.
+std::vector<double> all_ids(Body& body) {
+  std::vector<double> ids(body.domain.cloud.ids.begin(), body.domain.cloud.ids.end());
+  ids.resize(body.sites.size());
+  body.domain.halo.exchange(ids.data(), 1, 1);
+  return ids;
 }
 
 }  // namespace
@@ -226,7 +231,8 @@ void Subcycles::make_orders(Body& body) {
   motions_ = motions_of(body, body.halvings);
   std::vector<std::uint8_t> everywhere = motions_;
   exchange(body, body.domain.halo, everywhere);
-  for (int m = 1; m <= count; ++m) orders_.push_back(order_of(body, everywhere, m));
+  const std::vector<double> ids = all_ids(body);
+  for (int m = 1; m <= count; ++m) orders_.push_back(order_of(body, everywhere, ids, m));
   double updates[] = {0, static_cast<double>(body.owned())};
   for (int i = 0; i < body.owned(); ++i) updates[0] += 1 << body.halvings[i];
   body.domain.communicator.sum(updates);
@@ -248,30 +254,39 @@ void Subcycles::keep(Archive& archive, Body& body) {
   make_orders(body);
 }
 
-Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const {
+Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::uint8_t>& motions,
+                                     const std::vector<double>& ids, int order) const {
   std::vector<std::uint8_t> wanted(motions.size());
   for (std::size_t i = 0; i < motions.size(); ++i) wanted[i] = motions[i] >= order;
   Order result{.halo = body.domain.halo.restricted_to(body.domain.communicator, wanted)};
+  const auto by_id = [&](int j) { return ids[j]; };
+  const auto family = [&](int i, const auto& visit) { body.domain.families.for_each(i, visit); };
   for (const MaterialBlock& block : body.blocks) {
-    std::vector<int>& stressed = result.stressed.emplace_back();
+    Chosen& stressed = result.stressed.emplace_back();
+    std::vector<int> points;
     for (std::size_t k = 0; k < block.points.size(); ++k) {
-      if (body.halvings[block.points[k]] >= order) stressed.push_back(static_cast<int>(k));
+      if (body.halvings[block.points[k]] < order) continue;
+      stressed.places.push_back(static_cast<int>(k));
+      points.push_back(block.points[k]);
     }
+    Bundles::Maker(stressed.lists, motions.size()).add_all(points, family, by_id);
   }
   for (int i = 0; i < body.owned(); ++i) {
-    if (motions[i] < order) continue;
-    result.moved.push_back(i);
-    Eigen::Array4d moment = Eigen::Array4d::Zero();
-    bonds::with_influence(body.influence, [&](auto weight) {
-      bonds::over_family(body.domain.families, body.sites.data(), i, weight,
-                         [&](auto, int j, const Eigen::Array4d& xi, double w) {
-                           moment += w * xi;
-                           if (body.halvings[j] >= order) result.sources.push_back(j);
-                         });
-    });
-    result.first_moments.push_back(moment.head<3>().matrix());
-    result.start.push_back(result.sources.size());
+    if (motions[i] >= order) result.moved.push_back(i);
   }
+  const auto sources = [&](int i, const auto& visit) {
+    body.domain.families.for_each(i, [&](int j) {
+      if (body.halvings[j] >= order) visit(j);
+    });
+  };
+  Bundles::Maker(result.sources, motions.size()).add_all(result.moved, sources, by_id);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for (const int i : result.moved) {
+      Vector& moment = result.first_moments.emplace_back(Vector::Zero());
+      bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), weight,
+                  [&](int, double w, const auto& xi, double) { moment += w * Vector(xi.c[0], xi.c[1], xi.c[2]); });
+    }
+  });
   return result;
 }
 
@@ -280,7 +295,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   StepReport report;
   now.halo.exchange(body.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (!body.blocks[b].undisturbed && !now.stressed[b].empty()) {
+    if (!body.blocks[b].undisturbed && !now.stressed[b].places.empty()) {
       advance_stress(body, body.blocks[b], {dt, order, &now.stressed[b]}, Part::boundary, report);
     }
   }
@@ -288,26 +303,23 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   std::vector<ForceState>& states = body.force_states.tensors;
   exchange_states(now.halo, states);
   bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(0, static_cast<int>(now.moved.size()), [&, weight](int n) {
-      const int i = now.moved[n];
-      if (is_undisturbed(body, i)) return;  // its force is zero, and its states are not kept
-      const Site& here = body.sites[i];
-      Eigen::Array4d sum = Eigen::Array4d::Zero();
-      const auto add = [&sum](const ForceState& state, const auto& moment, const Eigen::Array4d& stretch) {
-        for (int c = 0; c < 3; ++c) sum += state.column[c] * moment[c];
-        sum += state.column[0][3] * stretch;
-      };
-      for (std::size_t b = now.start[n]; b < now.start[n + 1]; ++b) {
-        const Site& there = body.sites[now.sources[b]];
-        const Eigen::Array4d xi = there.reference - here.reference;
-        const double w = there.reference[3] * weight(xi, here.current[3] + there.current[3]);
-        add(states[now.sources[b]], Eigen::Array4d(w * xi), w * (there.current - here.current));
+    for_each_point(0, now.sources.count(), [&, weight](int b) {
+      const bonds::OfBundle family{now.sources[b]};
+      const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(), small::Lanes::Zero()};
+      const auto far = bonds::force<true>(family, body.sites.data(), states.data(), none, weight);
+      for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
+        const int i = family.bundle.points[l];
+        if (is_undisturbed(body, i)) continue;  // its force is zero, and its states are not kept
+        Vector sum = at(far, l);
+        if (body.halvings[i] >= order) {
+          const ForceState& own = states[i];
+          const Vector& moment = now.first_moments[static_cast<std::size_t>(b) * Bundle::width + l];
+          for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
+          sum += own.column[0][3] * own_stretch(body, own, i, weight);
+          if (body.points[i].mean_stabilization > 0) sum += body.force_density[i];
+        }
+        body.force_density[i] = sum;
       }
-      if (body.halvings[i] >= order) {
-        add(states[i], now.first_moments[n], own_stretch(body, states[i], i, weight));
-        if (body.points[i].mean_stabilization > 0) sum.head<3>() += body.force_density[i].array();
-      }
-      body.force_density[i] = sum.head<3>().matrix();
     });
   });
   return report;
@@ -320,14 +332,15 @@ void Subcycles::add_residuals(Body& body, Order& now, int order) const {
   if (states.gradients.empty()) return;
   exchange_states(now.halo, states.gradients);
   bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(0, static_cast<int>(now.moved.size()), [&, weight](int n) {
-      const int i = now.moved[n];
-      if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0) || is_undisturbed(body, i)) return;
-      const std::span family(now.sources.data() + now.start[n], now.sources.data() + now.start[n + 1]);
-      const bonds::Residual sums =
-          bonds::residual(bonds::Listed{family}, body.sites.data(), states.gradients.data(), i, weight);
-      take_residual(states.tensors[i], sums.moment, body.points[i]);
-      body.force_density[i] = sums.force;
+    for_each_point(0, now.sources.count(), [&, weight](int b) {
+      const bonds::OfBundle family{now.sources[b]};
+      const auto sums = bonds::residual(family, body.sites.data(), states.gradients.data(), weight);
+      for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
+        const int i = family.bundle.points[l];
+        if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0) || is_undisturbed(body, i)) continue;
+        take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
+        body.force_density[i] = at(sums.force, l);
+      }
     });
   });
 }

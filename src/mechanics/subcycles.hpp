@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/archive.hpp"
+#include "mechanics/groups.hpp"
 #include "mechanics/mechanics.hpp"
 
 namespace strut {
@@ -42,16 +43,16 @@ class Subcycles {
  private:
   // What happens at times of one order.
   struct Order {
-    std::vector<std::vector<int>> stressed;  // of each block: the places in block.points of those that are due
+    std::vector<Chosen> stressed;  // of each block: those that are due
     std::vector<int> moved;
+    Bundles sources;                    // of the moved points: the stressed points of their families
     std::vector<Vector> first_moments;  // Σ ω V ξ over the family of each moved point, m⁴
-    std::vector<std::size_t> start{0};  // of the moved points, in `sources`
-    std::vector<int> sources;           // the stressed points of their families, ghosts too
     Halo halo;
   };
   void add_residuals(Body& body, Order& now, int order) const;
   void make_orders(Body& body);
-  Order order_of(const Body& body, const std::vector<std::uint8_t>& motions, int order) const;
+  Order order_of(const Body& body, const std::vector<std::uint8_t>& motions, const std::vector<double>& ids,
+                 int order) const;
 
   std::vector<Order> orders_;
   std::vector<std::uint8_t> motions_;

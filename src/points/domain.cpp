@@ -1,6 +1,7 @@
 #include "points/domain.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -152,46 +153,44 @@ void for_each_neighbour(const Stencils& stencils, const CellGrid& grid, const Po
 }
 
 // The order in which points and ghosts stand in memory, as places in the pool: owned points without ghosts in their
-// family first, then the others, both along the curve, or as they lie in their lattice; then the ghosts that are in
-// some family, ordered by id (ranks that own them send runs of ids).
+// family first, then the others, both by blocks and along the curve, or as they lie in their lattice; then the ghosts
+// that are in some family, ordered by id (ranks that own them send runs of ids).
 struct Order {
   std::vector<int> points, ghosts;
-  std::vector<std::size_t> list_sizes;  // of points
+  std::size_t listed = 0;  // bonds of points that are on no lattice
   int interior = 0;
 };
 
-// Points on lattices by their cells, after all others.
-std::vector<int> as_in_lattices(const Stencils& stencils, int owned) {
-  std::vector<int> points(owned);
+// Points on lattices by their cells, after all others, which are by blocks.
+std::vector<int> by_blocks(const Stencils& stencils, const std::vector<int>& blocks) {
+  std::vector<int> points(blocks.size());
   std::iota(points.begin(), points.end(), 0);
   const auto place = [&](int i) {
     const int lattice = stencils.of[i];
-    return std::pair(lattice, lattice < 0 ? i : stencils.lattices[lattice].cell(i));
+    return std::pair(lattice, lattice < 0 ? blocks[i] : stencils.lattices[lattice].cell(i));
   };
-  if (!stencils.lattices.empty()) {
-    std::sort(points.begin(), points.end(), [&](int a, int b) { return place(a) < place(b); });
-  }
+  std::stable_sort(points.begin(), points.end(), [&](int a, int b) { return place(a) < place(b); });
   return points;
 }
 
-Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool, int owned, double reach) {
+Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool, const std::vector<int>& blocks,
+               double reach) {
   Order order;
-  std::vector<std::size_t> sizes(owned, 0);
+  const int owned = static_cast<int>(blocks.size());
   std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
   Eigen::AlignedBox3d others;
   for (std::size_t j = owned; j < pool.ids.size(); ++j) others.extend(pool.positions[j]);
   for (int i = 0; i < owned; ++i) {
     if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= reach * reach)) continue;
     for_each_neighbour(stencils, grid, pool, i, reach, [&](int j) {
-      ++sizes[i];
+      order.listed += stencils.of[i] < 0;
       if (j >= owned) needs_ghost[i] = used[j] = 1;
     });
   }
-  order.points = as_in_lattices(stencils, owned);
+  order.points = by_blocks(stencils, blocks);
   const auto boundary =
       std::stable_partition(order.points.begin(), order.points.end(), [&](int i) { return !needs_ghost[i]; });
   order.interior = static_cast<int>(boundary - order.points.begin());
-  for (const int i : order.points) order.list_sizes.push_back(stencils.of[i] < 0 ? sizes[i] : 0);
   for (int j = owned; j < static_cast<int>(pool.ids.size()); ++j) {
     if (used[j]) order.ghosts.push_back(j);
   }
@@ -199,23 +198,27 @@ Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool,
   return order;
 }
 
-// Lists of the points in their order, neighbours by local[]. Filled in a second look at the grid: growing or copying
-// the lists, by far the largest of a run, would take twice their memory.
-Families lists_of(const CellGrid& grid, const Pool& pool, const Order& order, const std::vector<int>& local,
-                  double reach) {
-  Families families;
-  families.start.reserve(order.points.size() + 1);
-  for (const std::size_t size : order.list_sizes) families.start.push_back(families.start.back() + size);
-  families.neighbours.reserve(families.start.back());
-  for (std::size_t k = 0; k < order.points.size(); ++k) {
-    if (order.list_sizes[k] == 0) continue;
-    const auto begin = static_cast<std::ptrdiff_t>(families.neighbours.size());
-    for_each_neighbour(grid, pool, order.points[k], reach, [&](int j) { families.neighbours.push_back(j); });
-    std::sort(families.neighbours.begin() + begin, families.neighbours.end(),
-              [&](int a, int b) { return pool.ids[a] < pool.ids[b]; });
+// Lists of the points in their order, neighbours by local[], from a second look at the grid. A bundle is of points that
+// follow upon each other, of one block, and of the interior or the boundary.
+Bundles lists_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool, const std::vector<int>& blocks,
+                 const Order& order, const std::vector<int>& local, double reach) {
+  Bundles lists;
+  lists.reserve(order.listed);
+  Bundles::Maker maker(lists, pool.ids.size());
+  const auto family = [&](int i, const auto& visit) { for_each_neighbour(grid, pool, i, reach, visit); };
+  const std::span<const int> points(order.points);
+  for (const auto part : {points.first(order.interior), points.subspan(order.interior)}) {
+    for (auto begin = part.begin(); begin != part.end();) {
+      const int kind = blocks[*begin];
+      const bool is_listed = stencils.of[*begin] < 0;
+      const auto end = std::find_if(begin, part.end(),
+                                    [&](int i) { return blocks[i] != kind || (stencils.of[i] < 0) != is_listed; });
+      if (is_listed) maker.add_all({begin, end}, family, [&](int j) { return pool.ids[j]; });
+      begin = end;
+    }
   }
-  for (int& j : families.neighbours) j = local[j];
-  return families;
+  lists.renumber(local);
+  return lists;
 }
 
 }  // namespace
@@ -258,7 +261,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
   const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
-  const Order order = order_of(stencils, grid, pool, owned, reach);
+  const Order order = order_of(stencils, grid, pool, cloud.blocks, reach);
   PointCloud mine = reordered(cloud, order.points);
   std::vector<int> local(pool.ids.size(), -1);
   std::vector<Vector> positions;
@@ -275,11 +278,12 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     bodies.push_back(pool.bodies[p]);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
   }
-  Families families = lists_of(grid, pool, order, local, reach);
+  Families families{lists_of(stencils, grid, pool, cloud.blocks, order, local, reach), {}, {}};
   if (!frames.empty()) {
     Stencils own = stencils_of(frames, positions, bodies, owned);
     families.lattices = std::move(own.lattices);
     families.lattice_of = std::move(own.of);
+    families.lattice_of.resize(owned);
   }
   Halo halo(communicator, mine.ids, ghost_ids);
   return {communicator,
@@ -296,17 +300,21 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
 }
 
 std::size_t Families::bonds() const {
-  std::size_t count = listed();
+  std::size_t count = 0;
+  for (int b = 0; b < lists.count(); ++b) {
+    const Bundle bundle = lists[b];
+    for (std::size_t n = 0; n < bundle.near.size(); ++n) count += std::popcount(bundle.whose[n]);
+  }
   for (const LatticeFamilies& stencil : lattices) {
     for (const int i : stencil.members()) {
-      if (i < static_cast<int>(start.size()) - 1) count += size(i);
+      if (i < static_cast<int>(lattice_of.size())) count += stencil.family_size(i);
     }
   }
   return count;
 }
 
 double Families::bytes() const {
-  double sum = static_cast<double>(sizeof(int) * listed());
+  double sum = lists.bytes();
   for (const LatticeFamilies& stencil : lattices) sum += stencil.bytes();
   return sum;
 }

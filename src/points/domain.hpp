@@ -6,40 +6,10 @@
 
 #include "base/communicator.hpp"
 #include "points/cloud.hpp"
+#include "points/families.hpp"
 #include "points/halo.hpp"
-#include "points/lattice.hpp"
 
 namespace strut {
-
-// Who is within the horizon of an owned point: local indices of owned or ghost points. Of points on a lattice the
-// family is a stencil; all others have lists, neighbours[start[i]] … neighbours[start[i + 1] − 1] (none on a lattice).
-// The order is that of places in the lattice, or of global ids, so that every sum over a family is the same on any
-// number of ranks.
-struct Families {
-  std::vector<std::size_t> start{0};
-  std::vector<int> neighbours;
-  std::vector<LatticeFamilies> lattices;
-  std::vector<int> lattice_of;  // of owned points: which of lattices, −1 for lists; empty where there is no lattice
-
-  const LatticeFamilies* lattice(int i) const {
-    return lattice_of.empty() || lattice_of[i] < 0 ? nullptr : &lattices[lattice_of[i]];
-  }
-
-  // Calls visit(j) over the family of point i.
-  template <class Visit>
-  void for_each(int i, Visit&& visit) const {
-    if (const LatticeFamilies* stencil = lattice(i)) return stencil->for_each(i, visit);
-    for (std::size_t b = start[i]; b < start[i + 1]; ++b) visit(neighbours[b]);
-  }
-
-  std::size_t size(int i) const {
-    const LatticeFamilies* stencil = lattice(i);
-    return stencil ? stencil->family_size(i) : start[i + 1] - start[i];
-  }
-  std::size_t listed() const { return neighbours.size(); }  // bonds that take memory
-  std::size_t bonds() const;
-  double bytes() const;
-};
 
 // What the families of a body become: a stencil where its points sit on a lattice and that is faster; or what is asked
 // for. Lists are for those who read them; a body of blocks that want different ones has lists.

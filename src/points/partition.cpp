@@ -5,6 +5,7 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -171,13 +172,32 @@ std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   return key;
 }
 
+// The median over the points, m.
+double common_spacing(const PointCloud& cloud) {
+  std::vector<double> spacings = cloud.spacings;
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
+}
+
+// The width of the cells of the curve, m: a spacing halved as often as the cube has room for. So the curve goes through
+// all points of a cube of two spacings, of four, … before the next one, and points that follow upon each other are
+// neighbours in all directions.
+double cell_width(const PointCloud& cloud, double size) {
+  const double smallest = std::max(size, 1e-300) / ((1 << 21) - 2), spacing = common_spacing(cloud);
+  return spacing > smallest ? std::ldexp(spacing, -static_cast<int>(std::log2(spacing / smallest))) : smallest;
+}
+
 std::vector<int> along_curve(const PointCloud& cloud) {
+  if (cloud.size() == 0) return {};
   Eigen::AlignedBox3d box;
   for (const Vector& X : cloud.positions) box.extend(X);
-  const double size = cloud.size() == 0 ? 1 : std::max(box.sizes().maxCoeff(), 1e-300);
+  const double width = cell_width(cloud, box.sizes().maxCoeff());
+  // Half a cell keeps round-off from deciding about the cells of points on a lattice.
+  const Vector origin = box.min() - Vector::Constant(0.5 * width);
   std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Vector place = (cloud.positions[i] - box.min()) / size * ((1 << 21) - 1);
+    const Vector place = (cloud.positions[i] - origin) / width;
     const auto cell = place.cast<std::uint32_t>();
     keys.emplace_back(hilbert_key({cell[0], cell[1], cell[2]}), cloud.ids[i]);
   }

@@ -4,8 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../verification/lattice.hpp"
-#include "mechanics/bonds.hpp"
-#include "mechanics/lattice_sums.hpp"
+#include "mechanics/groups.hpp"
 #include "textbook.hpp"
 
 namespace strut {
@@ -71,24 +70,39 @@ void passes(benchmark::State& state) {
   advance_stress_and_force(body, 1e-7, false);
   const Site* sites = body.sites.data();
   const auto& states = body.force_states.tensors;
-  std::vector<Tensor> moments(body.owned());
-  std::vector<Vector> forces(body.owned());
+  const Groups groups(body, body.blocks[0], kind == FamilyKind::lists ? Part::interior : Part::boundary);
+  const int count = groups.count();
+  std::vector<small::Tensor3<small::Lanes>> moment(count);
+  std::vector<small::Vector3<small::Lanes>> force(count);
   for (auto _ : state) {
     if (kind == FamilyKind::lists) {
-      for (int i = 0; i < body.owned(); ++i) moments[i] = bonds::gather(body.domain.families, sites, i, bonds::One{});
-      for (int i = 0; i < body.owned(); ++i) {
-        forces[i] = bonds::force(body.domain.families, sites, states.data(), i, bonds::One{});
+      for (int g = 0; g < count; ++g) {
+        moment[g] = bonds::gather(bonds::OfBundle{*groups[g].bundle}, sites, bonds::One{});
+      }
+      for (int g = 0; g < count; ++g) {
+        const bonds::OfBundle family{*groups[g].bundle};
+        const auto own = bonds::own_state(family, states.data());
+        force[g] = bonds::force<true>(family, sites, states.data(), own, bonds::One{});
       }
     } else {
       LatticeSums& sums = *body.lattice_sums[0];
+      const MaterialBlock& block = body.blocks[0];
       sums.add_moments(body, {sites});
-      for (int i = 0; i < body.owned(); ++i) moments[i] = sums.moment(i, {sites});
+      for (int g = 0; g < count; ++g) moment[g] = moments(body, block, groups[g], {sites}, bonds::One{});
       sums.add_forces(body, {sites}, states);
-      for (int i = 0; i < body.owned(); ++i) forces[i] = sums.force(i, {sites}, states[i]);
+      for (int g = 0; g < count; ++g) {
+        const Group group = groups[g];
+        force[g] = vectors(group, [&](int l) {
+          const int i = block.points[group.k[l]];
+          return sums.force(i, {sites}, states[i]);
+        });
+      }
     }
     benchmark::ClobberMemory();
   }
   const auto bonds = static_cast<double>(body.domain.families.bonds());
+  const auto entries = static_cast<double>(body.domain.families.lists.entries());
+  if (entries > 0) state.counters["shared"] = bonds / entries;  // bonds to an entry of a list
   state.counters["per_bond"] = benchmark::Counter(static_cast<double>(state.iterations()) * bonds,
                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }

@@ -91,7 +91,7 @@ TEST_P(LatticeOf, IsFoundAndHasTheBondsOfLists) {
   const Body stencil = body_of(GetParam(), FamilyKind::stencil, world),
              lists = body_of(GetParam(), FamilyKind::lists, world);
   EXPECT_EQ(stencil.domain.families.lattices.size(), 1U);
-  EXPECT_EQ(stencil.domain.families.listed(), 0U);
+  EXPECT_EQ(stencil.domain.families.lists.entries(), 0U);
   EXPECT_TRUE(lists.domain.families.lattices.empty());
   const auto size = [](const Body& b) {
     return [&b](int i) { return Vector::Constant(static_cast<double>(b.domain.families.size(i))); };

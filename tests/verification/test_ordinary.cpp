@@ -68,13 +68,13 @@ template <class Weight>
 Quadrature quadrature(const Body& body, int i, Weight weight) {
   Quadrature sum;
   double m = 0;
-  const auto add = [&](auto, int, const Eigen::Array4d& xi, double w) {
-    const double x2 = xi[0] * xi[0], y2 = xi[1] * xi[1], r2 = x2 + y2 + xi[2] * xi[2];
+  const auto add = [&](int, double w, const auto& xi, double) {
+    const double x2 = xi.c[0] * xi.c[0], y2 = xi.c[1] * xi.c[1], r2 = x2 + y2 + xi.c[2] * xi.c[2];
     sum.axes += 15 * w * x2 * y2 / r2;
     sum.diagonals += 15 * w * 0.25 * std::pow(x2 - y2, 2) / r2;
     m += w * r2;
   };
-  bonds::over_family(body.domain.families, body.sites.data(), i, weight, add);
+  bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), weight, add);
   return {sum.axes / m, sum.diagonals / m};
 }
 
@@ -334,13 +334,13 @@ TEST(Failures, AStepFarTooLargeIsReported) {
 Vector closed_form(const LatticeSpec& spec, const Body& body, int i, const Vector& d, const Vector& k) {
   Vector g = Vector::Zero(), sum = Vector::Zero();
   double m = 0;
-  const auto add = [&](auto, int, const Eigen::Array4d& lanes, double w) {
-    const Vector xi = lanes.head<3>().matrix();
+  const auto add = [&](int, double w, const auto& bond, double) {
+    const Vector xi(bond.c[0], bond.c[1], bond.c[2]);
     g += w * std::sin(k.dot(xi)) * xi;
     sum += w * (1 - std::cos(k.dot(xi))) * xi * xi.dot(d) / xi.squaredNorm();
     m += w * xi.squaredNorm();
   };
-  bonds::over_family(body.domain.families, body.sites.data(), i, bonds::LinearDecay{}, add);
+  bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), bonds::LinearDecay{}, add);
   const auto [K, mu] = moduli_of(spec);
   return (3 * (3 * K - 5 * mu) / (m * m) * g.dot(d) * g + 30 * mu / m * sum) / spec.material.density;
 }
