@@ -65,13 +65,6 @@ Displacements places_in(const LatticeFamilies& lattice, const std::vector<Site>&
   return {sites.data(), true, origin};
 }
 
-void add_lattice_sums(Body& body) {
-  for (const LatticeFamilies& lattice : body.domain.families.lattices) {
-    body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice));
-    body.lattice_sums.back()->add_moments(body, places_in(lattice, body.sites));
-  }
-}
-
 // K = Σ ω V ξ⊗ξ is what moments are in the undeformed state.
 void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
@@ -85,20 +78,33 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K) {
   }
 }
 
-void set_shapes(Body& body, MaterialBlock& block) {
-  const Displacements places = block.lattice < 0
-                                   ? Displacements{body.sites.data()}
-                                   : places_in(body.domain.families.lattices[block.lattice], body.sites);
+void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, const Displacements& places) {
   bonds::with_influence(body.influence, [&](auto weight) {
-    for (const Part part : {Part::interior, Part::boundary}) {
-      const Groups groups(body, block, part);
-      for_each_point(0, groups.count(), [&, weight](int g) {
-        const Group group = groups[g];
-        const auto K = moments(body, block, group, places, weight);
-        for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l));
-      });
-    }
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const Group group = groups[g];
+      const auto K = moments(block, group, places, weight);
+      for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l));
+    });
   });
+}
+
+void set_shapes(Body& body) {
+  for (MaterialBlock& block : body.blocks) {
+    if (block.lattice >= 0) continue;
+    for (const Part part : {Part::interior, Part::boundary}) {
+      set_shapes(body, block, Groups(body, block, part), {body.sites.data()});
+    }
+  }
+  for (const LatticeFamilies& lattice : body.domain.families.lattices) {
+    LatticeSums& sums = *body.lattice_sums.emplace_back(std::make_shared<LatticeSums>(body, lattice));
+    const int number = static_cast<int>(body.lattice_sums.size()) - 1;
+    const Displacements places = places_in(lattice, body.sites);
+    sums.moments(body, places, [&](const LatticeSums::Chunk& chunk) {
+      for (MaterialBlock& block : body.blocks) {
+        if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), places);
+      }
+    });
+  }
 }
 
 void set_what_blocks_feel(Body& body) {
@@ -150,12 +156,11 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.force_density.assign(owned, Vector::Zero());
   body.stabilization_work.assign(owned, 0);
   body.residual.assign(owned, 0);
-  add_lattice_sums(body);
   for (MaterialBlock& block : body.blocks) {
     if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
-    set_shapes(body, block);
     if (block.material.viscosity.any()) block.viscous.resize(block.points.size());
   }
+  set_shapes(body);
   set_what_blocks_feel(body);
   return body;
 }

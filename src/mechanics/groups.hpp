@@ -12,9 +12,7 @@ namespace strut {
 
 enum class Part { interior, boundary };  // the points that need no ghost; the others
 
-// Sums over lattices are of all points at once, after the exchange: their points are all in the second part.
 inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
-  if (block.lattice >= 0) return {0, part == Part::interior ? 0 : static_cast<int>(block.points.size())};
   if (part == Part::interior) return {0, block.interior};
   return {block.interior, static_cast<int>(block.points.size())};
 }
@@ -22,9 +20,11 @@ inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
 struct Group {
   static constexpr int width = Bundle::width;
 
-  std::array<int, width> k;       // places in block.points; the last one stands in for those that are missing
-  int count;                      // of those that are there
-  std::optional<Bundle> bundle;  // none on a lattice
+  std::array<int, width> k;  // places in block.points; the last one stands in for those that are missing
+  int count;                 // of those that are there
+  // Where their sums come from, one of both.
+  std::optional<Bundle> bundle;
+  const LatticeSums::Chunk* chunk;
 };
 
 // Some points of a block, with lists of their own.
@@ -36,40 +36,56 @@ struct Chosen {
 // Points of a block, in groups.
 class Groups {
  public:
-  Groups(const Body& body, const MaterialBlock& block, Part part) : begin_(range(block, part).first) {
-    const int end = range(block, part).second;
-    points_ = end - begin_;
-    if (block.lattice >= 0 || points_ == 0) return;
+  // Those of a part, of a block that has lists.
+  Groups(const Body& body, const MaterialBlock& block, Part part) : runs_{range(block, part), {}} {
+    const auto [begin, end] = runs_[0];
+    if (begin == end) return;
     lists_ = &body.domain.families.lists;
-    first_ = lists_->holding(block.points[begin_]);
+    first_ = lists_->holding(block.points[begin]);
     count_ = lists_->holding(block.points[end - 1]) + 1 - first_;
-    first_point_ = block.points[begin_];
+    first_point_ = block.points[begin];
+  }
+  // Those in some slots of a lattice.
+  Groups(const MaterialBlock& block, const LatticeSums::Chunk& chunk)
+      : runs_{part_of(block, chunk, Part::interior), part_of(block, chunk, Part::boundary)}, chunk_(&chunk) {
+    count_ = groups_in(0) + groups_in(1);
   }
   explicit Groups(const Chosen& chosen)
-      : points_(static_cast<int>(chosen.places.size())),
+      : runs_{std::pair(0, static_cast<int>(chosen.places.size())), {}},
         lists_(&chosen.lists),
         count_(chosen.lists.count()),
         chosen_(&chosen.places) {}
 
-  int count() const { return lists_ ? count_ : (points_ + Group::width - 1) / Group::width; }
+  int count() const { return count_; }
   Group operator[](int g) const {
-    std::optional<Bundle> bundle;
-    if (lists_) bundle = (*lists_)[first_ + g];
-    int at = Group::width * g;  // among the points of these groups
-    if (bundle && !chosen_) at = bundle->points[0] - first_point_;
-    const int count = bundle ? static_cast<int>(bundle->points.size()) : std::min(Group::width, points_ - at);
-    Group group{{}, count, bundle};
+    if (chunk_) {
+      const int run = g < groups_in(0) ? 0 : 1, at = runs_[run].first + Group::width * (run == 0 ? g : g - groups_in(0));
+      return group(at, std::min(Group::width, runs_[run].second - at), {});
+    }
+    const Bundle bundle = (*lists_)[first_ + g];
+    const int at = chosen_ ? Group::width * g : runs_[0].first + bundle.points[0] - first_point_;
+    return group(at, static_cast<int>(bundle.points.size()), bundle);
+  }
+
+ private:
+  static std::pair<int, int> part_of(const MaterialBlock& block, const LatticeSums::Chunk& chunk, Part part) {
+    const auto [begin, end] = range(block, part);
+    return chunk.part_of(block.points, begin, end);
+  }
+  int groups_in(int run) const { return (runs_[run].second - runs_[run].first + Group::width - 1) / Group::width; }
+  Group group(int at, int count, std::optional<Bundle> bundle) const {
+    Group group{{}, count, bundle, chunk_};
     for (int l = 0; l < Group::width; ++l) {
       const int place = at + std::min(l, count - 1);
-      group.k[l] = chosen_ ? (*chosen_)[place] : begin_ + place;
+      group.k[l] = chosen_ ? (*chosen_)[place] : place;
     }
     return group;
   }
 
- private:
-  int begin_ = 0, points_ = 0;
+  std::array<std::pair<int, int>, 2> runs_;  // of places in block.points
   const Bundles* lists_ = nullptr;
   int first_ = 0, count_ = 0, first_point_ = 0;
+  const LatticeSums::Chunk* chunk_ = nullptr;
   const std::vector<int>* chosen_ = nullptr;
 };
 
@@ -95,13 +111,12 @@ small::Tensor3<small::Lanes> tensors(const Group& group, Of of) {
   return result;
 }
 
-// δF of a field, or F of the places; of F on a lattice without the identity: there, Σ ω V_j (u_j − u_i) ⊗ ξ is summed.
+// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity.
 template <class Weight>
-small::Tensor3<small::Lanes> moments(const Body& body, const MaterialBlock& block, const Group& group,
-                                     const Displacements& u, Weight weight) {
+small::Tensor3<small::Lanes> moments(const MaterialBlock& block, const Group& group, const Displacements& u,
+                                     Weight weight) {
   if (group.bundle) return bonds::gather(bonds::OfBundle{*group.bundle}, u.sites, weight);
-  const LatticeSums& sums = *body.lattice_sums[block.lattice];
-  return tensors(group, [&](int l) { return sums.moment(block.points[group.k[l]], u); });
+  return tensors(group, [&](int l) { return group.chunk->moment(block.points[group.k[l]], u); });
 }
 
 }  // namespace strut

@@ -5,21 +5,27 @@
 #include <cmath>
 
 #include "mechanics/bonds.hpp"
-#include "points/parallel.hpp"
 
 namespace strut {
 
 namespace {
 
-// Columns of a source: V u; V A and V C u; F − I, u, C̄ and V.
-constexpr int moment_columns = 3, force_columns = 9, spring_columns = 13, residual_columns = 15;
-constexpr int tensor_sums = 9;  // columns of the sums: a tensor, then q
+// What is summed of a point for residuals: F − I, u, C̄, V and the share of the step; and what comes of it: M, a force.
+constexpr int residual_inputs = 15, residual_outputs = 12;
 
 // Calls work(n) with the number as a type, 1 ≤ n ≤ a pencil's width.
 template <int n = 1, class Work>
 void with_constant(int value, const Work& work) {
   if (value <= n || n == pencil_width) return work(std::integral_constant<int, n>{});
   if constexpr (n < pencil_width) with_constant<n + 1>(value, work);
+}
+
+// Calls visit(k) for the bits that are set in a row of words.
+template <class Visit>
+inline void for_each_bit(const std::uint64_t* words, int count, const Visit& visit) {
+  for (int w = 0; w < count; ++w) {
+    for (std::uint64_t left = words[w]; left != 0; left &= left - 1) visit(64 * w + std::countr_zero(left));
+  }
 }
 
 }  // namespace
@@ -30,14 +36,10 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice)
   mark_places();
   has_springs_ = std::any_of(body.blocks.begin(), body.blocks.end(),
                              [](const MaterialBlock& block) { return block.material.stabilization > 0; });
-  const bool has_residuals = !body.force_states.gradients.empty();
-  residual_force_ = has_springs_ ? tensor_sums + 3 : tensor_sums;
-  stride_ = has_springs_ && has_residuals ? tensor_sums + 6 : tensor_sums + 3;
-  source_columns_ = has_residuals ? residual_columns : has_springs_ ? spring_columns : force_columns;
-  moved_.assign(static_cast<std::size_t>(lattice.slots()) * moment_columns, Pencil{});
-  source_.assign(static_cast<std::size_t>(lattice.slots()) * source_columns_, Pencil{});
-  sums_.assign(static_cast<std::size_t>(lattice.slots()) * stride_, Pencil{});
-  set_weights(body);
+  near_.resize(above_.size());
+  targets_.resize(words_);
+  nothing_.assign(residual_inputs, Pencil{});
+  set_constants(body);
 }
 
 void LatticeSums::make_rows(Influence influence) {
@@ -52,7 +54,7 @@ void LatticeSums::make_rows(Influence influence) {
         kind.first[dx] = kind.weight[dx] * x;
       }
       const auto known = std::find(kinds_.begin(), kinds_.end(), kind);
-      rows_.push_back({y, z, row.y, row.offset, static_cast<int>(known - kinds_.begin())});
+      rows_.push_back({y, z, row.y, row.z, row.offset, static_cast<int>(known - kinds_.begin())});
       if (known == kinds_.end()) kinds_.push_back(kind);
       if (row.z < 0) continue;
       above_.resize(row.z + 1);
@@ -66,142 +68,189 @@ void LatticeSums::mark_places() {
   words_ = (shape[0] + 63) / 64;
   filled_.assign(static_cast<std::size_t>(shape[1]) * shape[2] * words_, 0);
   owned_ = filled_;
+  row_begins_.assign(static_cast<std::size_t>(shape[1]) * shape[2] + 1, 0);
   for (int slot = 1; slot < lattice_->slots(); ++slot) {
     const int row = lattice_->place(slot) / shape[0], x = lattice_->place(slot) % shape[0];
     const std::size_t word = static_cast<std::size_t>(row) * words_ + x / 64;
     const std::uint64_t bit = std::uint64_t{1} << x % 64;
     filled_[word] |= bit;
     if (lattice_->is_owned(slot)) owned_[word] |= bit;
+    row_begins_[row + 1] = slot + 1;
+  }
+  row_begins_[0] = 1;
+  for (std::size_t row = 1; row < row_begins_.size(); ++row) {
+    row_begins_[row] = std::max(row_begins_[row], row_begins_[row - 1]);
   }
 }
 
-// With V or V C in the place of V u, moments and q are what is looked for.
-void LatticeSums::set_weights(const Body& body) {
-  pack(moved_, moment_columns, [&](int i, const auto& put) { put(0, body.domain.volumes[i]); });
-  add_packed_moments();
-  for (const int i : lattice_->members()) {
-    if (i >= body.owned()) continue;
-    const double* sums = sums_at(i);
-    constants_[i].first = tensor(sums).row(0);
-    constants_[i].weight = vector(sums, tensor_sums)[0];
-  }
-}
-
-// Fills a source, `columns` pencils a slot, by fill(point, put) with put(column, value). Empty cells stay zero.
-template <class Fill>
-void LatticeSums::pack(std::vector<Pencil>& source, int columns, const Fill& fill) const {
-  for_each_point(1, lattice_->slots(), [&](int slot) {
-    double* cells = reinterpret_cast<double*>(&source[static_cast<std::size_t>(slot) * columns]);
-    for (int lane = 0; lane < pencil_width; ++lane) {
-      const int i = lattice_->point(slot, lane);
-      if (i >= 0) fill(i, [&](int column, double value) { cells[column * pencil_width + lane] = value; });
+// With V in the place of V u or V |u|², moments and squares are what is looked for.
+void LatticeSums::set_constants(const Body& body) {
+  const auto volume = [&](int i, const auto& put) { put(0, body.domain.volumes[i]); };
+  const auto each_owned = [&](const Chunk& chunk, const auto& set) {
+    for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
+      const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
+      if (i >= 0 && i < body.owned()) set(i);
     }
-  });
-}
-
-// The first `columns` of the sums.
-void LatticeSums::clear(int columns) {
-  for_each_point(0, lattice_->slots(), [&](int slot) {
-    if (lattice_->is_owned(slot)) std::fill_n(sums_of(slot), columns, Pencil{});
-  });
-}
-
-// The row sums of the rows of a plane that a stencil reaches from the row at hand.
-class LatticeSums::Ring {
- public:
-  Ring(int rows, int places, int columns)
-      : rows_(rows), columns_(columns), stride_(places * columns), room_(static_cast<std::size_t>(rows) * stride_) {}
-  Pencil* row(int y) { return &room_[static_cast<std::size_t>(y % rows_) * stride_]; }
-  int columns() const { return columns_; }  // of a place
-
- private:
-  int rows_, columns_, stride_;
-  std::vector<Pencil> room_;
-};
-
-namespace {
-
-// Calls visit(k) for the bits that are set in a row of words.
-template <class Visit>
-inline void for_each_bit(const std::uint64_t* words, int count, const Visit& visit) {
-  for (int w = 0; w < count; ++w) {
-    for (std::uint64_t left = words[w]; left != 0; left &= left - 1) visit(64 * w + std::countr_zero(left));
-  }
-}
-
-}  // namespace
-
-// A Sweep says what is summed: its columns a row and kind, row_sums(place, to) along x, add(sums of a row, dy) along
-// y, and hand(to, dz) along z. What a plane adds to lies within a slab's thickness, so every other slab may run at a
-// time.
-template <class Sweep>
-void LatticeSums::over_planes() {
-  const Eigen::Array3i& shape = lattice_->shape();
-  const int planes = shape[2], first = lattice_->first_plane(), far = static_cast<int>(above_.size()) - 1;
-  const int thickness = std::max(1, 2 * far);
-  const auto slab_of = [&](int plane) { return static_cast<int>(std::floor(1.0 * plane / thickness)); };
-  for (const int odd : {0, 1}) {
-    for_each_point(slab_of(first), slab_of(first + planes - 1) + 1, [&](int slab) {
-      if (std::abs(slab) % 2 != odd) return;
-      Ring ring(lattice_->rows_across(), shape[0], static_cast<int>(kinds_.size()) * Sweep::columns);
-      // Points are at least as far from the first and last plane as a stencil reaches.
-      const int begin = std::max(far, slab * thickness - first);
-      const int end = std::min(planes - far, (slab + 1) * thickness - first);
-      for (int z = begin; z < end; ++z) over_plane<Sweep>(z, ring);
+  };
+  with_constant(lattice_->reach(), [&](auto reach) {
+    sweep<MomentSweep<reach>>(volume, [&](const Chunk& chunk) {
+      each_owned(chunk, [&](int i) { constants_[i].first = chunk.tensor(i).row(0); });
     });
+    sweep<SquareSweep<reach>>(volume, [&](const Chunk& chunk) {
+      each_owned(chunk, [&](int i) { constants_[i].weight = *chunk.at(i); });
+    });
+  });
+}
+
+double LatticeSums::bytes() const {
+  const std::size_t rows = row_begins_.size() * sizeof(int) + 2 * filled_.size() * sizeof(std::uint64_t);
+  return static_cast<double>(rows + sizeof(Pencil) * (row_.size() + ring_.room.size()) +
+                             sizeof(Constants) * constants_.size()) +
+         sums_.bytes() + sources_.bytes();
+}
+
+std::pair<int, int> LatticeSums::Chunk::part_of(const std::vector<int>& points, int low, int high) const {
+  const auto place_of = [&](int slot) {
+    const auto is_before = [this](int i, int cell) { return all->lattice_->cell(i) < cell; };
+    const auto at = std::lower_bound(points.begin() + low, points.begin() + high, pencil_width * slot, is_before);
+    return static_cast<int>(at - points.begin());
+  };
+  return {place_of(begin), place_of(end)};
+}
+
+// ---- Strips --------------------------------------------------------------------------------------------------------
+
+// As many rows as leave what is kept of the planes, `columns` a slot, in half a megabyte; twice what a stencil reaches
+// at least, for the rows beside a strip are summed along x once more for the next one.
+std::vector<LatticeSums::Strip> LatticeSums::strips(int columns) const {
+  constexpr double room = 1 << 19;
+  const Eigen::Array3i& shape = lattice_->shape();
+  double rows = 1;  // that hold anything
+  for (std::size_t row = 1; row < row_begins_.size(); ++row) rows += row_begins_[row] > row_begins_[row - 1];
+  const double a_row = sizeof(Pencil) * columns * (2 * far_z() + 1) * lattice_->slots() / rows;
+  const int height = std::max(4 * far_y() + 2, static_cast<int>(room / a_row));
+  std::vector<Strip> strips;
+  for (int y = far_y(); y < shape[1] - far_y(); y += height) {
+    strips.push_back({y, std::min(y + height, shape[1] - far_y())});
+  }
+  return strips;
+}
+
+void LatticeSums::Planes::open(const LatticeSums& all, int z, int y0, int y1, int columns) {
+  const std::size_t count = 2 * all.far_z() + 1;
+  columns_ = columns;
+  room_.resize(count), begins_.resize(count), ends_.resize(count);
+  begins_[z % count] = all.slots_before(z, y0), ends_[z % count] = all.slots_before(z, y1);
+  room_[z % count].assign(static_cast<std::size_t>(end(z) - begin(z)) * columns, Pencil{});
+}
+
+double LatticeSums::Planes::bytes() const {
+  std::size_t pencils = 0;
+  for (const auto& plane : room_) pencils += plane.capacity();
+  return static_cast<double>(sizeof(Pencil) * pencils);
+}
+
+void LatticeSums::take_plane(int z, int columns, const Take& take) {
+  Chunk chunk;
+  chunk.all = this, chunk.begin = sums_.begin(z), chunk.end = sums_.end(z), chunk.columns = columns;
+  if (chunk.begin == chunk.end) return;
+  chunk.sums = sums_.of(z, chunk.begin);
+  take(chunk);
+}
+
+// ---- Sweeps --------------------------------------------------------------------------------------------------------
+
+// A Sweep says what is summed: its `inputs` a point, its `columns` a row and kind, row_sums(pencils, to) along x,
+// add(sums of a row, dy) along y, and hand(to, dz) along z, to the `outputs` of a point. Points are at least as far from
+// the first and last plane and row as a stencil reaches.
+template <class Sweep, class Fill>
+void LatticeSums::sweep(const Fill& fill, const Take& take) {
+  const Eigen::Array3i& shape = lattice_->shape();
+  const int planes = shape[2], far = far_z();
+  row_.assign(static_cast<std::size_t>(shape[0]) * Sweep::inputs, Pencil{});
+  ring_.rows = lattice_->rows_across(), ring_.columns = static_cast<int>(kinds_.size()) * Sweep::columns;
+  ring_.room.resize(static_cast<std::size_t>(ring_.rows) * shape[0] * ring_.columns);
+  for (const Strip& strip : strips(Sweep::outputs)) {
+    for (int z = 0; z < planes; ++z) {
+      if (z + far < planes) sums_.open(*this, z + far, strip.y0, strip.y1, Sweep::outputs);
+      if (z >= far && z < planes - far) sum_plane<Sweep>(z, strip, fill);
+      if (z >= 2 * far) take_plane(z - far, Sweep::outputs, take);
+    }
   }
 }
 
-template <class Sweep>
-void LatticeSums::over_plane(int z, Ring& ring) {
-  const Eigen::Array3i& shape = lattice_->shape();
-  const int far_y = lattice_->rows_across() / 2;
-  int next = 0;  // row to be summed along x
-  for (int y = far_y; y < shape[1] - far_y; ++y) {
-    for (; next <= y + far_y; ++next) {
-      const int row = z * shape[1] + next;
-      for_each_bit(&filled_[static_cast<std::size_t>(row) * words_], words_,
-                   [&](int x) { Sweep::row_sums(*this, row * shape[0] + x, ring.row(next) + x * ring.columns()); });
-    }
-    over_row<Sweep>(z, y, ring);
+template <class Sweep, class Fill>
+void LatticeSums::sum_plane(int z, const Strip& strip, const Fill& fill) {
+  if (slots_before(z, strip.y0 - far_y()) == slots_before(z, strip.y1 + far_y())) return;
+  int next = strip.y0 - far_y();  // row to be summed along x
+  for (int y = strip.y0; y < strip.y1; ++y) {
+    for (; next <= y + far_y(); ++next) sum_row<Sweep>(z, next, fill);
+    hand_over_row<Sweep>(z, y);
   }
+}
+
+// Fills the columns of a pencil by fill(point, put) with put(column, value). Empty cells stay zero.
+template <class Fill>
+void LatticeSums::pack(int slot, const Fill& fill, Pencil* to) const {
+  double* cells = reinterpret_cast<double*>(to);
+  for (int lane = 0; lane < pencil_width; ++lane) {
+    const int i = lattice_->point(slot, lane);
+    if (i >= 0) fill(i, [&](int column, double value) { cells[column * pencil_width + lane] = value; });
+  }
+}
+
+template <class Sweep, class Fill>
+void LatticeSums::sum_row(int z, int y, const Fill& fill) {
+  const int places = lattice_->shape()[0], row = z * lattice_->shape()[1] + y;
+  const std::uint64_t* filled = row_of(filled_, z, y);
+  Pencil* const sums = ring_.row(y, places);
+  for_each_bit(filled, words_, [&](int x) {
+    pack(lattice_->slot_at(row * places + x), fill, &row_[static_cast<std::size_t>(x) * Sweep::inputs]);
+  });
+  for_each_bit(filled, words_, [&](int x) {
+    const Pencil* here = &row_[static_cast<std::size_t>(x) * Sweep::inputs];
+    Sweep::row_sums(kinds_, here, sums + static_cast<std::size_t>(x) * ring_.columns);
+  });
+  for_each_bit(filled, words_, [&](int x) {
+    std::fill_n(&row_[static_cast<std::size_t>(x) * Sweep::inputs], Sweep::inputs, Pencil{});
+  });
 }
 
 // What the rows about row y of plane z give to the pencils above and below it.
 template <class Sweep>
-void LatticeSums::over_row(int z, int y, Ring& ring) {
-  const Eigen::Array3i& shape = lattice_->shape();
-  const int far_z = static_cast<int>(above_.size()) - 1, row = z * shape[1] + y;
-  std::vector<std::vector<RowOfSums>> near(above_.size());
-  for (int dz = 0; dz <= far_z; ++dz) {
+void LatticeSums::hand_over_row(int z, int y) {
+  const int places = lattice_->shape()[0];
+  for (int dz = 0; dz <= far_z(); ++dz) {
+    near_[dz].clear();
     for (const Row& r : above_[dz]) {
-      near[dz].push_back({ring.row(y + r.dy) + Sweep::columns * r.kind, r.dy * shape[0], r.y});
+      near_[dz].push_back({ring_.row(y + r.dy, places) + Sweep::columns * r.kind, r.dy * places, r.y});
     }
   }
-  std::vector<std::uint64_t> targets(words_, 0);
-  for (int dz = -far_z; dz <= far_z; ++dz) {
-    const std::uint64_t* owned = &owned_[static_cast<std::size_t>(row + dz * shape[1]) * words_];
-    for (int w = 0; w < words_; ++w) targets[w] |= owned[w];
+  std::fill(targets_.begin(), targets_.end(), 0);
+  for (int dz = -far_z(); dz <= far_z(); ++dz) {
+    const std::uint64_t* owned = row_of(owned_, z + dz, y);
+    for (int w = 0; w < words_; ++w) targets_[w] |= owned[w];
   }
-  for_each_bit(targets.data(), words_, [&](int x) {
-    for (int dz = 0; dz <= far_z; ++dz) hand_over<Sweep>(row * shape[0] + x, dz, near[dz], x * ring.columns());
+  const int row = (z * lattice_->shape()[1] + y) * places;
+  for_each_bit(targets_.data(), words_, [&](int x) {
+    for (int dz = 0; dz <= far_z(); ++dz) hand_over<Sweep>(row + x, z, dz, x * ring_.columns);
   });
 }
 
 // `first`: where the sums of the pencil's own x stand in each row. Inlined: as a call it costs a fifth of a sweep.
 template <class Sweep>
-__attribute__((always_inline)) inline void LatticeSums::hand_over(int place, int dz, const std::vector<RowOfSums>& near,
-                                                                  int first) {
+__attribute__((always_inline)) inline void LatticeSums::hand_over(int place, int z, int dz, int first) {
   const int away = dz * lattice_->shape()[0] * lattice_->shape()[1];
   const int below = lattice_->slot_at(place - away), over = lattice_->slot_at(place + away);
   const bool to_below = lattice_->is_owned(below), to_over = dz > 0 && lattice_->is_owned(over);
   if (!to_below && !to_over) return;
   Sweep sums;
-  for (const RowOfSums& row : near) {
+  for (const RowOfSums& row : near_[dz]) {
     if (lattice_->slot_at(place + row.offset) != 0) sums.add(row.sums + first, row.y);
   }
-  if (to_below) sums.hand(sums_of(below), above_[dz][0].z);
-  if (to_over) sums.hand(sums_of(over), -above_[dz][0].z);
+  const double height = above_[dz][0].z;
+  if (to_below) sums.hand(sums_.of(z - dz, below), height);
+  if (to_over) sums.hand(sums_.of(z + dz, over), -height);
 }
 
 namespace {
@@ -238,22 +287,28 @@ struct Pairs {
   }
 };
 
+
+// Of the column of three pencils in a row, so many columns each.
+template <int reach, int inputs>
+Pairs<reach> pairs_of(const Pencil* here, int column) {
+  return Pairs<reach>(here[column - inputs], here[column], here[column + inputs]);
+}
+
 }  // namespace
 
 // ---- Moments -------------------------------------------------------------------------------------------------------
 
 template <int reach>
 struct LatticeSums::MomentSweep {
-  static constexpr int columns = 6;  // Σ ω V u, Σ ω dx V u
+  static constexpr int inputs = 3, columns = 6, outputs = 9;  // V u; Σ ω V u, Σ ω dx V u; H with u_i taken out
   Pencil sum[3] = {}, along_x[3] = {}, along_y[3] = {};
 
-  static void row_sums(const LatticeSums& all, int place, Pencil* to) {
-    const Triple row = all.around(place, all.moved_, moment_columns);
+  static void row_sums(const std::vector<Kind>& kinds, const Pencil* here, Pencil* to) {
     for (int c = 0; c < 3; ++c) {
-      const Pairs<reach> u(row.before[c], row.here[c], row.after[c]);
-      for (std::size_t k = 0; k < all.kinds_.size(); ++k) {
-        to[k * columns + c] = u.sum(all.kinds_[k]);
-        to[k * columns + 3 + c] = u.first(all.kinds_[k]);
+      const auto u = pairs_of<reach, inputs>(here, c);
+      for (std::size_t k = 0; k < kinds.size(); ++k) {
+        to[k * columns + c] = u.sum(kinds[k]);
+        to[k * columns + 3 + c] = u.first(kinds[k]);
       }
     }
   }
@@ -269,53 +324,58 @@ struct LatticeSums::MomentSweep {
       to[c] += along_x[c];
       to[3 + c] += along_y[c];
       to[6 + c] += z * sum[c];
-      to[tensor_sums + c] += sum[c];
     }
   }
 };
 
-void LatticeSums::add_moments(const Body& body, const Displacements& u) {
-  pack(moved_, moment_columns, [&](int i, const auto& put) {
+void LatticeSums::moments(const Body& body, const Displacements& u, const Take& take) {
+  const auto fill = [&](int i, const auto& put) {
     const Eigen::Array4d Vu = body.domain.volumes[i] * u(i);
     for (int c = 0; c < 3; ++c) put(c, Vu[c]);
-  });
-  add_packed_moments();
+  };
+  with_constant(lattice_->reach(), [&](auto reach) { sweep<MomentSweep<reach>>(fill, take); });
 }
 
-void LatticeSums::add_packed_moments() {
-  clear(tensor_sums + 3);
-  with_constant(lattice_->reach(), [this](auto reach) { over_planes<MomentSweep<reach>>(); });
+Tensor LatticeSums::Chunk::moment(int i, const Displacements& u) const {
+  return tensor(i) - u(i).head<3>().matrix() * all->constants_[i].first.transpose();
 }
 
 // ---- Squares -------------------------------------------------------------------------------------------------------
 
 template <int reach>
 struct LatticeSums::SquareSweep {
-  static constexpr int columns = 1;  // Σ ω V |u|²
-  Pencil sum = {};
+  static constexpr int inputs = 4, columns = 4, outputs = 4;  // V |u|², V u; Σ ω V |u|², q = Σ ω V u
+  Pencil sum[4] = {};
 
-  static void row_sums(const LatticeSums& all, int place, Pencil* to) {
-    const Triple row = all.around(place, all.moved_, moment_columns);
-    const Pairs<reach> square(row.before[0], row.here[0], row.after[0]);
-    for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k] = square.sum(all.kinds_[k]);
+  static void row_sums(const std::vector<Kind>& kinds, const Pencil* here, Pencil* to) {
+    for (int c = 0; c < columns; ++c) {
+      const auto u = pairs_of<reach, inputs>(here, c);
+      for (std::size_t k = 0; k < kinds.size(); ++k) to[k * columns + c] = u.sum(kinds[k]);
+    }
   }
-  void add(const Pencil* row, double) { sum += *row; }
-  void hand(Pencil* to, double) const { *to += sum; }
+  void add(const Pencil* row, double) {
+    for (int c = 0; c < columns; ++c) sum[c] += row[c];
+  }
+  void hand(Pencil* to, double) const {
+    for (int c = 0; c < columns; ++c) to[c] += sum[c];
+  }
 };
 
-void LatticeSums::add_squares(const Body& body, const Displacements& u) {
-  pack(moved_, moment_columns,
-       [&](int i, const auto& put) { put(0, body.domain.volumes[i] * u(i).head<3>().square().sum()); });
-  clear(1);
-  with_constant(lattice_->reach(), [this](auto reach) { over_planes<SquareSweep<reach>>(); });
+void LatticeSums::squares(const Body& body, const Displacements& u, const Take& take) {
+  const auto fill = [&](int i, const auto& put) {
+    const Eigen::Array4d ui = u(i);
+    const double V = body.domain.volumes[i];
+    put(0, V * ui.head<3>().square().sum());
+    for (int c = 0; c < 3; ++c) put(1 + c, V * ui[c]);
+  };
+  with_constant(lattice_->reach(), [&](auto reach) { sweep<SquareSweep<reach>>(fill, take); });
 }
 
 // Σ ω V |u_j − u_i|² − H : (F − I), H = (F − I) K being the moments; the first sum is Σ ω V |u_j|² − 2 u_i·q + W
 // |u_i|².
-double LatticeSums::squared_residual(int i, const Displacements& u, const MaterialPoint& point) const {
-  const double* sums = sums_at(i);
+double LatticeSums::Chunk::squared_residual(int i, const Displacements& u, const MaterialPoint& point) const {
   const Vector ui = u(i).head<3>().matrix();
-  const double squares = sums[0] - 2 * ui.dot(vector(sums, tensor_sums)) + constants_[i].weight * ui.squaredNorm();
+  const double squares = *at(i) - 2 * ui.dot(vector(i, 1)) + all->constants_[i].weight * ui.squaredNorm();
   const Tensor gradient = point.deformation_gradient - Tensor::Identity();
   const Tensor shape = to_tensor(point.shape_inverse).inverse();
   return std::max(0.0, squares - (gradient * shape).cwiseProduct(gradient).sum());
@@ -325,31 +385,33 @@ double LatticeSums::squared_residual(int i, const Displacements& u, const Materi
 
 template <int reach, bool with_springs>
 struct LatticeSums::ForceSweep {
-  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z; Σ ω V C
-  static constexpr int columns = with_springs ? 10 : 9;
-  Pencil sum[3] = {}, along_z[3] = {}, springs = {};
+  // V A, and with springs V C u, V C and V u
+  static constexpr int inputs = with_springs ? 16 : 9;
+  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z; Σ ω V C; q = Σ ω V u
+  static constexpr int columns = with_springs ? 13 : 9;
+  static constexpr int outputs = with_springs ? 7 : 3;  // Σ ω V (A ξ + C u); Σ ω V C; q
+  Pencil sum[3] = {}, along_z[3] = {}, springs[4] = {};
 
-  static void row_sums(const LatticeSums& all, int place, Pencil* to) {
-    const Triple row = all.around(place, all.source_, all.source_columns_);
-    const auto pairs = [&](int column) {
-      return Pairs<reach>(row.before[column], row.here[column], row.after[column]);
-    };
+  static void row_sums(const std::vector<Kind>& kinds, const Pencil* here, Pencil* to) {
+    const auto pairs = [&](int column) { return pairs_of<reach, inputs>(here, column); };
     for (int c = 0; c < 3; ++c) {
       const Pairs<reach> x = pairs(c), y = pairs(3 + c), z = pairs(6 + c);
-      for (std::size_t k = 0; k < all.kinds_.size(); ++k) {
+      for (std::size_t k = 0; k < kinds.size(); ++k) {
         Pencil* of_kind = to + k * columns;
-        of_kind[c] = x.first(all.kinds_[k]);
-        of_kind[3 + c] = y.sum(all.kinds_[k]);
-        of_kind[6 + c] = z.sum(all.kinds_[k]);
+        of_kind[c] = x.first(kinds[k]);
+        of_kind[3 + c] = y.sum(kinds[k]);
+        of_kind[6 + c] = z.sum(kinds[k]);
       }
       if constexpr (with_springs) {
-        const Pairs<reach> pull = pairs(force_columns + c);
-        for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k * columns + c] += pull.sum(all.kinds_[k]);
+        const Pairs<reach> pull = pairs(9 + c);
+        for (std::size_t k = 0; k < kinds.size(); ++k) to[k * columns + c] += pull.sum(kinds[k]);
       }
     }
     if constexpr (with_springs) {
-      const Pairs<reach> C = pairs(force_columns + 3);
-      for (std::size_t k = 0; k < all.kinds_.size(); ++k) to[k * columns + 9] = C.sum(all.kinds_[k]);
+      for (int c = 0; c < 4; ++c) {
+        const Pairs<reach> spring = pairs(12 + c);
+        for (std::size_t k = 0; k < kinds.size(); ++k) to[k * columns + 9 + c] = spring.sum(kinds[k]);
+      }
     }
   }
   void add(const Pencil* row, double y) {
@@ -357,51 +419,54 @@ struct LatticeSums::ForceSweep {
       sum[c] += row[c] + y * row[3 + c];
       along_z[c] += row[6 + c];
     }
-    if constexpr (with_springs) springs += row[9];
+    if constexpr (with_springs) {
+      for (int c = 0; c < 4; ++c) springs[c] += row[9 + c];
+    }
   }
   void hand(Pencil* to, double z) const {
     for (int c = 0; c < 3; ++c) to[c] += sum[c] + z * along_z[c];
-    if constexpr (with_springs) to[3] += springs;
+    if constexpr (with_springs) {
+      for (int c = 0; c < 4; ++c) to[3 + c] += springs[c];
+    }
   }
 };
 
 // f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω
 // V_j, q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
-void LatticeSums::add_forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states) {
-  pack(source_, source_columns_, [&](int i, const auto& put) {
+void LatticeSums::forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states,
+                         const Take& take) {
+  const auto fill = [&](int i, const auto& put) {
     const double V = body.domain.volumes[i], C = states[i].column[0][3], stretched = u.is_field ? 0 : C;
     for (int axis = 0; axis < 3; ++axis) {
       for (int c = 0; c < 3; ++c) put(3 * axis + c, V * (states[i].column[axis][c] + (c == axis ? stretched : 0)));
     }
     if (!has_springs_) return;
-    const Eigen::Array4d pull = V * C * u(i);
-    for (int c = 0; c < 3; ++c) put(force_columns + c, pull[c]);
-    put(force_columns + 3, V * C);
-  });
-  clear(4);
-  with_constant(lattice_->reach(), [this](auto reach) {
-    has_springs_ ? over_planes<ForceSweep<reach, true>>() : over_planes<ForceSweep<reach, false>>();
+    const Eigen::Array4d ui = u(i);
+    for (int c = 0; c < 3; ++c) put(9 + c, V * C * ui[c]), put(13 + c, V * ui[c]);
+    put(12, V * C);
+  };
+  with_constant(lattice_->reach(), [&](auto reach) {
+    has_springs_ ? sweep<ForceSweep<reach, true>>(fill, take) : sweep<ForceSweep<reach, false>>(fill, take);
   });
 }
 
-Vector LatticeSums::force(int i, const Displacements& u, const ForceState& state) const {
-  const Constants& own = constants_[i];
+Vector LatticeSums::Chunk::force(int i, const Displacements& u, const ForceState& state) const {
+  const Constants& own = all->constants_[i];
   Tensor A;
   for (int c = 0; c < 3; ++c) A.col(c) = state.column[c].head<3>().matrix();
-  const double* sums = sums_at(i);
-  Vector f = vector(sums, 0) + A * own.first;
-  if (!has_springs_) return f;
+  Vector f = vector(i, 0) + A * own.first;
+  if (!all->has_springs_) return f;
   const Vector ui = u(i).head<3>().matrix();
-  Vector stretch = vector(sums, tensor_sums) - own.weight * ui;
+  Vector stretch = vector(i, 4) - own.weight * ui;
   if (!u.is_field) stretch += own.first;
-  const double springs = sums[3 * pencil_width];
-  return f + state.column[0][3] * stretch - springs * ui;
+  return f + state.column[0][3] * stretch - at(i)[3 * pencil_width] * ui;
 }
 
 // ---- Residuals -----------------------------------------------------------------------------------------------------
 
-void LatticeSums::add_residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients) {
-  pack(source_, source_columns_, [&](int i, const auto& put) {
+void LatticeSums::residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients,
+                            const Take& take) {
+  const auto fill = [&](int i, const auto& put) {
     const Eigen::Array4d ui = u(i);
     for (int axis = 0; axis < 3; ++axis) {
       for (int c = 0; c < 3; ++c) {
@@ -412,14 +477,27 @@ void LatticeSums::add_residuals(const Body& body, const Displacements& u, const 
     put(12, gradients[i].column[0][3]);
     put(13, body.domain.volumes[i]);
     put(14, gradients[i].column[1][3]);
-  });
-  for_each_point(1, lattice_->slots(), [this](int slot) { gather_residuals(slot); });
+  };
+  const int planes = lattice_->shape()[2], far = far_z();
+  for (const Strip& strip : strips(residual_inputs)) {
+    for (int z = 0; z < planes; ++z) {
+      sources_.open(*this, z, strip.y0 - far_y(), strip.y1 + far_y(), residual_inputs);
+      for (int slot = sources_.begin(z); slot < sources_.end(z); ++slot) pack(slot, fill, sources_.of(z, slot));
+      const int complete = z - far;
+      if (complete < far) continue;
+      sums_.open(*this, complete, strip.y0, strip.y1, residual_outputs);
+      for (int slot = sums_.begin(complete); slot < sums_.end(complete); ++slot) {
+        if (lattice_->is_owned(slot)) gather_residuals(slot, complete);
+      }
+      take_plane(complete, residual_outputs, take);
+    }
+  }
 }
 
 // The bonds of eight points with one row of their stencils.
 struct LatticeSums::Residuals {
   const Pencil* own;     // columns of the points
-  const Triple& there;   // columns of the row
+  const Pencil* const* there;  // columns of the row: before, here and after
   const Pencil* fitted;  // u − ½ (H_y dy + H_z dz) of the row: before, here and after, three each
   const Pencil* base;    // u + ½ (H_y dy + H_z dz) of the points
   const Kind& kind;
@@ -430,7 +508,7 @@ struct LatticeSums::Residuals {
   void add_bond() {
     const double x = dx * spacing;
     const auto far = [this](int column) {
-      return shifted<dx>(there.before[column], there.here[column], there.after[column]);
+      return shifted<dx>(there[0][column], there[1][column], there[2][column]);
     };
     const Pencil C = far(12), share = far(14);
     const Pencil stiffness = (own[12] < C ? own[12] : C) * (own[14] < share ? share : own[14]);
@@ -454,14 +532,13 @@ struct LatticeSums::Residuals {
   }
 };
 
-void LatticeSums::gather_residuals(int slot) {
-  if (!lattice_->is_owned(slot)) return;
+void LatticeSums::gather_residuals(int slot, int z) {
   const int place = lattice_->place(slot);
-  const Pencil* own = around(place, source_, source_columns_).here;
+  const Pencil* own = sources_.of(z, slot);
   Pencil M[9] = {}, force[3] = {};
   for (const Row& row : rows_) {
-    const Triple there = around(place + row.offset, source_, source_columns_);
-    const Pencil* ends[] = {there.before, there.here, there.after};
+    const int beside = place + row.offset, plane = z + row.dz;
+    const Pencil* ends[] = {source_at(beside - 1, plane), source_at(beside, plane), source_at(beside + 1, plane)};
     Pencil fitted[9], base[3];
     for (int c = 0; c < 3; ++c) {
       for (int end = 0; end < 3; ++end) {
@@ -469,7 +546,7 @@ void LatticeSums::gather_residuals(int slot) {
       }
       base[c] = own[9 + c] + 0.5 * (row.y * own[3 + c] + row.z * own[6 + c]);
     }
-    Residuals bonds{own, there, fitted, base, kinds_[row.kind], lattice_->frame().spacing[0]};
+    Residuals bonds{own, ends, fitted, base, kinds_[row.kind], lattice_->frame().spacing[0]};
     bonds.add_bond<0>();
     bonds.add_bonds();
     for (int c = 0; c < 3; ++c) {
@@ -479,8 +556,8 @@ void LatticeSums::gather_residuals(int slot) {
       M[6 + c] += row.z * bonds.sum[c];
     }
   }
-  std::copy_n(M, 9, sums_of(slot));
-  std::copy_n(force, 3, sums_of(slot) + residual_force_);
+  std::copy_n(M, 9, sums_.of(z, slot));
+  std::copy_n(force, 3, sums_.of(z, slot) + 9);
 }
 
 }  // namespace strut

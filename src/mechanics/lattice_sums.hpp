@@ -9,12 +9,15 @@
 // pencil of eight cells adds up its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has
 // (along x); a plane adds up these, and dy times these, for each |dz| (along y); and hands that, and dz times that, to
 // the planes above and below (along z). Of the 122 bonds of a point at three spacings 25 additions are left. Forces
-// alike. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by bond. Sums are added
-// up in the order of the planes of the whole lattice, whoever owns them, so that results are the same on any number of
-// ranks.
+// alike. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by bond.
+//
+// The lattice is gone through in strips of rows, and these plane by plane; what a plane of a strip has added up is
+// handed out as soon as it is complete. So only the planes that a stencil reaches are kept, in the cache, and nothing a
+// point. A sum has the order of the planes, so that results are the same on any number of ranks.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/pencil.hpp"
@@ -38,32 +41,60 @@ class LatticeSums {
   // Keeps a pointer to the lattice.
   LatticeSums(const Body& body, const LatticeFamilies& lattice);
 
-  // Each fills the sums of all owned points from fields that are current in ghosts too; they are to be read before the
-  // next one is called. Forces need what moments of the same u leave behind.
-  void add_moments(const Body& body, const Displacements& u);
-  Tensor moment(int i, const Displacements& u) const {  // H
-    return tensor(sums_at(i)) - u(i).head<3>().matrix() * constants_[i].first.transpose();
-  }
+  // The sums of a sweep over the points in the slots begin … end − 1. They last as long as a Take of them.
+  class Chunk {
+   public:
+    // Which of `points`, ascending local indices, from place `low` to `high`, are in these slots: first and end.
+    std::pair<int, int> part_of(const std::vector<int>& points, int low, int high) const;
 
-  // Squares follow upon the moments of the same u.
-  void add_squares(const Body& body, const Displacements& u);
-  double squared_residual(int i, const Displacements& u, const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
+    // After the sweep that is named alike.
+    Tensor moment(int i, const Displacements& u) const;  // H
+    double squared_residual(int i, const Displacements& u, const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
+    Vector residual_force(int i) const { return vector(i, 9); }
+    Tensor residual_moment(int i) const { return tensor(i); }  // M
+    Vector force(int i, const Displacements& u, const ForceState& state) const;  // N/m³
 
+   private:
+    friend class LatticeSums;
+    // The sums of a point: its column c is at [c · pencil_width].
+    const double* at(int i) const {
+      const int cell = all->lattice_->cell(i);
+      return reinterpret_cast<const double*>(sums + static_cast<std::size_t>(cell / pencil_width - begin) * columns) +
+             cell % pencil_width;
+    }
+    Vector vector(int i, int column) const {
+      const double* numbers = at(i) + column * pencil_width;
+      return {numbers[0], numbers[pencil_width], numbers[2 * pencil_width]};
+    }
+    Tensor tensor(int i) const {
+      const double* numbers = at(i);
+      Tensor t;
+      for (int c = 0; c < 9; ++c) t.data()[c] = numbers[c * pencil_width];
+      return t;
+    }
+
+    const LatticeSums* all;
+    int begin, end;
+    const Pencil* sums;
+    int columns;
+  };
+  using Take = std::function<void(const Chunk&)>;
+
+  // Each hands the sums of all owned points to `take`, some at a time, from fields that are current in ghosts too and
+  // stay as they are meanwhile.
+  void moments(const Body& body, const Displacements& u, const Take& take);
+  void squares(const Body& body, const Displacements& u, const Take& take);
   // `gradients`: F, or δF of a field, and C̄.
-  void add_residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients);
-  Vector residual_force(int i) const { return vector(sums_at(i), residual_force_); }
-  Tensor residual_moment(int i) const { return tensor(sums_at(i)); }  // M
+  void residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients, const Take& take);
+  void forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states, const Take& take);
 
-  void add_forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states);
-  Vector force(int i, const Displacements& u, const ForceState& state) const;  // N/m³
-
-  double bytes() const { return static_cast<double>(sizeof(Pencil) * (moved_.size() + source_.size() + sums_.size())); }
+  double bytes() const;
 
  private:
   // A row of the stencil.
   struct Row {
     double y, z;  // m
-    int dy, offset, kind;
+    int dy, dz, offset, kind;
   };
   // Rows of the same weights: ω and ω dx, at dx = 0 … reach cells.
   struct Kind {
@@ -76,9 +107,9 @@ class LatticeSums {
     Vector first = Vector::Zero();
     double weight = 0;
   };
-  // A row of three pencils whose middle stands above, below or beside the one that is looked at.
-  struct Triple {
-    const Pencil *before, *here, *after;
+  // The rows y0 … y1 − 1 of all planes.
+  struct Strip {
+    int y0, y1;
   };
   // The sums of a row for one kind of rows, from x = 0; how far it is in the grid, and in m.
   struct RowOfSums {
@@ -86,51 +117,62 @@ class LatticeSums {
     int offset;
     double y;
   };
-  struct Residuals;
-  class Ring;
+  // Some columns for the slots of a strip in the planes that a stencil reaches.
+  class Planes {
+   public:
+    void open(const LatticeSums& all, int z, int y0, int y1, int columns);  // all zero
+    int begin(int z) const { return begins_[z % begins_.size()]; }
+    int end(int z) const { return ends_[z % begins_.size()]; }
+    Pencil* of(int z, int slot) { return room_[z % begins_.size()].data() + static_cast<std::size_t>(slot - begin(z)) * columns_; }
+    double bytes() const;
 
-  void make_rows(Influence influence);
-  void mark_places();
-  void set_weights(const Body& body);
-  void add_packed_moments();
-  template <class Fill>
-  void pack(std::vector<Pencil>& source, int columns, const Fill& fill) const;
-  void clear(int columns);
-  template <class Sweep>
-  void over_planes();
-  template <class Sweep>
-  void over_plane(int z, Ring& ring);
-  template <class Sweep>
-  void over_row(int z, int y, Ring& ring);
-  template <class Sweep>
-  void hand_over(int place, int dz, const std::vector<RowOfSums>& near, int first);
+   private:
+    int columns_ = 0;
+    std::vector<std::vector<Pencil>> room_;
+    std::vector<int> begins_, ends_;  // slots
+  };
+  // The row sums of the rows of a plane that a stencil reaches from the row at hand.
+  struct Ring {
+    int rows = 1, columns = 0;  // of a place
+    std::vector<Pencil> room;
+    Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
+  };
+  struct Residuals;
   template <int reach>
   struct MomentSweep;
   template <int reach>
   struct SquareSweep;
   template <int reach, bool with_springs>
   struct ForceSweep;
-  void gather_residuals(int slot);
 
-  Triple around(int place, const std::vector<Pencil>& source, int columns) const {
-    const auto at = [&](int p) { return &source[static_cast<std::size_t>(lattice_->slot_at(p)) * columns]; };
-    return {at(place - 1), at(place), at(place + 1)};
+  void make_rows(Influence influence);
+  void mark_places();
+  void set_constants(const Body& body);
+  int far_z() const { return static_cast<int>(above_.size()) - 1; }
+  int far_y() const { return lattice_->rows_across() / 2; }
+  int slots_before(int z, int y) const { return row_begins_[static_cast<std::size_t>(z) * lattice_->shape()[1] + y]; }
+  const std::uint64_t* row_of(const std::vector<std::uint64_t>& bits, int z, int y) const {
+    return &bits[(static_cast<std::size_t>(z) * lattice_->shape()[1] + y) * words_];
   }
-  Pencil* sums_of(int slot) { return &sums_[static_cast<std::size_t>(slot) * stride_]; }
-  // The sums of a point: its column c is at [c · pencil_width].
-  const double* sums_at(int i) const {
-    const unsigned cell = lattice_->cell(i);
-    return reinterpret_cast<const double*>(&sums_[static_cast<std::size_t>(cell / pencil_width) * stride_]) +
-           cell % pencil_width;
-  }
-  static Vector vector(const double* sums, int column) {
-    const double* at = sums + column * pencil_width;
-    return {at[0], at[pencil_width], at[2 * pencil_width]};
-  }
-  static Tensor tensor(const double* sums) {
-    Tensor t;
-    for (int c = 0; c < 9; ++c) t.data()[c] = sums[c * pencil_width];
-    return t;
+  std::vector<Strip> strips(int columns) const;
+
+  template <class Sweep, class Fill>
+  void sweep(const Fill& fill, const Take& take);
+  template <class Sweep, class Fill>
+  void sum_plane(int z, const Strip& strip, const Fill& fill);
+  template <class Sweep, class Fill>
+  void sum_row(int z, int y, const Fill& fill);
+  template <class Sweep>
+  void hand_over_row(int z, int y);
+  template <class Sweep>
+  void hand_over(int place, int z, int dz, int first);
+  template <class Fill>
+  void pack(int slot, const Fill& fill, Pencil* to) const;
+  void take_plane(int z, int columns, const Take& take);
+  void gather_residuals(int slot, int z);
+  const Pencil* source_at(int place, int z) {
+    const int slot = lattice_->slot_at(place);
+    return slot == 0 ? nothing_.data() : sources_.of(z, slot);
   }
 
   const LatticeFamilies* lattice_;
@@ -139,12 +181,18 @@ class LatticeSums {
   std::vector<Kind> kinds_;
   // A bit for each place of the grid: whether there is a slot; one with points of this rank's own.
   std::vector<std::uint64_t> filled_, owned_;
-  int words_ = 0;                              // of these bits a row
-  std::vector<Constants> constants_;           // of owned points
-  std::vector<Pencil> moved_, source_, sums_;  // V u; what forces and residuals are made of; some columns a slot each
+  int words_ = 0;                     // of these bits a row
+  std::vector<int> row_begins_;       // the first slot of each row of the grid, and of the next ones if it has none
+  std::vector<Constants> constants_;  // of owned points
   bool has_springs_ = false;
-  int source_columns_ = 0;
-  int stride_ = 0, residual_force_ = 0;  // columns of sums_: a tensor, q = Σ ω V u, and the force of residuals
+
+  // Workspaces of a sweep.
+  std::vector<Pencil> row_;  // what is summed, of all places of a row; zero between rows
+  Ring ring_;
+  Planes sums_, sources_;
+  std::vector<std::vector<RowOfSums>> near_;  // by |dz|
+  std::vector<std::uint64_t> targets_;
+  std::vector<Pencil> nothing_;
 };
 
 }  // namespace strut

@@ -49,38 +49,44 @@ enum class Bodies { all, disturbed };
 
 bool is_due(const MaterialBlock& block, Bodies bodies) { return bodies == Bodies::all || !block.undisturbed; }
 
-// What the points of lattices gain from the sums over them, in the part that comes after an exchange.
-template <class Add>
-void over_lattices(const Body& body, Bodies bodies, Part part, const Add& add) {
+// Calls work(block, groups of its points) for a part of the points; on lattices, sums over which are of all points at
+// once, after the exchange, for all in the second part. `sweep`: calls a sweep of sums over a lattice with what takes
+// them.
+template <class AnyBody, class Sweep, class Work>
+void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
+  for (auto& block : body.blocks) {
+    if (block.lattice < 0 && is_due(block, bodies)) work(block, Groups(body, block, part));
+  }
   if (part == Part::interior) return;
   for (std::size_t l = 0; l < body.lattice_sums.size(); ++l) {
-    const auto is_due_on_it = [&](const MaterialBlock& b) {
-      return b.lattice == static_cast<int>(l) && is_due(b, bodies);
-    };
-    if (std::any_of(body.blocks.begin(), body.blocks.end(), is_due_on_it)) add(*body.lattice_sums[l]);
+    const auto is_on_it = [&](const MaterialBlock& b) { return b.lattice == static_cast<int>(l) && is_due(b, bodies); };
+    if (std::none_of(body.blocks.begin(), body.blocks.end(), is_on_it)) continue;
+    sweep(*body.lattice_sums[l], [&](const LatticeSums::Chunk& chunk) {
+      for (auto& block : body.blocks) {
+        if (is_on_it(block)) work(block, Groups(block, chunk));
+      }
+    });
   }
+}
+
+// Calls work(group, ω).
+template <class Work>
+void over_groups(const Body& body, const Groups& groups, const Work& work) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) { work(groups[g], weight); });
+  });
 }
 
 bool all_undisturbed(const Body& body) {
   return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.undisturbed; });
 }
 
-// Calls work(group, ω) for the points of a part of a block.
-template <class Work>
-void over_groups(const Body& body, const MaterialBlock& block, Part part, const Work& work) {
-  const Groups groups(body, block, part);
-  bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(0, groups.count(), [&, weight](int g) { work(groups[g], weight); });
-  });
-}
-
 template <class Weight>
-bonds::Residual<Lanes> residuals(const Body& body, const MaterialBlock& block, const Group& group, const Site* places,
+bonds::Residual<Lanes> residuals(const MaterialBlock& block, const Group& group, const Site* places,
                                  const std::vector<ForceState>& gradients, Weight weight) {
   if (group.bundle) return bonds::residual(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
-  const LatticeSums& sums = *body.lattice_sums[block.lattice];
-  return {vectors(group, [&](int l) { return sums.residual_force(block.points[group.k[l]]); }),
-          tensors(group, [&](int l) { return sums.residual_moment(block.points[group.k[l]]); })};
+  return {vectors(group, [&](int l) { return group.chunk->residual_force(block.points[group.k[l]]); }),
+          tensors(group, [&](int l) { return group.chunk->residual_moment(block.points[group.k[l]]); })};
 }
 
 template <class Weight>
@@ -100,21 +106,24 @@ Lanes residual_energies(const Body& body, const MaterialBlock& block, const Grou
 // the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
 void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part part, ForceStates& states,
                   std::vector<Vector>& result, std::span<double> energy) {
-  over_lattices(body, bodies, part, [&](LatticeSums& sums) { sums.add_residuals(body, u, states.gradients); });
-  for (const MaterialBlock& block : body.blocks) {
-    if (!is_due(block, bodies) || !(block.material.mean_stabilization > 0)) continue;
-    over_groups(body, block, part, [&](const Group& group, auto weight) {
-      const bonds::Residual<Lanes> sums = residuals(body, block, group, u.sites, states.gradients, weight);
-      for (int l = 0; l < group.count; ++l) {
-        const int i = block.points[group.k[l]];
-        take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
-        result[i] = at(sums.force, l);
-      }
-      if (energy.empty()) return;
-      const Lanes energies = residual_energies(body, block, group, u.sites, states.gradients, weight);
-      for (int l = 0; l < group.count; ++l) energy[block.points[group.k[l]]] += energies[l];
-    });
-  }
+  const auto add = [&](const MaterialBlock& block, const Group& group, auto weight) {
+    const bonds::Residual<Lanes> sums = residuals(block, group, u.sites, states.gradients, weight);
+    for (int l = 0; l < group.count; ++l) {
+      const int i = block.points[group.k[l]];
+      take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
+      result[i] = at(sums.force, l);
+    }
+    if (energy.empty()) return;
+    const Lanes energies = residual_energies(body, block, group, u.sites, states.gradients, weight);
+    for (int l = 0; l < group.count; ++l) energy[block.points[group.k[l]]] += energies[l];
+  };
+  over_blocks(
+      body, bodies, part,
+      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.residuals(body, u, states.gradients, take); },
+      [&](const MaterialBlock& block, const Groups& groups) {
+        if (!(block.material.mean_stabilization > 0)) return;
+        over_groups(body, groups, [&](const Group& group, auto weight) { add(block, group, weight); });
+      });
 }
 
 bool any_springs(const Body& body) {
@@ -123,7 +132,7 @@ bool any_springs(const Body& body) {
 }
 
 template <class Weight>
-small::Vector3<Lanes> forces(const Body& body, const MaterialBlock& block, const Group& group, const Displacements& u,
+small::Vector3<Lanes> forces(const MaterialBlock& block, const Group& group, const Displacements& u,
                              const std::vector<ForceState>& states, bool with_springs, Weight weight) {
   if (group.bundle) {
     const bonds::OfBundle family{*group.bundle};
@@ -131,10 +140,9 @@ small::Vector3<Lanes> forces(const Body& body, const MaterialBlock& block, const
     return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
                         : bonds::force<false>(family, u.sites, states.data(), own, weight);
   }
-  const LatticeSums& sums = *body.lattice_sums[block.lattice];
   return vectors(group, [&](int l) {
     const int i = block.points[group.k[l]];
-    return sums.force(i, u, states[i]);
+    return group.chunk->force(i, u, states[i]);
   });
 }
 
@@ -150,33 +158,32 @@ struct ForceSum {
   std::vector<Vector>& result;
 
   void correspondence(Part part) const {
-    over_lattices(body, bodies, part, [this](LatticeSums& sums) { sums.add_forces(body, u, states.tensors); });
     const bool with_springs = any_springs(body);
-    over_blocks(part, &MaterialBlock::feels_correspondence,
-                [&](const MaterialBlock& block, const Group& group, auto weight) {
-                  const bool is_begun = block.material.mean_stabilization > 0;
-                  add(block, group, forces(body, block, group, u, states.tensors, with_springs, weight), is_begun);
-                });
-  }
-
-  void ordinary(Part part) const {
-    over_blocks(part, &MaterialBlock::feels_ordinary, [&](const MaterialBlock& block, const Group& group, auto weight) {
-      const bonds::OfBundle family{*group.bundle};
-      const auto force = bonds::ordinary_force(family, body.sites.data(), states.scalars.data(), weight,
-                                               extension_of(family));
-      add(block, group, force, block.feels_correspondence);
+    const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) {
+      sums.forces(body, u, states.tensors, take);
+    };
+    over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const Groups& groups) {
+      if (!block.feels_correspondence) return;
+      const bool is_begun = block.material.mean_stabilization > 0;
+      over_groups(body, groups, [&](const Group& group, auto weight) {
+        add(block, group, forces(block, group, u, states.tensors, with_springs, weight), is_begun);
+      });
     });
   }
 
- private:
-  template <class Work>
-  void over_blocks(Part part, bool MaterialBlock::*feels, const Work& work) const {
+  void ordinary(Part part) const {
     for (const MaterialBlock& block : body.blocks) {
-      if (!is_due(block, bodies) || !(block.*feels)) continue;
-      over_groups(body, block, part, [&](const Group& group, auto weight) { work(block, group, weight); });
+      if (!is_due(block, bodies) || !block.feels_ordinary) continue;
+      over_groups(body, Groups(body, block, part), [&](const Group& group, auto weight) {
+        const bonds::OfBundle family{*group.bundle};
+        add(block, group,
+            bonds::ordinary_force(family, body.sites.data(), states.scalars.data(), weight, extension_of(family)),
+            block.feels_correspondence);
+      });
     }
   }
 
+ private:
   void add(const MaterialBlock& block, const Group& group, const small::Vector3<Lanes>& force, bool is_begun) const {
     for (int l = 0; l < group.count; ++l) {
       Vector& sum = result[block.points[group.k[l]]];
@@ -245,18 +252,17 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
 
 void set_tangent_states(const Body& body, const Displacements& field, const std::vector<PointTangent>* tangents,
                         Part part, ForceStates& result) {
-  over_lattices(body, Bodies::all, part, [&](LatticeSums& sums) { sums.add_moments(body, field); });
-  for (const MaterialBlock& block : body.blocks) {
-    over_groups(body, block, part, [&](const Group& group, auto weight) {
-      if (block.is_ordinary()) {
-        return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
-      }
-      const auto dN = moments(body, block, group, field, weight);
-      for (int l = 0; l < group.count; ++l) {
-        set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
-      }
-    });
-  }
+  const auto set = [&](const MaterialBlock& block, const Group& group, auto weight) {
+    if (block.is_ordinary()) return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
+    const auto dN = moments(block, group, field, weight);
+    for (int l = 0; l < group.count; ++l) set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
+  };
+  over_blocks(
+      body, Bodies::all, part,
+      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(body, field, take); },
+      [&](const MaterialBlock& block, const Groups& groups) {
+        over_groups(body, groups, [&](const Group& group, auto weight) { set(block, group, weight); });
+      });
 }
 
 }  // namespace
@@ -267,24 +273,26 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
   StepReport report;
   const Displacements u{body.sites.data()};
+  const auto advance = [&](MaterialBlock& block, const Groups& groups) {
+    if (block.is_ordinary()) return advance_ordinary(body, block, with_views, groups, report);
+    advance_stress(body, block, pass, groups, report);
+  };
+  const auto view = [&](const MaterialBlock& block, const Groups& groups) {
+    if (!block.is_ordinary()) view_residuals(body, block, groups);
+  };
   const auto over = [&](Part part) {
     const Timed timed(deforming);
-    over_lattices(body, Bodies::disturbed, part, [&](LatticeSums& sums) { sums.add_moments(body, u); });
-    for (MaterialBlock& block : body.blocks) {
-      if (block.undisturbed) {
-        report.pace = std::max(report.pace, block.resting_pace);
-      } else if (block.is_ordinary()) {
-        advance_ordinary(body, block, with_views, part, report);
-      } else {
-        advance_stress(body, block, pass, part, report);
-      }
-    }
+    over_blocks(
+        body, Bodies::disturbed, part,
+        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(body, u, take); }, advance);
     if (!with_views) return;
-    over_lattices(body, Bodies::disturbed, part, [&](LatticeSums& sums) { sums.add_squares(body, u); });
-    for (const MaterialBlock& block : body.blocks) {
-      if (!block.undisturbed && !block.is_ordinary()) view_residuals(body, block, part);
-    }
+    over_blocks(
+        body, Bodies::disturbed, part,
+        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(body, u, take); }, view);
   };
+  for (const MaterialBlock& block : body.blocks) {
+    if (block.undisturbed) report.pace = std::max(report.pace, block.resting_pace);
+  }
   if (all_undisturbed(body)) {
     over(Part::interior);
     return report;

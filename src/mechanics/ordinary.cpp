@@ -62,9 +62,8 @@ void set_views(Body& body, MaterialBlock& block, Weight weight, const Groups& gr
 
 }  // namespace
 
-void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report) {
+void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, const Groups& groups, StepReport& report) {
   WorstFailure failure;
-  const Groups groups(body, block, part);
   bonds::with_influence(body.influence, [&](auto weight) {
     advance_points(body, block, weight, groups, failure);
     if (with_views) set_views(body, block, weight, groups);

@@ -170,7 +170,7 @@ struct Update {
 
   // F of the points of a group.
   LaneTensor deformation_gradient(const Members& g, const LaneSymmetric& shape_inverse) const {
-    const LaneTensor N = moments(body, block, g, {body.sites.data()}, weight);
+    const LaneTensor N = moments(block, g, {body.sites.data()}, weight);
     LaneTensor F = small::product(N, small::full(shape_inverse));
     if (!g.bundle) {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
@@ -241,7 +241,7 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
   const auto advance_group = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };
   const double fastest = largest(0, groups.count(), 0, advance_group);
   report.pace = std::max(report.pace, std::sqrt(fastest));
-  if (!block.viscous.empty() && !pass.chosen) {  // a whole step asks for it
+  if (!block.viscous.empty() && pass.order == 0) {  // a whole step asks for it
     const auto damping = [&block, &groups](int g) {
       const Group group = groups[g];
       double most = 0;
@@ -255,8 +255,8 @@ void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weigh
 
 }  // namespace
 
-void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report) {
-  const Groups groups = pass.chosen ? Groups(*pass.chosen) : Groups(body, block, part);
+void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups,
+                    StepReport& report) {
   bonds::with_influence(body.influence, [&](auto weight) {
     std::visit([&](const auto& law) { advance_points(body, block, law, weight, pass, groups, report); },
                block.material.law);
@@ -274,15 +274,14 @@ Lanes squared_residuals(const Body& body, const MaterialBlock& block, const Grou
   Lanes result = Lanes::Zero();
   for (int l = 0; l < group.count; ++l) {
     const int i = block.points[group.k[l]];
-    result[l] = body.lattice_sums[block.lattice]->squared_residual(i, {body.sites.data()}, body.points[i]);
+    result[l] = group.chunk->squared_residual(i, {body.sites.data()}, body.points[i]);
   }
   return result;
 }
 
 }  // namespace
 
-void view_residuals(Body& body, const MaterialBlock& block, Part part) {
-  const Groups groups(body, block, part);
+void view_residuals(Body& body, const MaterialBlock& block, const Groups& groups) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];

@@ -28,20 +28,18 @@ class WorstFailure {
 
 // Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
 //   dt: of a step that is halved `order` times
-//   chosen: of those to advance; all points if null
 //   of_any_size: the step may turn a point far; its rotation is found to round-off
 struct StressPass {
   double dt;
   int order = 0;
-  const Chosen* chosen = nullptr;
   bool of_any_size = false;
 };
-void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, Part part, StepReport& report);
-void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, Part part, StepReport& report);
+void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups, StepReport& report);
+void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, const Groups& groups, StepReport& report);
 
 // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it;
-// on a lattice after add_squares.
-void view_residuals(Body& body, const MaterialBlock& block, Part part);
+// on a lattice from its squares.
+void view_residuals(Body& body, const MaterialBlock& block, const Groups& groups);
 
 // What a residual of the mean gradient takes from A by way of F: ½ M K⁻¹.
 inline void take_residual(ForceState& state, const Tensor& moment, const MaterialPoint& point) {

@@ -53,6 +53,18 @@ void step(benchmark::State& state) {
   state.counters["per_point"] = time_per(steps * body.owned());
 }
 
+small::Vector3<small::Lanes> forces_of(const MaterialBlock& block, const Group& group, const Site* sites,
+                                       const std::vector<ForceState>& states) {
+  if (group.bundle) {
+    const bonds::OfBundle family{*group.bundle};
+    return bonds::force<true>(family, sites, states.data(), bonds::own_state(family, states.data()), bonds::One{});
+  }
+  return vectors(group, [&](int l) {
+    const int i = block.points[group.k[l]];
+    return group.chunk->force(i, {sites}, states[i]);
+  });
+}
+
 // The two passes over bonds alone, Silling's stabilisation included: moments of all families, then forces. Arguments:
 // points along an edge, horizon in thousandths of a spacing, lists or not.
 void passes(benchmark::State& state) {
@@ -70,33 +82,25 @@ void passes(benchmark::State& state) {
   advance_stress_and_force(body, 1e-7, false);
   const Site* sites = body.sites.data();
   const auto& states = body.force_states.tensors;
-  const Groups groups(body, body.blocks[0], kind == FamilyKind::lists ? Part::interior : Part::boundary);
-  const int count = groups.count();
-  std::vector<small::Tensor3<small::Lanes>> moment(count);
-  std::vector<small::Vector3<small::Lanes>> force(count);
+  const MaterialBlock& block = body.blocks[0];
+  std::vector<small::Tensor3<small::Lanes>> moment(body.owned());  // room enough
+  std::vector<small::Vector3<small::Lanes>> force(body.owned());
+  std::size_t next = 0;
+  const auto gather = [&](const Groups& groups) {
+    for (int g = 0; g < groups.count(); ++g) moment[next++] = moments(block, groups[g], {sites}, bonds::One{});
+  };
+  const auto sum = [&](const Groups& groups) {
+    for (int g = 0; g < groups.count(); ++g) force[next++] = forces_of(block, groups[g], sites, states);
+  };
   for (auto _ : state) {
     if (kind == FamilyKind::lists) {
-      for (int g = 0; g < count; ++g) {
-        moment[g] = bonds::gather(bonds::OfBundle{*groups[g].bundle}, sites, bonds::One{});
-      }
-      for (int g = 0; g < count; ++g) {
-        const bonds::OfBundle family{*groups[g].bundle};
-        const auto own = bonds::own_state(family, states.data());
-        force[g] = bonds::force<true>(family, sites, states.data(), own, bonds::One{});
-      }
+      const Groups groups(body, block, Part::interior);
+      next = 0, gather(groups);
+      next = 0, sum(groups);
     } else {
       LatticeSums& sums = *body.lattice_sums[0];
-      const MaterialBlock& block = body.blocks[0];
-      sums.add_moments(body, {sites});
-      for (int g = 0; g < count; ++g) moment[g] = moments(body, block, groups[g], {sites}, bonds::One{});
-      sums.add_forces(body, {sites}, states);
-      for (int g = 0; g < count; ++g) {
-        const Group group = groups[g];
-        force[g] = vectors(group, [&](int l) {
-          const int i = block.points[group.k[l]];
-          return sums.force(i, {sites}, states[i]);
-        });
-      }
+      next = 0, sums.moments(body, {sites}, [&](const LatticeSums::Chunk& chunk) { gather(Groups(block, chunk)); });
+      next = 0, sums.forces(body, {sites}, states, [&](const LatticeSums::Chunk& chunk) { sum(Groups(block, chunk)); });
     }
     benchmark::ClobberMemory();
   }
