@@ -99,7 +99,7 @@ void set_shapes(Body& body) {
     LatticeSums& sums = *body.lattice_sums.emplace_back(std::make_shared<LatticeSums>(body, lattice));
     const int number = static_cast<int>(body.lattice_sums.size()) - 1;
     const Displacements places = places_in(lattice, body.sites);
-    sums.moments(body, places, [&](const LatticeSums::Chunk& chunk) {
+    sums.moments(places, [&](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
         if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), places);
       }

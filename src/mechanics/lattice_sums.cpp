@@ -20,6 +20,14 @@ void with_constant(int value, const Work& work) {
   if constexpr (n < pencil_width) with_constant<n + 1>(value, work);
 }
 
+// Points stand in memory as in their lattice: what is packed soon is a few records on.
+template <class Record>
+inline void fetch_ahead(const Record* records, int i) {
+  constexpr int ahead = 24;
+  const char* first = reinterpret_cast<const char*>(records + i + ahead);
+  for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
+}
+
 // Calls visit(k) for the bits that are set in a row of words.
 template <class Visit>
 inline void for_each_bit(const std::uint64_t* words, int count, const Visit& visit) {
@@ -328,9 +336,10 @@ struct LatticeSums::MomentSweep {
   }
 };
 
-void LatticeSums::moments(const Body& body, const Displacements& u, const Take& take) {
+void LatticeSums::moments(const Displacements& u, const Take& take) {
   const auto fill = [&](int i, const auto& put) {
-    const Eigen::Array4d Vu = body.domain.volumes[i] * u(i);
+    fetch_ahead(u.sites, i);
+    const Eigen::Array4d Vu = u.sites[i].reference[3] * u(i);
     for (int c = 0; c < 3; ++c) put(c, Vu[c]);
   };
   with_constant(lattice_->reach(), [&](auto reach) { sweep<MomentSweep<reach>>(fill, take); });
@@ -361,10 +370,10 @@ struct LatticeSums::SquareSweep {
   }
 };
 
-void LatticeSums::squares(const Body& body, const Displacements& u, const Take& take) {
+void LatticeSums::squares(const Displacements& u, const Take& take) {
   const auto fill = [&](int i, const auto& put) {
     const Eigen::Array4d ui = u(i);
-    const double V = body.domain.volumes[i];
+    const double V = u.sites[i].reference[3];
     put(0, V * ui.head<3>().square().sum());
     for (int c = 0; c < 3; ++c) put(1 + c, V * ui[c]);
   };
@@ -433,10 +442,11 @@ struct LatticeSums::ForceSweep {
 
 // f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω
 // V_j, q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
-void LatticeSums::forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states,
+void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states,
                          const Take& take) {
   const auto fill = [&](int i, const auto& put) {
-    const double V = body.domain.volumes[i], C = states[i].column[0][3], stretched = u.is_field ? 0 : C;
+    fetch_ahead(u.sites, i), fetch_ahead(states.data(), i);
+    const double V = u.sites[i].reference[3], C = states[i].column[0][3], stretched = u.is_field ? 0 : C;
     for (int axis = 0; axis < 3; ++axis) {
       for (int c = 0; c < 3; ++c) put(3 * axis + c, V * (states[i].column[axis][c] + (c == axis ? stretched : 0)));
     }
@@ -464,9 +474,10 @@ Vector LatticeSums::Chunk::force(int i, const Displacements& u, const ForceState
 
 // ---- Residuals -----------------------------------------------------------------------------------------------------
 
-void LatticeSums::residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients,
+void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState>& gradients,
                             const Take& take) {
   const auto fill = [&](int i, const auto& put) {
+    fetch_ahead(u.sites, i), fetch_ahead(gradients.data(), i);
     const Eigen::Array4d ui = u(i);
     for (int axis = 0; axis < 3; ++axis) {
       for (int c = 0; c < 3; ++c) {
@@ -475,7 +486,7 @@ void LatticeSums::residuals(const Body& body, const Displacements& u, const std:
       put(9 + axis, ui[axis]);
     }
     put(12, gradients[i].column[0][3]);
-    put(13, body.domain.volumes[i]);
+    put(13, u.sites[i].reference[3]);
     put(14, gradients[i].column[1][3]);
   };
   const int planes = lattice_->shape()[2], far = far_z();

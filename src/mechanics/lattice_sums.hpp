@@ -82,11 +82,11 @@ class LatticeSums {
 
   // Each hands the sums of all owned points to `take`, some at a time, from fields that are current in ghosts too and
   // stay as they are meanwhile.
-  void moments(const Body& body, const Displacements& u, const Take& take);
-  void squares(const Body& body, const Displacements& u, const Take& take);
+  void moments(const Displacements& u, const Take& take);
+  void squares(const Displacements& u, const Take& take);
   // `gradients`: F, or δF of a field, and C̄.
-  void residuals(const Body& body, const Displacements& u, const std::vector<ForceState>& gradients, const Take& take);
-  void forces(const Body& body, const Displacements& u, const std::vector<ForceState>& states, const Take& take);
+  void residuals(const Displacements& u, const std::vector<ForceState>& gradients, const Take& take);
+  void forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take);
 
   double bytes() const;
 

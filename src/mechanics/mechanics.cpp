@@ -119,7 +119,7 @@ void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part 
   };
   over_blocks(
       body, bodies, part,
-      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.residuals(body, u, states.gradients, take); },
+      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.residuals(u, states.gradients, take); },
       [&](const MaterialBlock& block, const Groups& groups) {
         if (!(block.material.mean_stabilization > 0)) return;
         over_groups(body, groups, [&](const Group& group, auto weight) { add(block, group, weight); });
@@ -160,7 +160,7 @@ struct ForceSum {
   void correspondence(Part part) const {
     const bool with_springs = any_springs(body);
     const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) {
-      sums.forces(body, u, states.tensors, take);
+      sums.forces(u, states.tensors, take);
     };
     over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const Groups& groups) {
       if (!block.feels_correspondence) return;
@@ -259,7 +259,7 @@ void set_tangent_states(const Body& body, const Displacements& field, const std:
   };
   over_blocks(
       body, Bodies::all, part,
-      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(body, field, take); },
+      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); },
       [&](const MaterialBlock& block, const Groups& groups) {
         over_groups(body, groups, [&](const Group& group, auto weight) { set(block, group, weight); });
       });
@@ -284,11 +284,11 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
     const Timed timed(deforming);
     over_blocks(
         body, Bodies::disturbed, part,
-        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(body, u, take); }, advance);
+        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); }, advance);
     if (!with_views) return;
     over_blocks(
         body, Bodies::disturbed, part,
-        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(body, u, take); }, view);
+        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); }, view);
   };
   for (const MaterialBlock& block : body.blocks) {
     if (block.undisturbed) report.pace = std::max(report.pace, block.resting_pace);

@@ -99,8 +99,8 @@ void passes(benchmark::State& state) {
       next = 0, sum(groups);
     } else {
       LatticeSums& sums = *body.lattice_sums[0];
-      next = 0, sums.moments(body, {sites}, [&](const LatticeSums::Chunk& chunk) { gather(Groups(block, chunk)); });
-      next = 0, sums.forces(body, {sites}, states, [&](const LatticeSums::Chunk& chunk) { sum(Groups(block, chunk)); });
+      next = 0, sums.moments({sites}, [&](const LatticeSums::Chunk& chunk) { gather(Groups(block, chunk)); });
+      next = 0, sums.forces({sites}, states, [&](const LatticeSums::Chunk& chunk) { sum(Groups(block, chunk)); });
     }
     benchmark::ClobberMemory();
   }
