@@ -117,10 +117,10 @@ Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<
   return stencils;
 }
 
-// What a step takes of a point, in ns, by tests/bench. `pencils`: of the lattice a point.
-double cost_of_list(double neighbours) { return 4.5 * neighbours; }
-double cost_of_stencil(double rows, double pencils) { return 60 + (300 + 10 * rows) * pencils; }
-bool is_worth(double stencil, double list) { return stencil <= 1.2 * list; }  // it saves the lists' memory, too
+// What the bonds of a point take in a step, in ns, by tests/bench. A list costs by its entries, which the points of a
+// bundle share. `pencils`: of the lattice a point.
+double cost_of_list(double neighbours) { return 80 + 3.2 * std::pow(neighbours, 0.84); }
+double cost_of_stencil(double rows, double pencils) { return 35 + (280 + 8 * rows) * pencils; }
 
 // Whether sums by a lattice's stencil take less time than by lists. Of sums over the points of all ranks, so that all
 // decide alike however many they are. A run of n points fills (n + 7)/8 pencils on average; families are counted of
@@ -137,8 +137,8 @@ bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, cons
   }
   communicator.sum(counts);
   const double pencils = (1 + 7 * counts[1] / counts[0]) / 8;
-  return is_worth(cost_of_stencil(static_cast<double>(lattice.rows().size()), pencils),
-                  cost_of_list(counts[3] / std::max(1.0, counts[2])));
+  return cost_of_stencil(static_cast<double>(lattice.rows().size()), pencils) <=
+         cost_of_list(counts[3] / std::max(1.0, counts[2]));
 }
 
 // Calls visit(j) for the family of pool member i, by its stencil or by a search.
@@ -240,7 +240,7 @@ std::vector<double> bond_costs(const PointCloud& cloud, const std::vector<BlockB
     const double stencil = cost_of_stencil(std::numbers::pi * reach * reach, pencils);
     const auto here = [&](const LatticeFrame& frame) { return frame.body == bonds[b].body; };
     const bool on_lattice = std::any_of(frames.begin(), frames.end(), here);
-    if (on_lattice && is_worth(stencil, costs[b])) costs[b] = stencil;
+    if (on_lattice) costs[b] = std::min(costs[b], stencil);
   }
   return costs;
 }

@@ -112,6 +112,8 @@ void passes(benchmark::State& state) {
 }
 
 BENCHMARK(passes)
+    ->Args({50, 1750, 1})
+    ->Args({50, 1750, 0})
     ->Args({50, 3015, 1})
     ->Args({50, 3015, 0})
     ->Args({40, 6015, 1})
