@@ -204,23 +204,30 @@ IndexPairs all_pairs(const Pool& pool, const Criterion& may_touch, double reach)
   return pairs;
 }
 
-// Those one of whose members has moved; some of them twice.
+// Those one of whose members has moved; some of them twice. Within a body most of what is near is bonded: that is seen
+// from the references of those that have moved, which are few.
 IndexPairs pairs_of_moved(const Pool& pool, const Criterion& may_touch, double reach) {
   std::vector<int> moved;
-  std::vector<Vector> places;
+  std::vector<Vector> places, references;
+  double horizon = std::numeric_limits<double>::infinity();  // the smallest
   for (std::size_t m = 0; m < pool.members.size(); ++m) {
+    horizon = std::min(horizon, pool.members[m].current[3]);
     if (!pool.members[m].moved) continue;
     moved.push_back(static_cast<int>(m));
     places.push_back(pool.places[m]);
+    references.push_back(reference(pool.members[m]));
   }
+  const double bonded2 = may_touch.parties.one_body ? horizon * horizon : -1;
   const CellGrid grid(places, reach);
   IndexPairs pairs;
   const int members = static_cast<int>(pool.members.size()), owned = static_cast<int>(pool.owned);
   for (int k = 0; k < members; ++k) {
-    grid.visit_near(pool.places[k], [&](int n, const Vector& there) {
-      const double distance2 = (there - pool.places[k]).squaredNorm();
+    const Vector here = pool.places[k], was = reference(pool.members[k]);
+    grid.visit_near(here, [&](int n, const Vector& there) {
+      const double distance2 = (there - here).squaredNorm();
+      if (distance2 > reach * reach || (references[n] - was).squaredNorm() <= bonded2) return;
       const int other = moved[n];
-      if (other == k || distance2 > reach * reach) return;
+      if (other == k) return;
       if (!may_touch(pool.members[k], pool.members[other], distance2)) return;
       if (k < owned) pairs.emplace_back(k, other);
       if (other < owned) pairs.emplace_back(other, k);

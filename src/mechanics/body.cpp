@@ -167,28 +167,29 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
 
 namespace {
 
-double bytes_per_point(const Body& body, const MaterialBlock& block) {
-  const std::size_t state =
-      std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law) * sizeof(double);
-  const std::size_t forces = (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
-                             (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
-                             (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
-  const std::size_t ordinary = block.is_ordinary() ? sizeof(OrdinaryPoint) : 0;
-  const std::size_t viscous = block.material.viscosity.any() ? sizeof(ViscousPoint) : 0;
-  constexpr std::size_t mechanics =
-      sizeof(Site) + sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
-  constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + 2 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int) +
-                                sizeof(std::uint64_t) + sizeof(std::size_t);
-  return static_cast<double>(mechanics + forces + ordinary + viscous + cloud + state);
+// What bonds and contacts read of a point, ghosts too.
+std::size_t seen_bytes(const Body& body) {
+  return sizeof(Site) + sizeof(Vector) + 2 * sizeof(double) +  // domain: positions, volumes, horizons
+         (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
+         (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
+         (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
+}
+
+// What an owned point has besides.
+std::size_t own_bytes(const MaterialBlock& block) {
+  const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
+  constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
+  constexpr std::size_t cloud =
+      2 * sizeof(std::int64_t) + sizeof(Vector) + 2 * sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
+  return mechanics + cloud + state * sizeof(double) + (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) +
+         (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
 }
 
 }  // namespace
 
 double footprint(const Body& body) {
-  double bytes = body.domain.families.bytes();
-  for (const MaterialBlock& block : body.blocks) {
-    bytes += bytes_per_point(body, block) * static_cast<double>(block.points.size());
-  }
+  double bytes = body.domain.families.bytes() + static_cast<double>(seen_bytes(body) * body.sites.size());
+  for (const MaterialBlock& block : body.blocks) bytes += static_cast<double>(own_bytes(block) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   return bytes;
 }

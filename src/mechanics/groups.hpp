@@ -111,12 +111,39 @@ small::Tensor3<small::Lanes> tensors(const Group& group, Of of) {
   return result;
 }
 
+// ---- Sums over the families of a group, of places y or of a field in their stead -----------------------------------
+
 // Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity.
 template <class Weight>
 small::Tensor3<small::Lanes> moments(const MaterialBlock& block, const Group& group, const Displacements& u,
                                      Weight weight) {
   if (group.bundle) return bonds::gather(bonds::OfBundle{*group.bundle}, u.sites, weight);
   return tensors(group, [&](int l) { return group.chunk->moment(block.points[group.k[l]], u); });
+}
+
+// The mean gradient's residual.
+template <class Weight>
+bonds::Residual<small::Lanes> residuals(const MaterialBlock& block, const Group& group, const Site* places,
+                                 const std::vector<ForceState>& gradients, Weight weight) {
+  if (group.bundle) return bonds::residual(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
+  return {vectors(group, [&](int l) { return group.chunk->residual_force(block.points[group.k[l]]); }),
+          tensors(group, [&](int l) { return group.chunk->residual_moment(block.points[group.k[l]]); })};
+}
+
+// with_springs: whether any point of the scene has C.
+template <class Weight>
+small::Vector3<small::Lanes> forces(const MaterialBlock& block, const Group& group, const Displacements& u,
+                             const std::vector<ForceState>& states, bool with_springs, Weight weight) {
+  if (group.bundle) {
+    const bonds::OfBundle family{*group.bundle};
+    const auto own = bonds::own_state(family, states.data());
+    return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
+                        : bonds::force<false>(family, u.sites, states.data(), own, weight);
+  }
+  return vectors(group, [&](int l) {
+    const int i = block.points[group.k[l]];
+    return group.chunk->force(i, u, states[i]);
+  });
 }
 
 }  // namespace strut

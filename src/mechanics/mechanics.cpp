@@ -82,14 +82,6 @@ bool all_undisturbed(const Body& body) {
 }
 
 template <class Weight>
-bonds::Residual<Lanes> residuals(const MaterialBlock& block, const Group& group, const Site* places,
-                                 const std::vector<ForceState>& gradients, Weight weight) {
-  if (group.bundle) return bonds::residual(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
-  return {vectors(group, [&](int l) { return group.chunk->residual_force(block.points[group.k[l]]); }),
-          tensors(group, [&](int l) { return group.chunk->residual_moment(block.points[group.k[l]]); })};
-}
-
-template <class Weight>
 Lanes residual_energies(const Body& body, const MaterialBlock& block, const Group& group, const Site* places,
                         const std::vector<ForceState>& gradients, Weight weight) {
   if (group.bundle) return bonds::residual_energy(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
@@ -129,21 +121,6 @@ void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part 
 bool any_springs(const Body& body) {
   return std::any_of(body.blocks.begin(), body.blocks.end(),
                      [](const MaterialBlock& b) { return b.material.stabilization > 0; });
-}
-
-template <class Weight>
-small::Vector3<Lanes> forces(const MaterialBlock& block, const Group& group, const Displacements& u,
-                             const std::vector<ForceState>& states, bool with_springs, Weight weight) {
-  if (group.bundle) {
-    const bonds::OfBundle family{*group.bundle};
-    const auto own = bonds::own_state(family, states.data());
-    return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
-                        : bonds::force<false>(family, u.sites, states.data(), own, weight);
-  }
-  return vectors(group, [&](int l) {
-    const int i = block.points[group.k[l]];
-    return group.chunk->force(i, u, states[i]);
-  });
 }
 
 // The force on every point, summed over the formulations that its block feels. `u`: of y, or of the field that stands

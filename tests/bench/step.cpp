@@ -53,18 +53,6 @@ void step(benchmark::State& state) {
   state.counters["per_point"] = time_per(steps * body.owned());
 }
 
-small::Vector3<small::Lanes> forces_of(const MaterialBlock& block, const Group& group, const Site* sites,
-                                       const std::vector<ForceState>& states) {
-  if (group.bundle) {
-    const bonds::OfBundle family{*group.bundle};
-    return bonds::force<true>(family, sites, states.data(), bonds::own_state(family, states.data()), bonds::One{});
-  }
-  return vectors(group, [&](int l) {
-    const int i = block.points[group.k[l]];
-    return group.chunk->force(i, {sites}, states[i]);
-  });
-}
-
 // The two passes over bonds alone, Silling's stabilisation included: moments of all families, then forces. Arguments:
 // points along an edge, horizon in thousandths of a spacing, lists or not.
 void passes(benchmark::State& state) {
@@ -90,7 +78,7 @@ void passes(benchmark::State& state) {
     for (int g = 0; g < groups.count(); ++g) moment[next++] = moments(block, groups[g], {sites}, bonds::One{});
   };
   const auto sum = [&](const Groups& groups) {
-    for (int g = 0; g < groups.count(); ++g) force[next++] = forces_of(block, groups[g], sites, states);
+    for (int g = 0; g < groups.count(); ++g) force[next++] = forces(block, groups[g], {sites}, states, true, bonds::One{});
   };
   for (auto _ : state) {
     if (kind == FamilyKind::lists) {
