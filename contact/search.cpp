@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <unordered_map>
 
 #include "points/cell_grid.hpp"
@@ -204,31 +205,51 @@ IndexPairs all_pairs(const Pool& pool, const Criterion& may_touch, double reach)
   return pairs;
 }
 
-// Those one of whose members has moved; some of them twice. Within a body most of what is near is bonded: that is seen
-// from the references of those that have moved, which are few.
-IndexPairs pairs_of_moved(const Pool& pool, const Criterion& may_touch, double reach) {
-  std::vector<int> moved;
-  std::vector<Vector> places, references;
-  double horizon = std::numeric_limits<double>::infinity();  // the smallest
-  for (std::size_t m = 0; m < pool.members.size(); ++m) {
-    horizon = std::min(horizon, pool.members[m].current[3]);
-    if (!pool.members[m].moved) continue;
-    moved.push_back(static_cast<int>(m));
-    places.push_back(pool.places[m]);
-    references.push_back(reference(pool.members[m]));
+// The members of a pool that have moved, of one block or of any (−1): a few, in cells.
+class Moved {
+ public:
+  Moved(const Pool& pool, int block, double reach) : grid_({}, reach) {
+    std::vector<Vector> places;
+    for (std::size_t m = 0; m < pool.members.size(); ++m) {
+      const Candidate& member = pool.members[m];
+      if (!member.moved || (block >= 0 && member.block != block)) continue;
+      members_.push_back(static_cast<int>(m));
+      references_.push_back(reference(member));
+      places.push_back(pool.places[m]);
+    }
+    grid_ = CellGrid(places, reach);
   }
-  const double bonded2 = may_touch.parties.one_body ? horizon * horizon : -1;
-  const CellGrid grid(places, reach);
+
+  // Calls visit(member, distance²) for those near a place, but for those whose references are within √bonded2 of `was`.
+  template <class Visit>
+  void visit_near(const Vector& here, const Vector& was, double reach2, double bonded2, const Visit& visit) const {
+    grid_.visit_near(here, [&](int n, const Vector& there) {
+      const double distance2 = (there - here).squaredNorm();
+      if (distance2 <= reach2 && (references_[n] - was).squaredNorm() > bonded2) visit(members_[n], distance2);
+    });
+  }
+
+ private:
+  CellGrid grid_;
+  std::vector<int> members_;
+  std::vector<Vector> references_;
+};
+
+// Those one of whose members has moved; some of them twice. Within a body most of what is near is bonded.
+IndexPairs pairs_of_moved(const Pool& pool, const Criterion& may_touch, double reach) {
+  const Parties& parties = may_touch.parties;
+  const Moved of_first(pool, parties.self() ? -1 : parties.first, reach),
+      of_second(pool, parties.self() ? -1 : parties.second, reach);
+  double horizon = std::numeric_limits<double>::infinity();  // the smallest
+  for (const Candidate& member : pool.members) horizon = std::min(horizon, member.current[3]);
+  const double bonded2 = parties.one_body ? horizon * horizon : -1;
   IndexPairs pairs;
   const int members = static_cast<int>(pool.members.size()), owned = static_cast<int>(pool.owned);
   for (int k = 0; k < members; ++k) {
-    const Vector here = pool.places[k], was = reference(pool.members[k]);
-    grid.visit_near(here, [&](int n, const Vector& there) {
-      const double distance2 = (there - here).squaredNorm();
-      if (distance2 > reach * reach || (references[n] - was).squaredNorm() <= bonded2) return;
-      const int other = moved[n];
-      if (other == k) return;
-      if (!may_touch(pool.members[k], pool.members[other], distance2)) return;
+    const Candidate& member = pool.members[k];
+    const Moved& others = member.block == parties.first ? of_second : of_first;
+    others.visit_near(pool.places[k], reference(member), reach * reach, bonded2, [&](int other, double distance2) {
+      if (other == k || !may_touch(member, pool.members[other], distance2)) return;
       if (k < owned) pairs.emplace_back(k, other);
       if (other < owned) pairs.emplace_back(other, k);
     });
@@ -245,15 +266,21 @@ struct Lists {
   auto of(std::size_t k) const { return std::span(partners).subspan(start[k], start[k + 1] - start[k]); }
 };
 
-Lists lists_of(const Pool& pool, IndexPairs pairs) {
-  std::sort(pairs.begin(), pairs.end(), [&](const auto& a, const auto& b) {
-    return std::pair(a.first, pool.members[a.second].id) < std::pair(b.first, pool.members[b.second].id);
-  });
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+// Pairs of the same member are put side by side first: sorting all at once would take several times as long.
+Lists lists_of(const Pool& pool, const IndexPairs& pairs) {
+  std::vector<std::size_t> ends(pool.owned + 1, 0);
+  for (const auto& pair : pairs) ++ends[pair.first + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<std::pair<std::int64_t, int>> all(pairs.size());  // ids and members
+  std::vector<std::size_t> next(ends.begin(), ends.end() - 1);
+  for (const auto& [k, other] : pairs) all[next[k]++] = {pool.members[other].id, other};
   Lists lists;
-  auto next = pairs.begin();
   for (std::size_t k = 0; k < pool.owned; ++k) {
-    for (; next != pairs.end() && next->first == static_cast<int>(k); ++next) lists.partners.push_back(next->second);
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(ends[k]),
+               end = all.begin() + static_cast<std::ptrdiff_t>(ends[k + 1]);
+    std::sort(begin, end);
+    const auto last = std::unique(begin, end);
+    for (auto at = begin; at != last; ++at) lists.partners.push_back(at->second);
     lists.close();
   }
   return lists;
@@ -311,35 +338,67 @@ Pairs pairs_of(const Task& task, const Pool& pool, const Lists& lists) {
   return pairs;
 }
 
-// Owned points that a search about moved ones has to know, as indices of parties.points: these, those near any moved
-// one of any rank, and those that have partners already.
-std::vector<int> points_about(const Task& task, const std::vector<int>& moved, const Pairs& pairs) {
-  const double reach = task.reach();
-  using Record = std::array<double, 3>;
-  std::vector<Vector> centres;
+// Where the moved points of each party are, over all ranks.
+struct Centres {
+  std::vector<Vector> of_first, of_second;  // alike where a party meets itself
+};
+
+Centres centres_of(const Task& task, const std::vector<int>& moved) {
+  using Record = std::array<double, 4>;
+  Centres centres;
+  const auto add = [&](const Vector& x, bool is_first) {
+    if (is_first) centres.of_first.push_back(x);
+    if (!is_first || task.parties.self()) centres.of_second.push_back(x);
+  };
+  std::vector<Vector> places;
   std::vector<Record> records;
   for (const int k : moved) {
-    const Vector& x = centres.emplace_back(task.places[k]);
-    records.push_back({x[0], x[1], x[2]});
+    const Vector& x = places.emplace_back(task.places[k]);
+    const bool is_first = task.block(k) == task.parties.first;
+    records.push_back({x[0], x[1], x[2], is_first ? 1.0 : 0.0});
+    add(x, is_first);
   }
   for (const Record& x :
-       from_near_ranks<Record>(box_around(task.places), centres, records, reach, task.communicator())) {
-    centres.emplace_back(x[0], x[1], x[2]);
+       from_near_ranks<Record>(box_around(task.places), places, records, task.reach(), task.communicator())) {
+    add({x[0], x[1], x[2]}, x[3] > 0);
   }
-  const Box box = box_around(centres);
-  const CellGrid grid(centres, reach);
+  return centres;
+}
+
+// Whether a place is near any of some.
+class Nearness {
+ public:
+  Nearness(const std::vector<Vector>& centres, double reach)
+      : grid_(centres, reach), box_(box_around(centres)), reach2_(reach * reach) {}
+  bool operator()(const Vector& x) const {
+    if (box_.isEmpty() || box_.squaredExteriorDistance(x) > reach2_) return false;
+    bool near = false;
+    grid_.visit_near(x, [&](int, const Vector& centre) { near = near || (centre - x).squaredNorm() <= reach2_; });
+    return near;
+  }
+
+ private:
+  CellGrid grid_;
+  Box box_;
+  double reach2_;
+};
+
+// Owned points that a search about moved ones has to know, as indices of parties.points: these, those near any moved
+// one of the other party and of any rank, and those that have partners already.
+std::vector<int> points_about(const Task& task, const std::vector<int>& moved, const Pairs& pairs) {
+  const Centres centres = centres_of(task, moved);
+  const Nearness near_first(centres.of_first, task.reach()), near_second(centres.of_second, task.reach());
   std::vector<int> points;
   std::size_t paired = 0;
-  for (std::size_t k = 0; k < task.places.size(); ++k) {
+  auto next = moved.begin();
+  for (int k = 0; k < static_cast<int>(task.places.size()); ++k) {
     const int i = task.parties.points[k];
     while (paired < pairs.owned.size() && pairs.owned[paired] < i) ++paired;
-    bool wanted = paired < pairs.owned.size() && pairs.owned[paired] == i;
-    if (!wanted && !box.isEmpty() && box.squaredExteriorDistance(task.places[k]) <= reach * reach) {
-      grid.visit_near(task.places[k], [&](int, const Vector& centre) {
-        wanted = wanted || (centre - task.places[k]).squaredNorm() <= reach * reach;
-      });
-    }
-    if (wanted) points.push_back(static_cast<int>(k));
+    const bool has_partners = paired < pairs.owned.size() && pairs.owned[paired] == i;
+    const bool has_moved = next != moved.end() && *next == k;
+    if (has_moved) ++next;
+    const Nearness& near = task.block(k) == task.parties.first ? near_second : near_first;
+    if (has_partners || has_moved || near(task.places[k])) points.push_back(k);
   }
   return points;
 }
