@@ -245,10 +245,10 @@ inline ScalarOf<Family> squared_residual(const Family& family, const Site* sites
 
 // ---- The mean gradient's residual ----------------------------------------------------------------------------------
 
-// Calls visit(ω V_j C_ij less the share, z, ξ, share) over a family: what the mean gradient of both ends does not see of
-// their bond, z = (y_j − y_i) − ½ (F_i + F_j) ξ. A bond is as stiff as its softer end: C_ij = 2 min(C̄_i, C̄_j), none to
-// a point that has none. It acts at the steps of the end whose step is halved less often, so with the greater share of
-// a step.
+// Calls visit(ω V_j C_ij less the share, z, ξ, share) over a family: what the mean gradient of both ends does not see
+// of their bond, z = (y_j − y_i) − ½ (F_i + F_j) ξ. A bond is as stiff as its softer end: C_ij = 2 min(C̄_i, C̄_j), none
+// to a point that has none. It acts at the steps of the end whose step is halved less often, so with the greater share
+// of a step.
 template <class Family, class Weight, class Visit>
 inline void over_residuals(const Family& family, const Site* places, const ForceState* gradients, Weight weight,
                            Visit&& visit) {

@@ -59,7 +59,8 @@ class Groups {
   int count() const { return count_; }
   Group operator[](int g) const {
     if (chunk_) {
-      const int run = g < groups_in(0) ? 0 : 1, at = runs_[run].first + Group::width * (run == 0 ? g : g - groups_in(0));
+      const int run = g < groups_in(0) ? 0 : 1,
+                at = runs_[run].first + Group::width * (run == 0 ? g : g - groups_in(0));
       return group(at, std::min(Group::width, runs_[run].second - at), {});
     }
     const Bundle bundle = (*lists_)[first_ + g];
@@ -124,7 +125,7 @@ small::Tensor3<small::Lanes> moments(const MaterialBlock& block, const Group& gr
 // The mean gradient's residual.
 template <class Weight>
 bonds::Residual<small::Lanes> residuals(const MaterialBlock& block, const Group& group, const Site* places,
-                                 const std::vector<ForceState>& gradients, Weight weight) {
+                                        const std::vector<ForceState>& gradients, Weight weight) {
   if (group.bundle) return bonds::residual(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
   return {vectors(group, [&](int l) { return group.chunk->residual_force(block.points[group.k[l]]); }),
           tensors(group, [&](int l) { return group.chunk->residual_moment(block.points[group.k[l]]); })};
@@ -133,7 +134,7 @@ bonds::Residual<small::Lanes> residuals(const MaterialBlock& block, const Group&
 // with_springs: whether any point of the scene has C.
 template <class Weight>
 small::Vector3<small::Lanes> forces(const MaterialBlock& block, const Group& group, const Displacements& u,
-                             const std::vector<ForceState>& states, bool with_springs, Weight weight) {
+                                    const std::vector<ForceState>& states, bool with_springs, Weight weight) {
   if (group.bundle) {
     const bonds::OfBundle family{*group.bundle};
     const auto own = bonds::own_state(family, states.data());

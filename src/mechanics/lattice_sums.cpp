@@ -104,9 +104,8 @@ void LatticeSums::set_constants(const Body& body) {
     sweep<MomentSweep<reach>>(volume, [&](const Chunk& chunk) {
       each_owned(chunk, [&](int i) { constants_[i].first = chunk.tensor(i).row(0); });
     });
-    sweep<SquareSweep<reach>>(volume, [&](const Chunk& chunk) {
-      each_owned(chunk, [&](int i) { constants_[i].weight = *chunk.at(i); });
-    });
+    sweep<SquareSweep<reach>>(
+        volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants_[i].weight = *chunk.at(i); }); });
   });
 }
 
@@ -169,8 +168,8 @@ void LatticeSums::take_plane(int z, int columns, const Take& take) {
 // ---- Sweeps --------------------------------------------------------------------------------------------------------
 
 // A Sweep says what is summed: its `inputs` a point, its `columns` a row and kind, row_sums(pencils, to) along x,
-// add(sums of a row, dy) along y, and hand(to, dz) along z, to the `outputs` of a point. Points are at least as far from
-// the first and last plane and row as a stencil reaches.
+// add(sums of a row, dy) along y, and hand(to, dz) along z, to the `outputs` of a point. Points are at least as far
+// from the first and last plane and row as a stencil reaches.
 template <class Sweep, class Fill>
 void LatticeSums::sweep(const Fill& fill, const Take& take) {
   const Eigen::Array3i& shape = lattice_->shape();
@@ -294,7 +293,6 @@ struct Pairs {
     }
   }
 };
-
 
 // Of the column of three pencils in a row, so many columns each.
 template <int reach, int inputs>
@@ -442,8 +440,7 @@ struct LatticeSums::ForceSweep {
 
 // f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω
 // V_j, q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
-void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states,
-                         const Take& take) {
+void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take) {
   const auto fill = [&](int i, const auto& put) {
     fetch_ahead(u.sites, i), fetch_ahead(states.data(), i);
     const double V = u.sites[i].reference[3], C = states[i].column[0][3], stretched = u.is_field ? 0 : C;
@@ -474,8 +471,7 @@ Vector LatticeSums::Chunk::force(int i, const Displacements& u, const ForceState
 
 // ---- Residuals -----------------------------------------------------------------------------------------------------
 
-void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState>& gradients,
-                            const Take& take) {
+void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState>& gradients, const Take& take) {
   const auto fill = [&](int i, const auto& put) {
     fetch_ahead(u.sites, i), fetch_ahead(gradients.data(), i);
     const Eigen::Array4d ui = u(i);
@@ -507,10 +503,10 @@ void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState
 
 // The bonds of eight points with one row of their stencils.
 struct LatticeSums::Residuals {
-  const Pencil* own;     // columns of the points
+  const Pencil* own;           // columns of the points
   const Pencil* const* there;  // columns of the row: before, here and after
-  const Pencil* fitted;  // u − ½ (H_y dy + H_z dz) of the row: before, here and after, three each
-  const Pencil* base;    // u + ½ (H_y dy + H_z dz) of the points
+  const Pencil* fitted;        // u − ½ (H_y dy + H_z dz) of the row: before, here and after, three each
+  const Pencil* base;          // u + ½ (H_y dy + H_z dz) of the points
   const Kind& kind;
   double spacing;                     // along x, m
   Pencil sum[3] = {}, first[3] = {};  // Σ t and Σ dx t, t = ω V_j C_ij z
@@ -518,9 +514,7 @@ struct LatticeSums::Residuals {
   template <int dx>
   void add_bond() {
     const double x = dx * spacing;
-    const auto far = [this](int column) {
-      return shifted<dx>(there[0][column], there[1][column], there[2][column]);
-    };
+    const auto far = [this](int column) { return shifted<dx>(there[0][column], there[1][column], there[2][column]); };
     const Pencil C = far(12), share = far(14);
     const Pencil stiffness = (own[12] < C ? own[12] : C) * (own[14] < share ? share : own[14]);
     const Pencil weight = (2 * kind.weight[dx < 0 ? -dx : dx]) * far(13) * stiffness;

@@ -49,9 +49,10 @@ class LatticeSums {
 
     // After the sweep that is named alike.
     Tensor moment(int i, const Displacements& u) const;  // H
-    double squared_residual(int i, const Displacements& u, const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
+    double squared_residual(int i, const Displacements& u,
+                            const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
     Vector residual_force(int i) const { return vector(i, 9); }
-    Tensor residual_moment(int i) const { return tensor(i); }  // M
+    Tensor residual_moment(int i) const { return tensor(i); }                    // M
     Vector force(int i, const Displacements& u, const ForceState& state) const;  // N/m³
 
    private:
@@ -123,7 +124,9 @@ class LatticeSums {
     void open(const LatticeSums& all, int z, int y0, int y1, int columns);  // all zero
     int begin(int z) const { return begins_[z % begins_.size()]; }
     int end(int z) const { return ends_[z % begins_.size()]; }
-    Pencil* of(int z, int slot) { return room_[z % begins_.size()].data() + static_cast<std::size_t>(slot - begin(z)) * columns_; }
+    Pencil* of(int z, int slot) {
+      return room_[z % begins_.size()].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
+    }
     double bytes() const;
 
    private:

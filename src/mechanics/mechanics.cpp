@@ -235,8 +235,7 @@ void set_tangent_states(const Body& body, const Displacements& field, const std:
     for (int l = 0; l < group.count; ++l) set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
   };
   over_blocks(
-      body, Bodies::all, part,
-      [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); },
+      body, Bodies::all, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); },
       [&](const MaterialBlock& block, const Groups& groups) {
         over_groups(body, groups, [&](const Group& group, auto weight) { set(block, group, weight); });
       });
@@ -260,12 +259,12 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
   const auto over = [&](Part part) {
     const Timed timed(deforming);
     over_blocks(
-        body, Bodies::disturbed, part,
-        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); }, advance);
+        body, Bodies::disturbed, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
+        advance);
     if (!with_views) return;
     over_blocks(
-        body, Bodies::disturbed, part,
-        [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); }, view);
+        body, Bodies::disturbed, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },
+        view);
   };
   for (const MaterialBlock& block : body.blocks) {
     if (block.undisturbed) report.pace = std::max(report.pace, block.resting_pace);
@@ -301,8 +300,7 @@ void sum_forces(Body& body, bool with_views) {
     });
   }
   const auto extension_of = [](const auto& family) { return bonds::OfPlaces(family); };
-  add_up(body.domain.halo,
-         ForceSum{body, Bodies::disturbed, u, extension_of, body.force_states, body.force_density},
+  add_up(body.domain.halo, ForceSum{body, Bodies::disturbed, u, extension_of, body.force_states, body.force_density},
          [] { return Timed(summing); });
 }
 
@@ -340,9 +338,8 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
       halo, places(directions), site_stride, 3, [&] { set_states(Part::interior); },
       [&] { set_states(Part::boundary); });
   if (!scratch.gradients.empty()) {
-    behind_exchange(halo, scratch.gradients, [&](Part part) {
-      add_residual(body, Bodies::all, field, part, scratch, result, {});
-    });
+    behind_exchange(halo, scratch.gradients,
+                    [&](Part part) { add_residual(body, Bodies::all, field, part, scratch, result, {}); });
   }
   const auto change_of = [&](const auto& family) { return bonds::OfField(family, directions.data()); };
   add_up(halo, ForceSum{body, Bodies::all, field, change_of, scratch, result},

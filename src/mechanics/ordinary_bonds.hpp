@@ -66,8 +66,7 @@ class OfField {
 
 // Σ ω V |ξ| e
 template <class Family, class Weight, class Extension>
-inline ScalarOf<Family> extensions(const Family& family, const Site* sites, Weight weight,
-                                   const Extension& extension) {
+inline ScalarOf<Family> extensions(const Family& family, const Site* sites, Weight weight, const Extension& extension) {
   using T = ScalarOf<Family>;
   T moment = zero_vector<T>().c[0];
   over_stretched(family, sites, weight,

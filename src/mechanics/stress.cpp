@@ -100,7 +100,7 @@ struct Update {
 
   // Stress and state of one point.
   void advance_law(const Members& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
-               double J) const {
+                   double J) const {
     Symmetric rate, stretch;
     for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l], stretch[c] = stretches.c[c][l];
     typename L::State state = block.state_of<L>(g.k[l]);

@@ -7,7 +7,6 @@
 
 #include "mechanics/stress.hpp"
 
-
 namespace strut {
 
 namespace {
@@ -305,7 +304,8 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, now.sources.count(), [&, weight](int b) {
       const bonds::OfBundle family{now.sources[b]};
-      const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(), small::Lanes::Zero()};
+      const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(),
+                                               small::Lanes::Zero()};
       const auto far = bonds::force<true>(family, body.sites.data(), states.data(), none, weight);
       for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
         const int i = family.bundle.points[l];

@@ -78,7 +78,8 @@ void passes(benchmark::State& state) {
     for (int g = 0; g < groups.count(); ++g) moment[next++] = moments(block, groups[g], {sites}, bonds::One{});
   };
   const auto sum = [&](const Groups& groups) {
-    for (int g = 0; g < groups.count(); ++g) force[next++] = forces(block, groups[g], {sites}, states, true, bonds::One{});
+    for (int g = 0; g < groups.count(); ++g)
+      force[next++] = forces(block, groups[g], {sites}, states, true, bonds::One{});
   };
   for (auto _ : state) {
     if (kind == FamilyKind::lists) {
