@@ -22,7 +22,7 @@ constexpr double forecast = 2;
 constexpr double decay = 0.99;
 
 // Of this share of the points a new search of all costs about as much as one about single ones.
-constexpr double most_moved = 0.01;
+constexpr double most_moved = 0.05;
 
 // The mean motion of points is that of one in so many: any that is the same on all ranks will do.
 constexpr std::size_t sampling = 16;
