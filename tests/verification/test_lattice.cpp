@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "mechanics/lattice_sums.hpp"
+#include "mechanics/groups.hpp"
 #include "probes.hpp"
 
 namespace strut {
@@ -142,6 +142,39 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{3.015, Influence::one, 0.02, 0, 0.5}, Case{3.015, Influence::cubic_decay, 0, 0.01, 0.7},
                     Case{3.015, Influence::linear_decay, 0.05, 0.01, 0.5}, Case{6.015, Influence::one, 0.01, 0, 0.5},
                     Case{3.3, Influence::linear_decay, 0.05, 0.01, 0.6, {1e-3, 1.3e-3, 0.7e-3}}));
+
+// What a bundle adds up in the lane of a point is what the point's own family adds up, but for round-off.
+TEST(Bundles, LanesAreTheSumsOfTheirPoints) {
+  const Communicator world;
+  Body body = lattice_body(
+      {{9, 7, 6}, 1e-3, 2.3, 0.2, Influence::linear_decay, {1000, elastic(1e9, 0.3), 0.02, {}, 0.01}}, world);
+  deform(body, bent);
+  ASSERT_FALSE(advance_stress_and_force(body, 1e-6, false).failure);
+  const Site* sites = body.sites.data();
+  const ForceStates& states = body.force_states;
+  const auto check = [&](const auto& lanes, int l, const auto& own) {
+    double largest = 0;
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(own.c[c]));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(lanes.c[c][l], own.c[c], 1e-12 * largest);
+  };
+  const bonds::LinearDecay decay;
+  const auto sums_of = [&](const auto& family) {
+    return std::pair(bonds::force<true>(family, sites, states.tensors.data(),
+                                        bonds::own_state(family, states.tensors.data()), decay),
+                     bonds::residual(family, sites, states.gradients.data(), decay).force);
+  };
+  std::size_t seen = 0;
+  const Bundles& lists = body.domain.families.lists;
+  for (int b = 0; b < lists.count(); ++b) {
+    const auto [forces, residuals] = sums_of(bonds::OfBundle{lists[b]});
+    for (std::size_t l = 0; l < lists[b].points.size(); ++l, ++seen) {
+      const auto [force, residual] = sums_of(bonds::OfPoint{body.domain.families, lists[b].points[l]});
+      check(forces, static_cast<int>(l), force);
+      check(residuals, static_cast<int>(l), residual);
+    }
+  }
+  EXPECT_EQ(seen, static_cast<std::size_t>(body.owned()));
+}
 
 // What is no lattice has lists, and so has one that is faster with them.
 TEST(NoLattice, HasLists) {
