@@ -205,14 +205,14 @@ IndexPairs all_pairs(const Pool& pool, const Criterion& may_touch, double reach)
   return pairs;
 }
 
-// The members of a pool that have moved, of one block or of any (−1): a few, in cells.
+// The members of a pool that have moved, of one block: a few, in cells.
 class Moved {
  public:
   Moved(const Pool& pool, int block, double reach) : grid_({}, reach) {
     std::vector<Vector> places;
     for (std::size_t m = 0; m < pool.members.size(); ++m) {
       const Candidate& member = pool.members[m];
-      if (!member.moved || (block >= 0 && member.block != block)) continue;
+      if (!member.moved || member.block != block) continue;
       members_.push_back(static_cast<int>(m));
       references_.push_back(reference(member));
       places.push_back(pool.places[m]);
@@ -238,22 +238,25 @@ class Moved {
 // Those one of whose members has moved; some of them twice. Within a body most of what is near is bonded.
 IndexPairs pairs_of_moved(const Pool& pool, const Criterion& may_touch, double reach) {
   const Parties& parties = may_touch.parties;
-  const Moved of_first(pool, parties.self() ? -1 : parties.first, reach),
-      of_second(pool, parties.self() ? -1 : parties.second, reach);
   double horizon = std::numeric_limits<double>::infinity();  // the smallest
   for (const Candidate& member : pool.members) horizon = std::min(horizon, member.current[3]);
   const double bonded2 = parties.one_body ? horizon * horizon : -1;
   IndexPairs pairs;
   const int members = static_cast<int>(pool.members.size()), owned = static_cast<int>(pool.owned);
-  for (int k = 0; k < members; ++k) {
-    const Candidate& member = pool.members[k];
-    const Moved& others = member.block == parties.first ? of_second : of_first;
-    others.visit_near(pool.places[k], reference(member), reach * reach, bonded2, [&](int other, double distance2) {
-      if (other == k || !may_touch(member, pool.members[other], distance2)) return;
-      if (k < owned) pairs.emplace_back(k, other);
-      if (other < owned) pairs.emplace_back(other, k);
-    });
-  }
+  const auto add_pairs = [&](int block, int other_block) {
+    const Moved others(pool, other_block, reach);
+    for (int k = 0; k < members; ++k) {
+      const Candidate& member = pool.members[k];
+      if (member.block != block) continue;
+      others.visit_near(pool.places[k], reference(member), reach * reach, bonded2, [&](int other, double distance2) {
+        if (other == k || !may_touch(member, pool.members[other], distance2)) return;
+        if (k < owned) pairs.emplace_back(k, other);
+        if (other < owned) pairs.emplace_back(other, k);
+      });
+    }
+  };
+  add_pairs(parties.first, parties.second);
+  if (!parties.self()) add_pairs(parties.second, parties.first);
   return pairs;
 }
 
@@ -340,21 +343,20 @@ Pairs pairs_of(const Task& task, const Pool& pool, const Lists& lists) {
 
 // Where the moved points of each party are, over all ranks.
 struct Centres {
-  std::vector<Vector> of_first, of_second;  // alike where a party meets itself
+  std::vector<Vector> of_first, of_second;  // where a party meets itself, all are of the second
 };
 
 Centres centres_of(const Task& task, const std::vector<int>& moved) {
   using Record = std::array<double, 4>;
   Centres centres;
-  const auto add = [&](const Vector& x, bool is_first) {
-    if (is_first) centres.of_first.push_back(x);
-    if (!is_first || task.parties.self()) centres.of_second.push_back(x);
+  const auto add = [&centres](const Vector& x, bool is_first) {
+    (is_first ? centres.of_first : centres.of_second).push_back(x);
   };
   std::vector<Vector> places;
   std::vector<Record> records;
   for (const int k : moved) {
     const Vector& x = places.emplace_back(task.places[k]);
-    const bool is_first = task.block(k) == task.parties.first;
+    const bool is_first = task.block(k) == task.parties.first && !task.parties.self();
     records.push_back({x[0], x[1], x[2], is_first ? 1.0 : 0.0});
     add(x, is_first);
   }

@@ -170,7 +170,7 @@ std::vector<std::uint8_t> motions_of(const Body& body, const std::vector<std::ui
 // Half of the impulse belongs to the interval before, half to the one after.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
   over_points(body, [&](int i, bool) {
-    const double old_share = before.empty() ? 1 : std::ldexp(1.0, -before[i]), share = body.share(i);
+    const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
     if (share == old_share) return;
     const double mean = 0.5 * (old_share + share);
     for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
