@@ -59,32 +59,31 @@ class Contact {
   FrictionWork friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const;
 
   int searches() const { return searches_; }  // so far, of all interactions
-  int renewals() const { return renewals_; }  // and those about single points
 
  private:
   // One interaction as it goes on.
   struct Meeting {
     Model model;
     Parties parties;
-    double skin = 0;       // m: how much nearer than a search finds its pairs two points may come before the next one
-    double allowance = 0;  // relative motion after which the next search is due, m
-    double travelled = 0;  // a bound of the relative motion since the last search, m
-    bool far = false;      // as of the last search: no pair is near enough to be in a list
-    bool due = true;       // the bound has come near the allowance
-    // Of parties.points when a search last looked at each, carried on by the mean motion until the last of all, m.
-    std::vector<Vector> places = {};
+    double skin = 0;  // m: the smallest of a point
+    // As of the last search.
+    std::vector<Vector> places = {};  // of parties.points, m
+    Skins skins = {};
+    Vector mean_velocity = Vector::Zero();  // m/s
     Pairs pairs = {};
+    bool searched = false;
+    double used = 0;  // a bound of the part of its skin that any point has used since
+    bool due = true;  // that has come near 1
     Tally tally = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
   };
-  void search(const Crowd& crowd, Meeting& meeting);
-  void look(const Crowd& crowd, Meeting& meeting);
+  void search(const Crowd& crowd, double dt, Meeting& meeting);
+  void look(const Crowd& crowd, double dt, Meeting& meeting);
   void add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density);
 
   std::vector<Meeting> meetings_;
-  std::vector<int> blocks_;  // that take part
   double stiffness_ = 0, penetration_ = 0;
-  int searches_ = 0, renewals_ = 0;
+  int searches_ = 0;
 };
 
 }  // namespace strut::contact

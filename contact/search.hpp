@@ -43,18 +43,15 @@ struct Pairs {
   bool empty() const { return owned.empty(); }
 };
 
-// Collective. All pairs of the parties that are nearer than the distance at which they touch + skin (m) and not bonded.
-// `places`: of parties.points, m.
-Pairs find_pairs(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Model& model,
-                 double skin);
+// How far each of parties.points may go, beside a motion that all of them share, before pairs are searched for again,
+// m.
+struct Skins {
+  std::vector<float> of;
+  double largest = 0;  // over all ranks, of points that are near the other party
+};
 
-// Collective. The same where only some places are new since `pairs` was found: those of parties.points[k], k in
-// `moved`, ascending. Pairs that are no longer near may stay.
-void renew_pairs(const Crowd& crowd, const Parties& parties, std::span<const Vector> places,
-                 const std::vector<int>& moved, const Model& model, double skin, Pairs& pairs);
-
-// Collective. The distance (m) between the bounding boxes of the two parties: 0 where they overlap, infinity where one
-// of them has no points.
-double distance_of_boxes(const Crowd& crowd, const Parties& parties, std::span<const Vector> places);
+// Collective. All pairs of the parties that are not bonded and may touch before both ends have used up their skins. The
+// skins of points that are far from all of the other party become as large as that allows.
+Pairs find_pairs(const Crowd& crowd, const Parties& parties, const Model& model, Skins& skins);
 
 }  // namespace strut::contact

@@ -120,7 +120,7 @@ std::string table_of_phases(const Scene& scene, double seconds) {
 
 std::string searches(const contact::Contact& contact) {
   if (!contact.any()) return "";
-  return formatted("%d searches for contact, %d about single points\n", contact.searches(), contact.renewals());
+  return formatted("%d searches for contact\n", contact.searches());
 }
 
 std::string energies(const Ledger& ledger) {

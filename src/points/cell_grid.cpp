@@ -5,15 +5,14 @@
 
 namespace strut {
 
-CellGrid::CellGrid(const std::vector<Vector>& points, double reach) {
+CellGrid::CellGrid(const std::vector<Vector>& points, double reach, double width) {
   Eigen::AlignedBox3d box;
   for (const Vector& x : points) box.extend(x);
   if (points.empty()) box.extend(Vector::Zero());
   origin_ = box.min();
-  // Half the reach: the cells looked at have 3.7 times the volume of the sphere, with the whole reach 6.4 times. Sparse
-  // clouds in a large box get wider cells: memory stays in proportion to the points.
-  const double volume = (box.sizes().array() + reach).prod();
-  width_ = std::max(reach / 2, std::cbrt(volume / (8.0 * points.size() + 64)));
+  // Sparse clouds in a large box get wider cells: memory stays in proportion to the points.
+  const double volume = (box.sizes().array() + width).prod();
+  width_ = std::max(width, std::cbrt(volume / (8.0 * points.size() + 64)));
   cells_within_reach_ = static_cast<int>(std::ceil(reach / width_));
   shape_ = (box.sizes() / width_).array().floor().cast<int>() + 1;
   start_.assign(static_cast<std::size_t>(shape_[0]) * shape_[1] * shape_[2] + 1, 0);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <random>
-#include <set>
 
 #include "contact/contact.hpp"
 #include "points/partition.hpp"
@@ -60,14 +59,10 @@ struct Part {
     }
     return result;
   }
-  std::vector<Vector> places(const Parties& parties) const {
-    std::vector<Vector> result;
-    for (const int i : parties.points) result.push_back(sites[i].current.head<3>().matrix());
-    return result;
-  }
   Pairs pairs(int a, int b) const {
     const Parties found = parties(a, b);
-    return find_pairs(crowd(), found, places(found), model, skin);
+    Skins skins{std::vector<float>(found.points.size(), skin / 2), skin / 2};
+    return find_pairs(crowd(), found, model, skins);
   }
 };
 
@@ -173,50 +168,6 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   world.sum(sums);
   EXPECT_GT(sums[6], 0.01 * scale) << "no friction to speak of";
   for (int c = 0; c < 6; ++c) EXPECT_NEAR(sums[c], 0, count * 1e-15 * scale);  // round-off of a sum over all points
-}
-
-// Single points jump across the cube, three times: the pairs are those of a new search of all, besides old ones that
-// have parted.
-TEST_P(ContactOfBlocks, PairsRenewedAboutMovedPointsAreThoseOfANewSearch) {
-  const auto [a, b] = GetParam();
-  Part now = part_of(all, world);
-  const Parties parties = now.parties(a, b);
-  Pairs renewed = now.pairs(a, b);
-  std::int64_t gained = 0;
-  for (int turn = 1; turn <= 3; ++turn) {
-    std::vector<int> moved;
-    for (std::size_t k = 0; k < parties.points.size(); ++k) {
-      const int i = parties.points[k];
-      const auto id = static_cast<std::size_t>(now.domain.cloud.ids[i]);
-      if (id % 17 != static_cast<std::size_t>(turn)) continue;
-      moved.push_back(static_cast<int>(k));
-      now.sites[i].current.head<3>() = all.places[(7 * id + turn) % count].array() + 0.03;
-    }
-    const auto ids_of = [](const Pairs& pairs) {
-      std::set<std::pair<std::int64_t, std::int64_t>> ids;
-      for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-        for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
-          const bool is_new = ids.emplace(pairs.ids[k], pairs.ids[pairs.partners[p]]).second;
-          EXPECT_TRUE(is_new) << "a pair twice";
-        }
-      }
-      return ids;
-    };
-    const auto before = ids_of(renewed);
-    renew_pairs(now.crowd(), parties, now.places(parties), moved, model, skin, renewed);
-    Pairs fresh = now.pairs(a, b);
-    const auto found = ids_of(renewed);
-    for (const auto& pair : ids_of(fresh)) {
-      EXPECT_TRUE(found.contains(pair)) << pair.first << " and " << pair.second;
-      if (!before.contains(pair)) ++gained;
-    }
-    for (const auto& pair : before) EXPECT_TRUE(found.contains(pair)) << pair.first << " and " << pair.second;
-    std::vector<Vector> one(now.domain.owned, Vector::Zero()), other = one;
-    add_normal_forces(now.crowd(), model, renewed, one);
-    add_normal_forces(now.crowd(), model, fresh, other);
-    EXPECT_EQ(one, other);
-  }
-  EXPECT_GT(world.sum(gained), 10) << "nothing new was near";
 }
 
 INSTANTIATE_TEST_SUITE_P(Blocks, ContactOfBlocks,

@@ -1,0 +1,102 @@
+#include "contact/skins.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace strut::contact {
+
+namespace {
+
+// The fastest points, so many of all at the most, get a wider skin, up to so many times as wide: wider ones have more
+// partners.
+constexpr double share_of_fast = 0.005, widest = 4;
+
+// Searches this many steps apart cost little; no skin is made wider than that takes.
+constexpr double steps_between = 32;
+
+// A mean is that of one point in so many: any motion that is the same on all ranks will do.
+constexpr std::size_t sampling = 16;
+
+Vector place(const Crowd& crowd, int i) { return crowd.sites[i].current.head<3>().matrix(); }
+
+// Collective. Of vectors that `of` gives for indices of parties.points.
+template <class Of>
+Vector mean(const Crowd& crowd, const Parties& parties, const Of& of) {
+  double sums[4] = {};
+  for (std::size_t k = 0; k < parties.points.size(); k += sampling) {
+    const Vector v = of(k);
+    for (int c = 0; c < 3; ++c) sums[c] += v[c];
+    ++sums[3];
+  }
+  crowd.domain.communicator.sum(sums);
+  return Vector(sums[0], sums[1], sums[2]) / std::max(1.0, sums[3]);
+}
+
+// Collective. A speed that no more than share_of_fast of the points exceed, to a quarter of a halving of the largest.
+double usual_speed(const std::vector<double>& speeds, const Communicator& communicator) {
+  double fastest[] = {0};
+  for (const double v : speeds) fastest[0] = std::max(fastest[0], v);
+  communicator.max(fastest);
+  std::array<double, 64> counts{};  // by the quarters of halvings that the speed is below the largest
+  for (const double v : speeds) {
+    const double quarters = v > 0 ? 4 * std::log2(fastest[0] / v) : counts.size();
+    ++counts[static_cast<std::size_t>(std::clamp(quarters, 0.0, counts.size() - 1.0))];
+  }
+  communicator.sum(counts);
+  double all = 0, faster = 0, speed = fastest[0];
+  for (const double count : counts) all += count;
+  for (const double count : counts) {
+    faster += count;
+    if (faster > share_of_fast * all) break;
+    speed *= std::exp2(-0.25);
+  }
+  return speed;
+}
+
+}  // namespace
+
+Vector mean_velocity(const Crowd& crowd, const Parties& parties) {
+  return mean(crowd, parties, [&](std::size_t k) { return crowd.velocities[parties.points[k]]; });
+}
+
+Skins skins_by_speed(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, double smallest,
+                     double dt) {
+  std::vector<double> speeds;
+  speeds.reserve(parties.points.size());
+  for (const int i : parties.points) speeds.push_back((crowd.velocities[i] - mean_velocity).norm());
+  const double usual = std::max(usual_speed(speeds, crowd.domain.communicator),
+                                dt > 0 ? smallest / (steps_between * dt) : std::numeric_limits<double>::infinity());
+  Skins skins;
+  double largest[] = {smallest};
+  for (const double v : speeds) {
+    skins.of.push_back(static_cast<float>(std::clamp(v / usual, 1.0, widest) * smallest));
+    largest[0] = std::max<double>(largest[0], skins.of.back());
+  }
+  crowd.domain.communicator.max(largest);
+  skins.largest = largest[0];
+  return skins;
+}
+
+double largest_use(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, const Skins& skins) {
+  double most = 0;  // squared
+  for (std::size_t k = 0; k < skins.of.size(); ++k) {
+    const double skin = skins.of[k];
+    most = std::max(most, (crowd.velocities[parties.points[k]] - mean_velocity).squaredNorm() / (skin * skin));
+  }
+  return std::sqrt(most);
+}
+
+double part_used(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Skins& skins) {
+  const auto way = [&](std::size_t k) -> Vector { return place(crowd, parties.points[k]) - places[k]; };
+  const Vector together = mean(crowd, parties, way);
+  double most[] = {0};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    most[0] = std::max(most[0], (way(k) - together).norm() / skins.of[k]);
+  }
+  crowd.domain.communicator.max(most);
+  return most[0];
+}
+
+}  // namespace strut::contact
