@@ -6,12 +6,12 @@
 //   bonded   all within the smallest horizon of each other in the reference state (within a body), or
 //   calm     no two that are not bonded closer by so much of a horizon as a touch takes, less their skins (the same),
 // and point by point only where they are none of these. Where material has hardly been strained everything within a
-// body is calm, however it has turned: of a body in flight, or of the struts that only bend, a search sees the
-// clusters.
+// body is calm, wherever it is and however it has turned.
 //
-// Calm: with Δ the difference of the displacements of both centres, two points are |ξ + Δ| apart but for what points of
-// a cluster move beside its centre (`spread`); and |ξ + Δ| − |ξ| varies with ξ by 2 |Δ|/(|ξ| + |ξ + Δ|) a length at
-// most, so by that times both radii from what it is between the centres.
+// Calm: a point of a cluster stands at y = p + R (X − C) but for its `spread`, with the rotation R that fits best. Seen
+// from the frame of the first cluster two points are |ξ + Δ| apart, Δ = R₁ᵀ(p₂ − p₁) − (C₂ − C₁), but for both spreads
+// and for |R₂ − R₁| times the size of the second. And |ξ + Δ| − |ξ| varies with ξ by 2 |Δ|/(|ξ| + |ξ + Δ|) a length at
+// most (Dunkl & Williams 1964), so by that times both sizes from what it is between the centres.
 #pragma once
 
 #include <utility>

@@ -1,7 +1,6 @@
 #include "contact/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/timing.hpp"
 #include "contact/skins.hpp"
@@ -12,7 +11,7 @@ namespace {
 
 // The skins of a pair together, in units of the smaller horizon. Points that are not bonded start at least a horizon
 // apart, and a pair touches at 0.9 of its distance at the most: with less than a tenth, no pair of undeformed material
-// is in a list, and what is left of the tenth is the strain at which pairs get into lists.
+// is in a list but those of fast points, and what is left of the tenth is the strain at which others get there.
 constexpr double skin_share = 0.06;
 
 // A search is due this many steps before a skin is used up, since the motion of the next step is a forecast.
@@ -32,8 +31,6 @@ std::vector<int> points_of(const Domain& domain, int first, int second) {
   return points;
 }
 
-Vector place(const Crowd& crowd, int i) { return crowd.sites[i].current.head<3>().matrix(); }
-
 }  // namespace
 
 Contact::Contact(const std::vector<Interaction>& interactions, const Domain& domain) {
@@ -49,7 +46,7 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
 void Contact::search(const Crowd& crowd, double dt, Meeting& meeting) {
   const Parties& parties = meeting.parties;
   meeting.places.clear();
-  for (const int i : parties.points) meeting.places.push_back(place(crowd, i));
+  for (const int i : parties.points) meeting.places.push_back(crowd.place(i));
   meeting.mean_velocity = mean_velocity(crowd, parties);
   meeting.skins = skins_by_speed(crowd, parties, meeting.mean_velocity, meeting.skin, dt);
   meeting.pairs = find_pairs(crowd, parties, meeting.model, meeting.skins);
@@ -67,6 +64,7 @@ void Contact::look(const Crowd& crowd, double dt, Meeting& meeting) {
   const Timed timed(timer);
   meeting.due = false;
   if (!meeting.searched) return search(crowd, dt, meeting);
+  meeting.mean_velocity = mean_velocity(crowd, meeting.parties);
   meeting.used = part_used(crowd, meeting.parties, meeting.places, meeting.skins);
   if (meeting.used > most_used) search(crowd, dt, meeting);
 }

@@ -13,7 +13,8 @@ namespace {
 constexpr int site_stride = sizeof(Site) / sizeof(double);
 
 void bring_to_present(const Crowd& crowd, Pairs& pairs) {
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) pairs.sites[k].current = crowd.sites[pairs.owned[k]].current;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k)
+    pairs.sites[k].current = crowd.domain.sites[pairs.owned[k]].current;
   if (!pairs.halo) return;
   double* places = pairs.sites.empty() ? nullptr : pairs.sites.data()->current.data();
   pairs.halo->exchange(places, site_stride, 3);

@@ -32,7 +32,8 @@ struct Criterion {
 
   bool operator()(const Candidate& a, const Candidate& b) const {
     const Vector xi = reference(b) - reference(a);
-    const double reach = touching_distance(radius, xi.norm(), parties.one_body) + a.skin + b.skin;
+    const double reach =
+        touching_distance(radius, xi.norm(), parties.one_body) + (a.skin + b.skin);  // the same from both
     const double distance2 = (place(b) - place(a)).squaredNorm();
     return distance2 <= reach * reach && !(parties.one_body && bonded(a.current[3], b.current[3], xi));
   }

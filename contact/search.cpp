@@ -16,10 +16,8 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-Vector place(const Crowd& crowd, int i) { return crowd.sites[i].current.head<3>().matrix(); }
-
 Candidate candidate(const Crowd& crowd, int i, double skin) {
-  const Site& site = crowd.sites[i];
+  const Site& site = crowd.domain.sites[i];
   Candidate c{};
   std::copy_n(site.reference.data(), 4, c.reference);
   std::copy_n(site.current.data(), 4, c.current);
@@ -42,7 +40,7 @@ Site site(const Candidate& c) {
 Box box_of(const Crowd& crowd, const Parties& parties, int block) {
   Box mine;
   for (const int i : parties.points) {
-    if (crowd.domain.cloud.blocks[i] == block) mine.extend(place(crowd, i));
+    if (crowd.domain.cloud.blocks[i] == block) mine.extend(crowd.place(i));
   }
   return common_box(mine, crowd.domain.communicator);
 }
@@ -58,9 +56,9 @@ std::vector<int> near_points(const Crowd& crowd, const Parties& parties, double 
     const int i = parties.points[k];
     const Box& others = crowd.domain.cloud.blocks[i] == parties.first ? second : first;
     const double room =
-        others.isEmpty() ? std::numeric_limits<double>::infinity() : others.exteriorDistance(place(crowd, i)) - radius;
+        others.isEmpty() ? std::numeric_limits<double>::infinity() : others.exteriorDistance(crowd.place(i)) - radius;
     if (room <= skins.of[k] + skins.largest) return false;
-    skins.of[k] = static_cast<float>(std::min({room / 2, room - skins.largest, 1e30}));
+    skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({room / 2, room - skins.largest, 1e30}));  // rounds
     return true;
   });
   return near;
@@ -77,7 +75,7 @@ Pool pool_of(const Crowd& crowd, const Parties& parties, const std::vector<int>&
     places.push_back(place(pool.members.back()));
   }
   pool.owned = pool.members.size();
-  const double reach = radius + 2 * skins.largest;
+  const double reach = (radius + 2 * skins.largest) * (1 + 1e-9);  // a pair at the limit is found by both ranks
   const auto others =
       from_near_ranks<Candidate>(box_around(places), places, pool.members, reach, crowd.domain.communicator);
   pool.members.insert(pool.members.end(), others.begin(), others.end());

@@ -8,16 +8,16 @@
 
 #include "contact/pair_law.hpp"
 #include "points/domain.hpp"
-#include "points/site.hpp"
 
 namespace strut::contact {
 
-// This rank's points as they are now; what stands behind the owned ones is not looked at.
+// This rank's points as they are now; ghosts are not looked at.
 struct Crowd {
   const Domain& domain;
-  std::span<const Site> sites;
   std::span<const Vector> velocities;  // m/s
   std::span<const double> densities;   // kg/m³
+
+  Vector place(int i) const { return domain.sites[i].current.head<3>().matrix(); }
 };
 
 // The two blocks that may touch, and this rank's points of them.
@@ -47,7 +47,7 @@ struct Pairs {
 // m.
 struct Skins {
   std::vector<float> of;
-  double largest = 0;  // over all ranks, of points that are near the other party
+  double largest = 0;  // over all ranks; those of far points are larger
 };
 
 // Collective. All pairs of the parties that are not bonded and may touch before both ends have used up their skins. The

@@ -19,8 +19,6 @@ constexpr double steps_between = 32;
 // A mean is that of one point in so many: any motion that is the same on all ranks will do.
 constexpr std::size_t sampling = 16;
 
-Vector place(const Crowd& crowd, int i) { return crowd.sites[i].current.head<3>().matrix(); }
-
 // Collective. Of vectors that `of` gives for indices of parties.points.
 template <class Of>
 Vector mean(const Crowd& crowd, const Parties& parties, const Of& of) {
@@ -34,15 +32,16 @@ Vector mean(const Crowd& crowd, const Parties& parties, const Of& of) {
   return Vector(sums[0], sums[1], sums[2]) / std::max(1.0, sums[3]);
 }
 
-// Collective. A speed that no more than share_of_fast of the points exceed, to a quarter of a halving of the largest.
+// Collective. A speed that no more than share_of_fast of the points exceed, in steps of a quarter of a halving from the
+// largest on.
 double usual_speed(const std::vector<double>& speeds, const Communicator& communicator) {
   double fastest[] = {0};
   for (const double v : speeds) fastest[0] = std::max(fastest[0], v);
   communicator.max(fastest);
   std::array<double, 64> counts{};  // by the quarters of halvings that the speed is below the largest
   for (const double v : speeds) {
-    const double quarters = v > 0 ? 4 * std::log2(fastest[0] / v) : counts.size();
-    ++counts[static_cast<std::size_t>(std::clamp(quarters, 0.0, counts.size() - 1.0))];
+    const double quarters = v > 0 ? 4 * std::log2(fastest[0] / v) : counts.size();  // of speeds without end: NaN
+    ++counts[quarters > 0 ? static_cast<std::size_t>(std::min(quarters, counts.size() - 1.0)) : 0];
   }
   communicator.sum(counts);
   double all = 0, faster = 0, speed = fastest[0];
@@ -71,7 +70,7 @@ Skins skins_by_speed(const Crowd& crowd, const Parties& parties, const Vector& m
   Skins skins;
   double largest[] = {smallest};
   for (const double v : speeds) {
-    skins.of.push_back(static_cast<float>(std::clamp(v / usual, 1.0, widest) * smallest));
+    skins.of.push_back(static_cast<float>((v > usual ? std::min(v / usual, widest) : 1) * smallest));
     largest[0] = std::max<double>(largest[0], skins.of.back());
   }
   crowd.domain.communicator.max(largest);
@@ -89,7 +88,7 @@ double largest_use(const Crowd& crowd, const Parties& parties, const Vector& mea
 }
 
 double part_used(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Skins& skins) {
-  const auto way = [&](std::size_t k) -> Vector { return place(crowd, parties.points[k]) - places[k]; };
+  const auto way = [&](std::size_t k) -> Vector { return crowd.place(parties.points[k]) - places[k]; };
   const Vector together = mean(crowd, parties, way);
   double most[] = {0};
   for (std::size_t k = 0; k < places.size(); ++k) {

@@ -24,7 +24,7 @@ std::vector<Vector> start_velocities(const Scene& scene, double start, double du
   const double moment = 1e-3 * duration;  // over which a prescribed displacement is looked at
   for (const PrescribedMotion& motion : scene.conditions.motions) {
     for (const int i : motion.points) {
-      const Vector& X = scene.body.domain.positions[i];
+      const Vector X = scene.body.domain.reference(i);
       const auto value = [&](double t) { return motion.value(X[0], X[1], X[2], t); };
       velocities[i][motion.component] =
           motion.is_velocity ? value(start) : (value(start + moment) - value(start)) / moment;

@@ -17,7 +17,7 @@ void Frames::open(const Body& body) {
   if (!enabled_) return;
   std::vector<io::OutputField> fields;
   for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
-  writer_.emplace(file_, body.domain.communicator, body.domain.cloud, std::move(fields), before_);
+  writer_.emplace(file_, body.domain.communicator, whole_cloud(body.domain), std::move(fields), before_);
 }
 
 void Frames::write(double time, const Body& body) {

@@ -252,7 +252,7 @@ std::vector<int> degenerate_points(const Domain& domain, std::string& text) {
     if (!reason) continue;
     found.push_back(i);
     if (found.size() > 1) continue;
-    const Vector& X = domain.positions[i];
+    const Vector X = domain.reference(i);
     std::ostringstream line;
     line << word(domain.cloud.at) << " " << domain.cloud.element_ids[i] << " of block "
          << domain.cloud.block_names[domain.cloud.blocks[i]] << " at (" << X[0] << ", " << X[1] << ", " << X[2]
@@ -290,7 +290,7 @@ Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicat
       raise_together(communicator, text);
     }
     dropped += count;
-    cloud = without(domain.cloud, degenerate);
+    cloud = without(whole_cloud(domain), degenerate);
     if (communicator.sum(static_cast<std::int64_t>(cloud.size())) == 0) {
       raise_together(communicator, "Discretization > Degenerate Points: no point is left after dropping");
     }
@@ -299,7 +299,7 @@ Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicat
 
 void set_initial_velocity(const deck::Condition& condition, const std::vector<int>& points, double t, Body& body) {
   for (const int i : points) {
-    body.velocity[i][condition.component] = finite(condition.value, body.domain.positions[i], t);
+    body.velocity[i][condition.component] = finite(condition.value, body.domain.reference(i), t);
   }
 }
 
@@ -317,7 +317,7 @@ Shape shape_of(const deck::Condition& condition) {
 // `place`: of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, double t, Scene& scene) {
   std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
-  for (const int i : points) finite(condition.value, scene.body.domain.positions[i], t);
+  for (const int i : points) finite(condition.value, scene.body.domain.reference(i), t);
   Conditions& all = scene.conditions;
   const Vector normal = condition.normal.normalized();
   switch (condition.type) {

@@ -7,6 +7,23 @@
 
 namespace strut {
 
+// A rotation as it is kept: by two columns, the third of which is their cross product.
+class Rotation {
+ public:
+  Rotation() : Rotation(Tensor::Identity()) {}
+  explicit Rotation(const Tensor& R) : first_(R.col(0)), second_(R.col(1)) {}
+  Tensor tensor() const {
+    Tensor R;
+    R << first_, second_, first_.cross(second_);
+    return R;
+  }
+  double& number(int c) { return c < 3 ? first_[c] : second_[c - 3]; }  // 0 ≤ c < 6
+  double number(int c) const { return c < 3 ? first_[c] : second_[c - 3]; }
+
+ private:
+  Vector first_, second_;
+};
+
 template <class T>
 struct Polar {
   small::Tensor3<T> rotation;    // R

@@ -34,15 +34,6 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
   return blocks;
 }
 
-std::vector<Site> undeformed_sites(const Domain& domain) {
-  std::vector<Site> sites(domain.positions.size());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    sites[i].reference << domain.positions[i].array(), domain.volumes[i];
-    sites[i].current << domain.positions[i].array(), domain.horizons[i];
-  }
-  return sites;
-}
-
 // Room for the states of the formulations that any block of the scene has, on this rank or another.
 ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& materials) {
   const auto any = [&materials](Formulation formulation) {
@@ -92,13 +83,13 @@ void set_shapes(Body& body) {
   for (MaterialBlock& block : body.blocks) {
     if (block.lattice >= 0) continue;
     for (const Part part : {Part::interior, Part::boundary}) {
-      set_shapes(body, block, Groups(body, block, part), {body.sites.data()});
+      set_shapes(body, block, Groups(body, block, part), {body.domain.sites.data()});
     }
   }
   for (const LatticeFamilies& lattice : body.domain.families.lattices) {
     LatticeSums& sums = *body.lattice_sums.emplace_back(std::make_shared<LatticeSums>(body, lattice));
     const int number = static_cast<int>(body.lattice_sums.size()) - 1;
-    const Displacements places = places_in(lattice, body.sites);
+    const Displacements places = places_in(lattice, body.domain.sites);
     sums.moments(places, [&](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
         if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), places);
@@ -112,7 +103,7 @@ void set_what_blocks_feel(Body& body) {
     for (MaterialBlock& block : body.blocks) block.feels_correspondence = true;
     return;
   }
-  std::vector<double> ordinary(body.sites.size());
+  std::vector<double> ordinary(body.domain.sites.size());
   for (const MaterialBlock& block : body.blocks) {
     for (const int i : block.points) ordinary[i] = block.is_ordinary() ? 1 : 0;
   }
@@ -132,11 +123,9 @@ void set_what_blocks_feel(Body& body) {
 
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials) {
   std::vector<MaterialBlock> blocks = blocks_of(domain, materials);
-  std::vector<Site> sites = undeformed_sites(domain);
   Body body{.domain = std::move(domain),
             .influence = influence,
             .blocks = std::move(blocks),
-            .sites = std::move(sites),
             .force_states = {},
             .points = {},
             .density = {},
@@ -148,7 +137,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .residual = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
-  body.force_states = zero_states(body.sites.size(), materials);
+  body.force_states = zero_states(body.domain.sites.size(), materials);
   body.points.resize(owned);
   for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);
   body.velocity.assign(owned, Vector::Zero());
@@ -169,8 +158,7 @@ namespace {
 
 // What bonds and contacts read of a point, ghosts too.
 std::size_t seen_bytes(const Body& body) {
-  return sizeof(Site) + sizeof(Vector) + 2 * sizeof(double) +  // domain: positions, volumes, horizons
-         (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
+  return sizeof(Site) + (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
          (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
          (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
 }
@@ -179,8 +167,7 @@ std::size_t seen_bytes(const Body& body) {
 std::size_t own_bytes(const MaterialBlock& block) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
   constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
-  constexpr std::size_t cloud =
-      2 * sizeof(std::int64_t) + sizeof(Vector) + 2 * sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
+  constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
   return mechanics + cloud + state * sizeof(double) + (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) +
          (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
 }
@@ -188,7 +175,7 @@ std::size_t own_bytes(const MaterialBlock& block) {
 }  // namespace
 
 double footprint(const Body& body) {
-  double bytes = body.domain.families.bytes() + static_cast<double>(seen_bytes(body) * body.sites.size());
+  double bytes = body.domain.families.bytes() + static_cast<double>(seen_bytes(body) * body.domain.sites.size());
   for (const MaterialBlock& block : body.blocks) bytes += static_cast<double>(own_bytes(block) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   return bytes;

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/rotation.hpp"
 #include "base/tensors.hpp"
 #include "materials/laws.hpp"
 #include "points/domain.hpp"
@@ -50,7 +51,7 @@ struct ForceStates {
 // What only the point itself reads.
 struct MaterialPoint {
   Tensor deformation_gradient = Tensor::Identity();  // F
-  Tensor rotation = Tensor::Identity();              // R
+  Rotation rotation;                                 // R
   Symmetric stress = Symmetric::Zero();              // unrotated Cauchy stress, Pa
   Symmetric shape_inverse = Symmetric::Zero();       // K⁻¹, 1/m⁵
   double stabilization = 0;                          // C, Pa/m⁵
@@ -125,13 +126,11 @@ class LatticeSums;
 inline double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
 
 struct Body {
-  Domain domain;
+  Domain domain;  // y of its sites is what solvers move
   Influence influence = Influence::one;
   std::vector<MaterialBlock> blocks;  // as domain.cloud.block_names
 
-  // Owned points and ghosts.
-  std::vector<Site> sites;
-  ForceStates force_states;
+  ForceStates force_states;  // of owned points and ghosts
 
   // Owned points.
   std::vector<MaterialPoint> points;
@@ -151,9 +150,9 @@ struct Body {
   int owned() const { return domain.owned; }
   // The step of a point's stress as a part of the one that is halved `order` times.
   double share(int i, int order = 0) const { return halvings.empty() ? 1 : power_of_two(order - halvings[i]); }
-  double mass(int i) const { return density[i] * domain.volumes[i]; }
-  Vector current(int i) const { return sites[i].current.head<3>().matrix(); }
-  Vector displacement(int i) const { return current(i) - domain.positions[i]; }
+  double mass(int i) const { return density[i] * domain.volume(i); }
+  Vector current(int i) const { return domain.sites[i].current.head<3>().matrix(); }
+  Vector displacement(int i) const { return current(i) - domain.reference(i); }
 };
 
 // Collective. Shape tensors, stabilisation and undeformed state. `materials`: one for each block name of the cloud.

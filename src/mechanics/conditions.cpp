@@ -8,15 +8,15 @@ namespace strut {
 namespace {
 
 double at_point(const Function& value, const Body& body, int i, double t) {
-  const Vector& X = body.domain.positions[i];
+  const Vector X = body.domain.reference(i);
   return value(X[0], X[1], X[2], t);
 }
 
 // The velocity that carries point i along a prescribed motion from t to t + dt.
 double motion_velocity(const PrescribedMotion& motion, const Body& body, int i, double t, double dt) {
   if (motion.is_velocity) return at_point(motion.value, body, i, t + 0.5 * dt);
-  const double target = body.domain.positions[i][motion.component] + at_point(motion.value, body, i, t + dt);
-  return (target - body.sites[i].current[motion.component]) / dt;
+  const double target = body.domain.reference(i)[motion.component] + at_point(motion.value, body, i, t + dt);
+  return (target - body.domain.sites[i].current[motion.component]) / dt;
 }
 
 struct Push {
@@ -186,7 +186,7 @@ OpenEnd open_end(const std::vector<int>& points, const Vector& normal, const Bod
     end.drags.push_back({.point = i,
                          .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),
                          .across = 2 / s * std::sqrt(moduli.shear / material.density),
-                         .gain = std::max(1.0, 2 * body.domain.volumes[i] / (s * s * s))});
+                         .gain = std::max(1.0, 2 * body.domain.volume(i) / (s * s * s))});
   }
   return end;
 }
@@ -195,7 +195,7 @@ void add_work_of_body_forces(const Conditions& conditions, double t, double kick
   for (const BodyForce& load : conditions.body_forces) {
     const int c = load.component;
     for (const int i : load.points) {
-      const double half_impulse = 0.5 * at_point(load.value, body, i, t) * body.domain.volumes[i] * kick;
+      const double half_impulse = 0.5 * at_point(load.value, body, i, t) * body.domain.volume(i) * kick;
       work.before.external += half_impulse * body.previous_velocity[i][c];
       work.after.external += half_impulse * body.velocity[i][c];
     }

@@ -17,10 +17,10 @@ void keep_numbers(Archive& archive, const std::string& name, std::vector<double>
 // Collective. The mesh, to know it again: nothing of it is restored.
 void compare_reference(Archive& archive, const Body& body) {
   std::vector<Eigen::Array4d> kept;
-  for (int i = 0; i < body.owned(); ++i) kept.push_back(body.sites[i].reference);
+  for (int i = 0; i < body.owned(); ++i) kept.push_back(body.domain.sites[i].reference);
   archive.field("reference", 4, [&](std::size_t i, int c) -> double& { return kept[i][c]; });
   bool same = true;
-  for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.sites[i].reference).all();
+  for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.domain.sites[i].reference).all();
   raise_together(body.domain.communicator,
                  same ? ""
                       : "the mesh is not the one with which the run began: points are at other places, or of "
@@ -28,7 +28,7 @@ void compare_reference(Archive& archive, const Body& body) {
 }
 
 void keep_motion(Archive& archive, Body& body) {
-  archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.sites[i].current[c]; });
+  archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
   keep_vectors(archive, "velocity", body.velocity);
   keep_vectors(archive, "previous_velocity", body.previous_velocity);
   keep_vectors(archive, "force_density", body.force_density);
@@ -38,7 +38,7 @@ void keep_points(Archive& archive, Body& body) {
   std::vector<MaterialPoint>& points = body.points;
   archive.field("deformation_gradient", 9,
                 [&](std::size_t i, int c) -> double& { return points[i].deformation_gradient.data()[c]; });
-  archive.field("rotation", 9, [&](std::size_t i, int c) -> double& { return points[i].rotation.data()[c]; });
+  archive.field("rotation", 6, [&](std::size_t i, int c) -> double& { return points[i].rotation.number(c); });
   archive.field("stress", 6, [&](std::size_t i, int c) -> double& { return points[i].stress.data()[c]; });
   // A failed point has none left.
   archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
@@ -87,7 +87,7 @@ void keep(Archive& archive, Body& body) {
   keep_motion(archive, body);
   keep_points(archive, body);
   if (!archive.restores()) return;
-  body.domain.halo.exchange(body.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
 }
 
 }  // namespace strut

@@ -93,7 +93,7 @@ void LatticeSums::mark_places() {
 
 // With V in the place of V u or V |u|², moments and squares are what is looked for.
 void LatticeSums::set_constants(const Body& body) {
-  const auto volume = [&](int i, const auto& put) { put(0, body.domain.volumes[i]); };
+  const auto volume = [&](int i, const auto& put) { put(0, body.domain.volume(i)); };
   const auto each_owned = [&](const Chunk& chunk, const auto& set) {
     for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
       const int i = lattice_->point(cell / pencil_width, cell % pencil_width);

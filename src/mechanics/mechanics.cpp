@@ -154,7 +154,8 @@ struct ForceSum {
       over_groups(body, Groups(body, block, part), [&](const Group& group, auto weight) {
         const bonds::OfBundle family{*group.bundle};
         add(block, group,
-            bonds::ordinary_force(family, body.sites.data(), states.scalars.data(), weight, extension_of(family)),
+            bonds::ordinary_force(family, body.domain.sites.data(), states.scalars.data(), weight,
+                                  extension_of(family)),
             block.feels_correspondence);
       });
     }
@@ -207,7 +208,7 @@ template <class Weight>
 void set_tangent_scalars(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
                          Weight weight, std::vector<ScalarState>& result) {
   const bonds::OfBundle family{*group.bundle};
-  const Lanes moment = bonds::extensions(family, body.sites.data(), weight, bonds::OfField(family, field));
+  const Lanes moment = bonds::extensions(family, body.domain.sites.data(), weight, bonds::OfField(family, field));
   for (int l = 0; l < group.count; ++l) {
     const double m = block.ordinary[group.k[l]].weighted_volume;
     result[block.points[group.k[l]]] = scalar_state(block.moduli(group.k[l]), 3 * moment[l] / m, m);
@@ -248,7 +249,7 @@ namespace {
 StepReport advance(Body& body, const StressPass& pass, bool with_views) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
   StepReport report;
-  const Displacements u{body.sites.data()};
+  const Displacements u{body.domain.sites.data()};
   const auto advance = [&](MaterialBlock& block, const Groups& groups) {
     if (block.is_ordinary()) return advance_ordinary(body, block, with_views, groups, report);
     advance_stress(body, block, pass, groups, report);
@@ -274,7 +275,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
     return report;
   }
   behind_exchange(
-      body.domain.halo, places(body.sites), site_stride, 3, [&] { over(Part::interior); },
+      body.domain.halo, places(body.domain.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
   return report;
 }
@@ -291,7 +292,7 @@ void sum_forces(Body& body, bool with_views) {
     for (const int i : block.points) body.force_density[i].setZero();
   }
   if (all_undisturbed(body)) return;
-  const Displacements u{body.sites.data()};
+  const Displacements u{body.domain.sites.data()};
   if (!body.force_states.gradients.empty()) {
     const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
@@ -327,7 +328,7 @@ double pace(const Body& body, const MaterialBlock& block, int k) {
   const Tensor& F = point.deformation_gradient;
   const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
   const double modulus = block.moduli(k).longitudinal();
-  return std::sqrt(modulus / body.density[i] * body.domain.volumes[i] * trace(point.shape_inverse) / 3 * steepness);
+  return std::sqrt(modulus / body.density[i] * body.domain.volume(i) * trace(point.shape_inverse) / 3 * steepness);
 }
 
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
@@ -353,7 +354,7 @@ template <class L>
 void add_energies(const Body& body, const MaterialBlock& block, const L& law, Energies& sum) {
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
-    const double volume = body.domain.volumes[i];
+    const double volume = body.domain.volume(i);
     const double J = body.points[i].deformation_gradient.determinant();
     const auto state = block.state_of<L>(k);
     sum.elastic += J * law.elastic_energy(body.points[i].stress, state) * volume;
@@ -364,7 +365,7 @@ void add_energies(const Body& body, const MaterialBlock& block, const L& law, En
 
 void add_ordinary_energies(const Body& body, const MaterialBlock& block, Energies& sum) {
   for (std::size_t k = 0; k < block.points.size(); ++k) {
-    sum.elastic += block.ordinary[k].energy * body.domain.volumes[block.points[k]];
+    sum.elastic += block.ordinary[k].energy * body.domain.volume(block.points[k]);
   }
 }
 
@@ -379,8 +380,7 @@ Energies stored_energies(const Body& body) {
       std::visit([&](const auto& law) { add_energies(body, block, law, sum); }, block.material.law);
     }
   }
-  sum.stabilization =
-      total(0, body.owned(), [&](int i) { return body.stabilization_work[i] * body.domain.volumes[i]; });
+  sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work[i] * body.domain.volume(i); });
   double values[] = {sum.elastic, sum.dissipated, sum.stabilization};
   body.domain.communicator.sum(values);
   return {values[0], values[1], values[2]};
@@ -395,7 +395,7 @@ std::string locate(const Body& body, int i) {
   };
   std::ostringstream text;
   text << word(cloud.at) << " " << cloud.element_ids[i] << " of block " << cloud.block_names[cloud.blocks[i]]
-       << ", reference position " << place(cloud.positions[i]) << " m, now at " << place(body.current(i)) << " m";
+       << ", reference position " << place(body.domain.reference(i)) << " m, now at " << place(body.current(i)) << " m";
   return text.str();
 }
 

@@ -51,7 +51,7 @@ double pace(const Body& body, const MaterialBlock& block, int k);
 double largest_pace(const Body& body, const MaterialBlock& block);
 
 // Collective. The linearised operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
-// `directions` holds v in the place of y: a scratch copy of body.sites.
+// `directions` holds v in the place of y: a copy of the body's sites, or these themselves where no block is ordinary.
 // `tangents`: of the owned points by correspondence (tangent.hpp); if null, those of the elastic moduli, without the
 // geometric stiffness (of the order stress/modulus), which is left out of ordinary points in any case.
 // `scratch`: a copy of body.force_states, or these themselves: forces and the next stresses do without.

@@ -39,7 +39,8 @@ Tensor by_rows(const Tensor& t) { return t.transpose(); }
 
 Symmetric cauchy(const Body& body, int i) {
   const MaterialPoint& p = body.points[i];
-  return symmetric_part(p.rotation * to_tensor(p.stress) * p.rotation.transpose());
+  const Tensor R = p.rotation.tensor();
+  return symmetric_part(R * to_tensor(p.stress) * R.transpose());
 }
 
 double weighted_volume(const Body& body, int i) { return to_tensor(body.points[i].shape_inverse).inverse().trace(); }
@@ -51,7 +52,7 @@ Observable dilatation() {
     for (const MaterialBlock& block : body.blocks) {
       for (std::size_t k = 0; k < block.points.size(); ++k) {
         const MaterialPoint& p = body.points[block.points[k]];
-        const double traced = p.rotation.cwiseProduct(p.deformation_gradient).sum() - 3;
+        const double traced = p.rotation.tensor().cwiseProduct(p.deformation_gradient).sum() - 3;
         out[block.points[k]] = block.is_ordinary() ? block.ordinary[k].dilatation : traced;
       }
     }
@@ -77,17 +78,18 @@ std::vector<Observable> kinematic() {
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
       observable(
           "Force", "internal force and loads, N; where points are stepped alone, what acts at the end of a step",
-          [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volumes[i]; }, true),
+          [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
       observable(
           "Force_Density", "the same per reference volume, N/m³",
           [](const Body& b, int i) { return b.force_density[i]; }, true),
       observable("Deformation_Gradient", "F",
                  [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
-      observable("Rotation_Tensor", "R of F = V R", [](const Body& b, int i) { return by_rows(b.points[i].rotation); }),
+      observable("Rotation_Tensor", "R of F = V R",
+                 [](const Body& b, int i) { return by_rows(b.points[i].rotation.tensor()); }),
       observable("Left_Stretch_Tensor", "V of F = V R",
                  [](const Body& b, int i) {
                    const MaterialPoint& p = b.points[i];
-                   return symmetric_part(p.deformation_gradient * p.rotation.transpose());
+                   return symmetric_part(p.deformation_gradient * p.rotation.tensor().transpose());
                  }),
       observable("Residual", "of F: the root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
                  [](const Body& b, int i) { return std::sqrt(std::max(0.0, b.residual[i]) / weighted_volume(b, i)); }),
@@ -109,9 +111,9 @@ std::vector<Observable> stresses() {
 
 std::vector<Observable> fixed_properties() {
   return {
-      observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volumes[i]; }),
+      observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volume(i); }),
       observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
-      observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizons[i]; }),
+      observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizon(i); }),
       observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵", weighted_volume),
       observable("Number_Of_Neighbors", "size of the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),

@@ -21,7 +21,7 @@ void advance_points(Body& body, MaterialBlock& block, Weight weight, const Group
   for_each_point(0, groups.count(), [&, weight](int g) {
     const Group group = groups[g];
     const bonds::OfBundle family{*group.bundle};
-    const bonds::Lanes moment = bonds::extensions(family, body.sites.data(), weight, bonds::OfPlaces(family));
+    const bonds::Lanes moment = bonds::extensions(family, body.domain.sites.data(), weight, bonds::OfPlaces(family));
     for (int l = 0; l < group.count; ++l) {
       OrdinaryPoint& point = block.ordinary[group.k[l]];
       const double m = point.weighted_volume;
@@ -47,15 +47,16 @@ void set_views(Body& body, MaterialBlock& block, Weight weight, const Groups& gr
   for_each_point(0, groups.count(), [&, weight](int g) {
     const Group group = groups[g];
     const bonds::OfBundle family{*group.bundle};
-    const bonds::Lanes squares = bonds::squared_extensions(family, body.sites.data(), weight);
-    const auto N = bonds::gather(family, body.sites.data(), weight);
+    const bonds::Lanes squares = bonds::squared_extensions(family, body.domain.sites.data(), weight);
+    const auto N = bonds::gather(family, body.domain.sites.data(), weight);
     for (int l = 0; l < group.count; ++l) {
       OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
       ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);
       MaterialPoint& point = body.points[block.points[group.k[l]]];
       point.deformation_gradient = at(N, l) * to_tensor(point.shape_inverse);
-      point.rotation = polar_rotation(point.deformation_gradient);
-      point.stress = stress_of(moduli, point.rotation.transpose() * point.deformation_gradient);
+      const Tensor R = polar_rotation(point.deformation_gradient);
+      point.rotation = Rotation(R);
+      point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient);
     }
   });
 }

@@ -19,7 +19,10 @@ namespace {
 template <class L>
 void store(MaterialBlock& block, std::size_t k, const typename L::State& state) {
   const auto columns = materials::to_columns<L>(state);
-  for (std::size_t c = 0; c < columns.size(); ++c) block.state[c * block.points.size() + k] = columns[c];
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    double& kept = block.state[c * block.points.size() + k];
+    if (kept != columns[c]) kept = columns[c];  // below yield nothing changes: memory need not be written
+  }
 }
 
 // ---- Points side by side -------------------------------------------------------------------------------------------
@@ -54,6 +57,18 @@ LaneTensor tensors(const Members& g, Tensor MaterialPoint::*field) {
   return t;
 }
 
+LaneTensor rotations(const Members& g) {
+  LaneTensor R;
+  for (int c = 0; c < 6; ++c) {
+    R.c[c % 3][c / 3] = lanes(g, [=](const MaterialPoint& p) { return p.rotation.number(c); });
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    R.c[i][2] = R.c[j][0] * R.c[k][1] - R.c[k][0] * R.c[j][1];
+  }
+  return R;
+}
+
 LaneSymmetric symmetrics(const Members& g, Symmetric MaterialPoint::*field) {
   LaneSymmetric s;
   for (int c = 0; c < 6; ++c) s.c[c] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)[c]; });
@@ -63,7 +78,7 @@ LaneSymmetric symmetrics(const Members& g, Symmetric MaterialPoint::*field) {
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
 // linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
 LaneSymmetric strain_rate(const Members& g, const LaneSymmetric& stretch, const Lanes& dt) {
-  const LaneTensor R = tensors(g, &MaterialPoint::rotation), F = tensors(g, &MaterialPoint::deformation_gradient);
+  const LaneTensor R = rotations(g), F = tensors(g, &MaterialPoint::deformation_gradient);
   const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
   LaneSymmetric difference, middle;
   for (int c = 0; c < 6; ++c) {
@@ -120,7 +135,7 @@ struct Update {
     for (int l = 0; l < g.count; ++l) {
       if (!(J[l] > 0) || !(stiffness[l] > 0)) continue;
       const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
-      const double length = std::cbrt(body.sites[block.points[g.k[l]]].reference[3]) / std::sqrt(steepness2[l]);
+      const double length = std::cbrt(body.domain.volume(block.points[g.k[l]])) / std::sqrt(steepness2[l]);
       const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
       q[l] = block.material.density / J[l] * jump * by_speed;
       ViscousPoint& point = block.viscous[g.k[l]];
@@ -158,7 +173,7 @@ struct Update {
 
   void store_point(const Members& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A) const {
     MaterialPoint& point = *g.points[l];
-    point.rotation = at(polar.rotation, l);
+    point.rotation = Rotation(at(polar.rotation, l));
     point.deformation_gradient = at(F, l);
     const int i = block.points[g.k[l]];
     const double share = body.share(i, pass.order);
@@ -170,7 +185,7 @@ struct Update {
 
   // F of the points of a group.
   LaneTensor deformation_gradient(const Members& g, const LaneSymmetric& shape_inverse) const {
-    const LaneTensor N = moments(block, g, {body.sites.data()}, weight);
+    const LaneTensor N = moments(block, g, {body.domain.sites.data()}, weight);
     LaneTensor F = small::product(N, small::full(shape_inverse));
     if (!g.bundle) {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
@@ -180,7 +195,7 @@ struct Update {
 
   // Each further update squares what the first one left.
   Polar<Lanes> polar_of(const Members& g, const LaneTensor& F) const {
-    Polar<Lanes> polar = polar_update(tensors(g, &MaterialPoint::rotation), F);
+    Polar<Lanes> polar = polar_update(rotations(g), F);
     for (int n = 0; pass.of_any_size && n < 3; ++n) polar = polar_update(polar.rotation, F);
     return polar;
   }
@@ -212,7 +227,7 @@ struct Update {
       if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, stiffness, J, pass.dt * share);
     }
     const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share, viscous);
-    const Lanes volume = of_points(g, [this](int i) { return body.sites[i].reference[3]; });
+    const Lanes volume = of_points(g, [this](int i) { return body.domain.volume(i); });
     const Lanes pace2 = stiffness * share * share * J * volume * small::square(inverse_stretch) *
                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
@@ -269,12 +284,13 @@ namespace {
 template <class Weight>
 Lanes squared_residuals(const Body& body, const MaterialBlock& block, const Group& group, Weight weight) {
   if (group.bundle) {
-    return bonds::squared_residual(bonds::OfBundle{*group.bundle}, body.sites.data(), body.points.data(), weight);
+    return bonds::squared_residual(bonds::OfBundle{*group.bundle}, body.domain.sites.data(), body.points.data(),
+                                   weight);
   }
   Lanes result = Lanes::Zero();
   for (int l = 0; l < group.count; ++l) {
     const int i = block.points[group.k[l]];
-    result[l] = group.chunk->squared_residual(i, {body.sites.data()}, body.points[i]);
+    result[l] = group.chunk->squared_residual(i, {body.domain.sites.data()}, body.points[i]);
   }
   return result;
 }

@@ -119,7 +119,7 @@ Paces paces_of(const Body& body) {
 // The ghosts' too.
 void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) {
   std::vector<double> values(numbers.begin(), numbers.end());
-  values.resize(body.sites.size());
+  values.resize(body.domain.sites.size());
   halo.exchange(values.data(), 1, 1);
   numbers.assign(values.begin(), values.end());
 }
@@ -188,7 +188,7 @@ template <class Weight>
 Vector own_stretch(const Body& body, const ForceState& state, int i, Weight weight) {
   Vector sum = Vector::Zero();
   if (state.column[0][3] == 0) return sum;
-  bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), weight,
+  bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
               [&](int j, double w, const auto&, double) { sum += w * (body.current(j) - body.current(i)); });
   return sum;
 }
@@ -196,7 +196,7 @@ Vector own_stretch(const Body& body, const ForceState& state, int i, Weight weig
 // Global ids of owned points and ghosts.
 std::vector<double> all_ids(Body& body) {
   std::vector<double> ids(body.domain.cloud.ids.begin(), body.domain.cloud.ids.end());
-  ids.resize(body.sites.size());
+  ids.resize(body.domain.sites.size());
   body.domain.halo.exchange(ids.data(), 1, 1);
   return ids;
 }
@@ -282,7 +282,7 @@ Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::ui
   bonds::with_influence(body.influence, [&](auto weight) {
     for (const int i : result.moved) {
       Vector& moment = result.first_moments.emplace_back(Vector::Zero());
-      bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), weight,
+      bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
                   [&](int, double w, const auto& xi, double) { moment += w * Vector(xi.c[0], xi.c[1], xi.c[2]); });
     }
   });
@@ -292,7 +292,7 @@ Subcycles::Order Subcycles::order_of(const Body& body, const std::vector<std::ui
 StepReport Subcycles::forces(Body& body, int order, double dt) {
   Order& now = orders_[order - 1];
   StepReport report;
-  now.halo.exchange(body.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  now.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (!body.blocks[b].undisturbed && !now.stressed[b].places.empty()) {
       advance_stress(body, body.blocks[b], {dt, order}, Groups(now.stressed[b]), report);
@@ -306,7 +306,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
       const bonds::OfBundle family{now.sources[b]};
       const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(),
                                                small::Lanes::Zero()};
-      const auto far = bonds::force<true>(family, body.sites.data(), states.data(), none, weight);
+      const auto far = bonds::force<true>(family, body.domain.sites.data(), states.data(), none, weight);
       for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
         const int i = family.bundle.points[l];
         if (is_undisturbed(body, i)) continue;  // its force is zero, and its states are not kept
@@ -334,7 +334,7 @@ void Subcycles::add_residuals(Body& body, Order& now, int order) const {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, now.sources.count(), [&, weight](int b) {
       const bonds::OfBundle family{now.sources[b]};
-      const auto sums = bonds::residual(family, body.sites.data(), states.gradients.data(), weight);
+      const auto sums = bonds::residual(family, body.domain.sites.data(), states.gradients.data(), weight);
       for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
         const int i = family.bundle.points[l];
         if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0) || is_undisturbed(body, i)) continue;

@@ -7,14 +7,14 @@ namespace strut {
 
 void Committed::take(const Body& body) {
   places_.resize(body.owned());
-  for (int i = 0; i < body.owned(); ++i) places_[i] = body.sites[i].current;
+  for (int i = 0; i < body.owned(); ++i) places_[i] = body.domain.sites[i].current;
   points_ = body.points;
   states_.clear(), viscous_.clear();
   for (const MaterialBlock& block : body.blocks) states_.push_back(block.state), viscous_.push_back(block.viscous);
 }
 
 void Committed::restore(Body& body) const {
-  for (int i = 0; i < body.owned(); ++i) body.sites[i].current = places_[i];
+  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current = places_[i];
   restore_materials(body);
 }
 
@@ -43,7 +43,7 @@ struct Unrotated {
 };
 
 Unrotated unrotated(const MaterialPoint& point) {
-  const Tensor U = to_tensor(symmetric_part(point.rotation.transpose() * point.deformation_gradient));
+  const Tensor U = to_tensor(symmetric_part(point.rotation.tensor().transpose() * point.deformation_gradient));
   const Tensor inverse_U = U.inverse();
   const double J = U.determinant();
   return {U, inverse_U, J * to_tensor(point.stress) * inverse_U, (U.trace() * Tensor::Identity() - U).inverse(), J};
@@ -58,11 +58,12 @@ Tensor change_of_stress(const Unrotated& at, const materials::StretchTangent& by
 
 PointTangent point_tangent(const MaterialPoint& point, const materials::StretchTangent& by_stretch) {
   const Unrotated at = unrotated(point);
+  const Tensor R = point.rotation.tensor();
   PointTangent tangent;
   for (int n = 0; n < 9; ++n) {
     Tensor dF = Tensor::Zero();
     dF.data()[n] = 1;
-    const Tensor dP = point.rotation * change_of_stress(at, by_stretch, point.rotation.transpose() * dF);
+    const Tensor dP = R * change_of_stress(at, by_stretch, R.transpose() * dF);
     tangent.by_gradient.col(n) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(dP.data());
   }
   return tangent;
@@ -79,7 +80,7 @@ template <class L>
 materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
                                      const typename L::State& state) {
   const auto stretch = [](const MaterialPoint& p) {
-    return symmetric_part(p.rotation.transpose() * p.deformation_gradient);
+    return symmetric_part(p.rotation.tensor().transpose() * p.deformation_gradient);
   };
   const materials::PointStep step = materials::step_between(stretch(old), stretch(now), dt);
   return materials::tangent_of(law, step, old.stress, state, stretch(old));

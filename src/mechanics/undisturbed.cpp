@@ -38,7 +38,7 @@ void add(const Body& body, const MaterialBlock& block, VelocityRange& range) {
 
 bool is_in_place(const Body& body, const MaterialBlock& block) {
   return std::all_of(block.points.begin(), block.points.end(), [&](int i) {
-    return (body.sites[i].current.head<3>() == body.sites[i].reference.head<3>()).all();
+    return (body.domain.sites[i].current.head<3>() == body.domain.sites[i].reference.head<3>()).all();
   });
 }
 

@@ -13,8 +13,8 @@ class CellGrid {
   // `reach`: the largest distance (m) that visit_near will be asked for.
   // Cells of half of it: those looked at have 3.7 times the volume of the sphere, with the whole reach 6.4 times.
   CellGrid(const std::vector<Vector>& points, double reach) : CellGrid(points, reach, reach / 2) {}
-  // `width`: of a cell, m, or more if there would be many times as many cells as points.
-  CellGrid(const std::vector<Vector>& points, double reach, double width);
+  // By whole cells; their width, m, is larger if there would be many times as many cells as points.
+  static CellGrid of_width(const std::vector<Vector>& points, double width) { return {points, width, width}; }
 
   // Calls visit(j, place of j) for every point in the cells within `reach` of x: a superset of the points that near.
   template <class Visit>
@@ -27,6 +27,7 @@ class CellGrid {
   void visit_rows(const Eigen::AlignedBox3d& box, Visit&& visit) const;
 
  private:
+  CellGrid(const std::vector<Vector>& points, double reach, double width);
   Eigen::Array3i cell_of(const Vector& x) const;
   std::size_t index(int i, int j, int k) const { return (static_cast<std::size_t>(k) * shape_[1] + j) * shape_[0] + i; }
 

@@ -263,40 +263,44 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
   const Order order = order_of(stencils, grid, pool, cloud.blocks, reach);
   PointCloud mine = reordered(cloud, order.points);
+  mine.positions = {}, mine.volumes = {};
   std::vector<int> local(pool.ids.size(), -1);
-  std::vector<Vector> positions;
-  std::vector<double> volumes, horizons;
+  std::vector<Site> sites;
+  sites.reserve(order.points.size() + order.ghosts.size());
   std::vector<std::int64_t> ghost_ids;
   std::vector<int> bodies;
   std::vector<int> members = order.points;
   members.insert(members.end(), order.ghosts.begin(), order.ghosts.end());
   for (const int p : members) {
-    local[p] = static_cast<int>(positions.size());
-    positions.push_back(pool.positions[p]);
-    volumes.push_back(pool.volumes[p]);
-    horizons.push_back(pool.horizons[p]);
+    local[p] = static_cast<int>(sites.size());
+    Site& site = sites.emplace_back();
+    site.reference << pool.positions[p].array(), pool.volumes[p];
+    site.current << pool.positions[p].array(), pool.horizons[p];
     bodies.push_back(pool.bodies[p]);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
   }
   Families families{lists_of(stencils, grid, pool, cloud.blocks, order, local, reach), {}, {}};
   if (!frames.empty()) {
+    std::vector<Vector> positions;
+    for (const int p : members) positions.push_back(pool.positions[p]);
     Stencils own = stencils_of(frames, positions, bodies, owned);
     families.lattices = std::move(own.lattices);
     families.lattice_of = std::move(own.of);
     families.lattice_of.resize(owned);
   }
   Halo halo(communicator, mine.ids, ghost_ids);
-  return {communicator,
-          std::move(mine),
-          order.interior,
-          owned,
-          static_cast<int>(order.ghosts.size()),
-          std::move(positions),
-          std::move(volumes),
-          std::move(horizons),
-          std::move(blocks),
-          std::move(families),
-          std::move(halo)};
+  return {
+      communicator,     std::move(mine),   order.interior,      owned,          static_cast<int>(order.ghosts.size()),
+      std::move(sites), std::move(blocks), std::move(families), std::move(halo)};
+}
+
+PointCloud whole_cloud(const Domain& domain) {
+  PointCloud cloud = domain.cloud;
+  for (int i = 0; i < domain.owned; ++i) {
+    cloud.positions.push_back(domain.reference(i));
+    cloud.volumes.push_back(domain.volume(i));
+  }
+  return cloud;
 }
 
 std::size_t Families::bonds() const {
@@ -322,8 +326,8 @@ double Families::bytes() const {
 Tensor family_spread(const Domain& domain, int i) {
   Tensor spread = Tensor::Zero();
   domain.families.for_each(i, [&](int j) {
-    const Vector xi = domain.positions[j] - domain.positions[i];
-    spread += domain.volumes[j] * xi * xi.transpose();
+    const Vector xi = domain.reference(j) - domain.reference(i);
+    spread += domain.volume(j) * xi * xi.transpose();
   });
   return spread;
 }

@@ -8,6 +8,7 @@
 #include "points/cloud.hpp"
 #include "points/families.hpp"
 #include "points/halo.hpp"
+#include "points/site.hpp"
 
 namespace strut {
 
@@ -48,21 +49,25 @@ struct BlockHorizons {
 // [owned, owned + ghosts) owned by other ranks.
 struct Domain {
   Communicator communicator;
-  PointCloud cloud;  // owned points
+  PointCloud cloud;  // owned points; their positions and volumes have gone to sites
   int interior = 0;
   int owned = 0;
   int ghosts = 0;
-  // Owned points and ghosts.
-  std::vector<Vector> positions;      // m
-  std::vector<double> volumes;        // m³
-  std::vector<double> horizons;       // m
+  std::vector<Site> sites;  // owned points and ghosts; they stand where they were read until a solver moves them
   std::vector<BlockHorizons> blocks;  // one each
   Families families;
   Halo halo;
+
+  Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
+  double volume(int i) const { return sites[i].reference[3]; }                     // m³
+  double horizon(int i) const { return sites[i].current[3]; }                      // δ, m
 };
 
 // Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud.
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator);
+
+// The owned points as they were read.
+PointCloud whole_cloud(const Domain& domain);
 
 // Collective. What a step takes of a point of each block for its bonds, in ns, roughly: for a partition.
 // `spacings`: the mean one of each block, m; 0 where it has no points.

@@ -43,7 +43,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   estimate_step();
 }
 
-contact::Crowd CentralDifference::crowd() const { return {body_.domain, body_.sites, body_.velocity, body_.density}; }
+contact::Crowd CentralDifference::crowd() const { return {body_.domain, body_.velocity, body_.density}; }
 
 void CentralDifference::estimate_step() {
   limit_ = stable_.estimate(body_);
@@ -172,7 +172,7 @@ StepReport CentralDifference::substep(int order, double t) {
   const int count = static_cast<int>(moved.size());
   for_each_point(0, count, [&](int n) {
     const int i = moved[n];
-    body_.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
+    body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
   });
   const double kick = std::ldexp(dt_, -order);
   const StepReport report = subcycles_.forces(body_, order, kick);
@@ -195,7 +195,7 @@ void CentralDifference::move(bool with_views) {
     const Timed timed(timer);
     const PointSteps steps = point_steps();
     for_each_point(0, body_.owned(),
-                   [&](int i) { body_.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array(); });
+                   [&](int i) { body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array(); });
   }
   time_ = next_time_;
   ++steps_;

@@ -23,7 +23,7 @@ double stiffness_scale(const Body& body) {
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
-      const double side = std::cbrt(body.domain.volumes[block.points[k]]);
+      const double side = std::cbrt(body.domain.volume(block.points[k]));
       sum += std::pow(block.moduli(k).longitudinal() * side * side, 2);
     }
   }
@@ -40,7 +40,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       committed_(body) {
   residual_.assign(body.owned(), Vector::Zero());
   outer_ = outer_before_ = forces_before_ = residual_;
-  directions_ = body.sites;
+  directions_ = body.domain.sites;
   floor_ = no_strain * stiffness_scale(body);
   looked_at_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
@@ -60,10 +60,10 @@ Imbalance Equilibrium::evaluate(bool with_views) {
   failure_ = report.failure;
   residual_ = body_.force_density;
   add_body_forces(conditions_, t_ + dt_, body_);
-  for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volumes[i] * (body_.force_density[i] - residual_[i]);
+  for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
   forces_.resize(body_.owned());
-  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volumes[i] * body_.force_density[i];
+  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
   return measure(report.failure.has_value());
 }
 
@@ -75,7 +75,7 @@ void Equilibrium::add_contact() {
     way[i] = body_.current(i) - looked_at_[i];
     looked_at_[i] += way[i];
   }
-  const contact::Crowd crowd{body_.domain, body_.sites, way, body_.density};
+  const contact::Crowd crowd{body_.domain, way, body_.density};
   std::vector<double> agreed;
   contact_.append_to_agree(crowd, agreed);
   body_.domain.communicator.max(agreed);
@@ -121,7 +121,7 @@ void Equilibrium::apply(const Field& field, Field& result) {
   const Timed timed(timer);
   for (int i = 0; i < body_.owned(); ++i) directions_[i].current.head<3>() = field[i].array();
   apply_tangent(body_, body_.domain.halo, directions_, &tangents_, body_.force_states, result);
-  for (int i = 0; i < body_.owned(); ++i) result[i] *= body_.domain.volumes[i];
+  for (int i = 0; i < body_.owned(); ++i) result[i] *= body_.domain.volume(i);
   contact_.add_stiffness(field, result);
   tools_.add_stiffness(field, result);
 }
@@ -166,7 +166,7 @@ void Equilibrium::keep(Archive& archive) {
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
   archive.number("largest_scale", largest_scale_);
-  const contact::Crowd crowd{body_.domain, body_.sites, body_.velocity, body_.density};
+  const contact::Crowd crowd{body_.domain, body_.velocity, body_.density};
   contact_.keep(archive, crowd, 0);
   tools_.keep(archive, body_);
   if (!archive.restores()) return;

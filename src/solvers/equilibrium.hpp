@@ -28,7 +28,7 @@ class Equilibrium {
   // Collective. A load step from t over dt (s) begins, at the committed places.
   void begin(double t, double dt);
 
-  // Collective. Forces at the present places of body().sites.
+  // Collective. Forces at the present places of body().domain.sites.
   Imbalance evaluate(bool with_views = false);
   const Field& residual() const { return residual_; }  // N, what is not held of the forces of the last trial
   // Where the last trial failed, or where its residual is largest: a sentence with point, block and place. Collective.

@@ -9,7 +9,7 @@ constexpr double smallest_part = 1e-8;
 
 // Where the motion takes its component of the place of point i, m.
 double place_of(const PrescribedMotion& motion, const Body& body, int i, double t, double dt) {
-  const Vector& X = body.domain.positions[i];
+  const Vector X = body.domain.reference(i);
   const auto value = [&](double time) { return motion.value(X[0], X[1], X[2], time); };
   if (motion.is_velocity) return body.current(i)[motion.component] + dt * value(t + 0.5 * dt);
   return X[motion.component] + value(t + dt);

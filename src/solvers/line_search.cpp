@@ -34,7 +34,7 @@ struct Bracket {
 }  // namespace
 
 void move_by(Body& body, double factor, const Field& step) {
-  for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * step[i].array();
+  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * step[i].array();
 }
 
 double power_along(const Equilibrium& equilibrium, const Body& body, const Field& step) {

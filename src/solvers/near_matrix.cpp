@@ -43,14 +43,14 @@ double shear_modulus(const PointTangent& tangent) {
 double spread(const Body& body, const std::vector<End>& ends, int i) {
   double sum = 0;
   body.domain.families.for_each(i, [&](int j) {
-    const Vector xi = body.domain.positions[j] - body.domain.positions[i];
-    if (near(ends[i], ends[j], xi)) sum += body.domain.volumes[j] * xi.squaredNorm();
+    const Vector xi = body.domain.reference(j) - body.domain.reference(i);
+    if (near(ends[i], ends[j], xi)) sum += body.domain.volume(j) * xi.squaredNorm();
   });
   return sum;
 }
 
 std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, const Held& held, std::int64_t first) {
-  std::vector<End> ends(body.sites.size());
+  std::vector<End> ends(body.domain.sites.size());
   for (int i = 0; i < body.owned(); ++i) {
     ends[i] = {static_cast<double>(first + i), 0, body.domain.cloud.spacings[i], held.freedom(i)};
   }
@@ -79,10 +79,11 @@ BlockRows near_matrix(Body& body, const std::vector<PointTangent>& tangents, con
     const std::size_t at = rows.columns.size();
     rows.columns.push_back(first + i), rows.blocks.emplace_back();
     body.domain.families.for_each(i, [&](int j) {
-      const Vector xi = body.domain.positions[j] - body.domain.positions[i];
+      const Vector xi = body.domain.reference(j) - body.domain.reference(i);
       if (!near(ends[i], ends[j], xi)) return;
-      const Vector e = (body.sites[j].current - body.sites[i].current).head<3>().matrix().stableNormalized();
-      const double k = body.domain.volumes[i] * body.domain.volumes[j] * (ends[i].stiffness + ends[j].stiffness);
+      const Vector e =
+          (body.domain.sites[j].current - body.domain.sites[i].current).head<3>().matrix().stableNormalized();
+      const double k = body.domain.volume(i) * body.domain.volume(j) * (ends[i].stiffness + ends[j].stiffness);
       const Tensor spring = k * ((1 - across) * e * e.transpose() + across * Tensor::Identity());
       diagonal += spring;
       rows.columns.push_back(static_cast<std::int64_t>(ends[j].number));

@@ -47,7 +47,7 @@ void QuasiStatic::extrapolate() {
   if (steps_ == 0) return;
   Body& body = equilibrium_.body();
   const double factor = dt_ / last_dt_;
-  for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += factor * last_step_[i].array();
+  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();
 }
 
 Search QuasiStatic::search_from_start(bool with_tangent) {

@@ -68,7 +68,7 @@ Search Relaxation::solve(const Tolerance& tolerance, int most) {
       const Vector kick = equilibrium_.residual()[i] / masses_[i];
       velocity[i] = ((2 - damping) * velocity[i] + 2 * kick) / (2 + damping);
       const Vector move = velocity[i] + way[i] / std::max(1, ramp - n);
-      body.sites[i].current.head<3>() += move.array();
+      body.domain.sites[i].current.head<3>() += move.array();
     }
     before = equilibrium_.residual();
     search.left = equilibrium_.evaluate();

@@ -54,9 +54,32 @@ Field widened(const StoredField& field) {
   return result;
 }
 
-void scale_by(Field& field, double factor) {
-  for (Vector& v : field) v *= factor;
-}
+// Sites that hold a field in the place of y: the body's own, which get their places back in the end, unless bonds along
+// their directions need these meanwhile.
+class Directions {
+ public:
+  explicit Directions(Body& body) : own_(body.domain.sites) {
+    if (!body.force_states.scalars.empty()) {
+      copy_ = own_;
+      return;
+    }
+    places_.reserve(own_.size());
+    for (const Site& site : own_) places_.push_back(site.current.head<3>().matrix());
+  }
+  Directions(const Directions&) = delete;
+  ~Directions() {
+    for (std::size_t i = 0; i < places_.size(); ++i) own_[i].current.head<3>() = places_[i].array();
+  }
+  std::vector<Site>& sites() { return copy_.empty() ? own_ : copy_; }
+  void set(const StoredField& field) {
+    for (std::size_t i = 0; i < field.size(); ++i) sites()[i].current.head<3>() = field[i].cast<double>().array();
+  }
+
+ private:
+  std::vector<Site>& own_;
+  std::vector<Site> copy_;
+  std::vector<Vector> places_;
+};
 
 // The tridiagonal matrix of Lanczos and its basis.
 struct Lanczos {
@@ -64,34 +87,32 @@ struct Lanczos {
   std::vector<StoredField> basis;
 };
 
-StoredField stored(const Field& field) {
+StoredField stored(const Field& field, double scale) {
   StoredField result;
   result.reserve(field.size());
-  for (const Vector& v : field) result.push_back(v.cast<float>());
+  for (const Vector& v : field) result.push_back((scale * v).cast<float>());
   return result;
 }
 
-Lanczos iterate(Body& body, Field q, int iterations) {
-  std::vector<Site> directions = body.sites;
+// From a start in `image`.
+Lanczos iterate(Body& body, Field image, int iterations) {
+  Directions directions(body);
   Lanczos lanczos;
-  Field image(body.owned());
-  scale_by(q, 1 / std::sqrt(inner(body, q, q)));
+  double length = std::sqrt(inner(body, image, image));
   for (int k = 0; k < iterations; ++k) {
-    for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = q[i].array();
-    lanczos.basis.push_back(stored(q));
-    apply_tangent(body, body.domain.halo, directions, nullptr, body.force_states, image);
+    lanczos.basis.push_back(stored(image, 1 / length));
+    directions.set(lanczos.basis.back());
+    apply_tangent(body, body.domain.halo, directions.sites(), nullptr, body.force_states, image);
     for (int i = 0; i < body.owned(); ++i) image[i] /= body.density[i];
-    lanczos.diagonal.push_back(inner(body, image, q));
+    lanczos.diagonal.push_back(inner(body, image, lanczos.basis.back()));
     // Against the whole basis: it is short, and ghosts of converged modes would spoil the residual.
     for (const StoredField& earlier : lanczos.basis) {
       const double overlap = inner(body, image, earlier);
       for (int i = 0; i < body.owned(); ++i) image[i] -= overlap * earlier[i].cast<double>();
     }
-    const double length = std::sqrt(inner(body, image, image));
+    length = std::sqrt(inner(body, image, image));
     lanczos.beside.push_back(length);
     if (!(length > smallest_rest * std::abs(lanczos.diagonal.front()))) break;  // the basis is invariant
-    q = image;
-    scale_by(q, 1 / length);
   }
   return lanczos;
 }
@@ -108,11 +129,11 @@ StoredField combine(const std::vector<StoredField>& basis, const Eigen::VectorXd
 
 }  // namespace
 
-// Of the basis, the mode and the next one; of the present vector, its image and the terms of a product; of the
-// directions.
+// Of the basis and the mode; of an image and the terms of a product; of places, or sites where these are needed.
 double StableStep::bytes(const Body& body) {
-  const double fields = (basis_size + 2.0) * sizeof(Eigen::Vector3f) + 2.0 * sizeof(Vector) + sizeof(double);
-  return fields * body.owned() + static_cast<double>(sizeof(Site) * body.sites.size());
+  const double fields = (basis_size + 1.0) * sizeof(Eigen::Vector3f) + sizeof(Vector) + sizeof(double);
+  const double seen = body.force_states.scalars.empty() ? sizeof(Vector) : sizeof(Site);
+  return fields * body.owned() + seen * static_cast<double>(body.domain.sites.size());
 }
 
 void StableStep::keep(Archive& archive, const Body& body) {

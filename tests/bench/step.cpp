@@ -68,7 +68,7 @@ void passes(benchmark::State& state) {
                             kind},
                            world);
   advance_stress_and_force(body, 1e-7, false);
-  const Site* sites = body.sites.data();
+  const Site* sites = body.domain.sites.data();
   const auto& states = body.force_states.tensors;
   const MaterialBlock& block = body.blocks[0];
   std::vector<small::Tensor3<small::Lanes>> moment(body.owned());  // room enough

@@ -29,21 +29,21 @@ class Textbook {
     std::vector<Vector> result(body_.owned(), Vector::Zero());
     for (int i = 0; i < body_.owned(); ++i) {
       for (const int j : families_[i]) {
-        result[i] += (force_state(i, j) - force_state(j, i)) * body_.domain.volumes[j];
+        result[i] += (force_state(i, j) - force_state(j, i)) * body_.domain.volume(j);
       }
     }
     return result;
   }
 
  private:
-  Vector xi(int i, int j) const { return body_.domain.positions[j] - body_.domain.positions[i]; }
+  Vector xi(int i, int j) const { return body_.domain.reference(j) - body_.domain.reference(i); }
   Vector eta(int i, int j) const { return body_.current(j) - body_.current(i); }
 
   template <class L>
   void advance(int i, const L& law, typename L::State& state, double dt) {
     Tensor K = Tensor::Zero(), N = Tensor::Zero();
     for (const int j : families_[i]) {
-      const double w = influence_(xi(i, j).norm()) * body_.domain.volumes[j];
+      const double w = influence_(xi(i, j).norm()) * body_.domain.volume(j);
       K += w * xi(i, j) * xi(i, j).transpose();
       N += w * eta(i, j) * xi(i, j).transpose();
     }

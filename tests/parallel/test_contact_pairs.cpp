@@ -6,13 +6,15 @@
 #include <random>
 
 #include "contact/contact.hpp"
+#include "contact/skins.hpp"
 #include "points/partition.hpp"
 
 namespace strut::contact {
 namespace {
 
 constexpr int count = 900;
-constexpr double horizon = 0.08, skin = 0.01;
+using Id = std::int64_t;
+constexpr double horizon = 0.08, skin = 0x1p-7;  // a number that a float holds
 const Model model{.radius = 0.1, .penalty = 1e3, .friction = 0.3};
 
 // Points of three blocks in a unit cube, in two bodies, moved at random so that many come near. All points on all
@@ -42,16 +44,38 @@ Scatter scatter() {
   return all;
 }
 
+constexpr int side = 11;
+constexpr double h = horizon / 3.1;
+
+// A block on a lattice whose points stand at place_of(X).
+template <class PlaceOf>
+Scatter block_on_lattice(const PlaceOf& place_of) {
+  Scatter all;
+  all.cloud.block_names = {"a", "b", "c"};
+  for (int i = 0; i < side * side * side; ++i) {
+    const Vector X = h * Vector(i % side, i / side % side, i / (side * side));
+    all.cloud.ids.push_back(i);
+    all.cloud.element_ids.push_back(i + 1);
+    all.cloud.positions.push_back(X);
+    all.cloud.volumes.push_back(h * h * h);
+    all.cloud.spacings.push_back(h);
+    all.cloud.blocks.push_back(0);
+    all.cloud.sets.push_back(0);
+    all.places.push_back(place_of(X));
+    all.velocities.push_back(Vector::Zero());
+  }
+  return all;
+}
+
 const std::vector<BlockBonds> bonds{{horizon, 0}, {horizon, 0}, {1.1 * horizon, 1}};
 
 // What this rank owns of it, moved.
 struct Part {
   Domain domain;
-  std::vector<Site> sites;
   std::vector<Vector> velocities;
   std::vector<double> densities;
 
-  Crowd crowd() const { return {domain, sites, velocities, densities}; }
+  Crowd crowd() const { return {domain, velocities, densities}; }
   Parties parties(int a, int b) const {
     Parties result{a, b, bonds[a].body == bonds[b].body, {}};
     for (int i = 0; i < domain.owned; ++i) {
@@ -59,25 +83,27 @@ struct Part {
     }
     return result;
   }
-  Pairs pairs(int a, int b) const {
+  std::vector<Vector> places(const Parties& parties) const {
+    std::vector<Vector> result;
+    for (const int i : parties.points) result.push_back(domain.sites[i].current.head<3>().matrix());
+    return result;
+  }
+  Pairs pairs(int a, int b, double both_skins = skin) const {
     const Parties found = parties(a, b);
-    Skins skins{std::vector<float>(found.points.size(), skin / 2), skin / 2};
+    Skins skins{std::vector<float>(found.points.size(), static_cast<float>(both_skins / 2)), both_skins / 2};
     return find_pairs(crowd(), found, model, skins);
   }
 };
 
 Part part_of(const Scatter& all, const Communicator& world) {
   std::vector<int> mine;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < static_cast<int>(all.places.size()); ++i) {
     if (i % world.size() == world.rank()) mine.push_back(i);
   }
-  Part part{make_domain(partitioned(reordered(all.cloud, mine), world), bonds, world), {}, {}, {}};
+  Part part{make_domain(partitioned(reordered(all.cloud, mine), world), bonds, world), {}, {}};
   for (int i = 0; i < part.domain.owned; ++i) {
     const auto id = static_cast<std::size_t>(part.domain.cloud.ids[i]);
-    Site site;
-    site.reference << all.cloud.positions[id].array(), all.cloud.volumes[id];
-    site.current << all.places[id].array(), bonds[all.cloud.blocks[id]].horizon;
-    part.sites.push_back(site);
+    part.domain.sites[i].current.head<3>() = all.places[id].array();
     part.velocities.push_back(all.velocities[id]);
     part.densities.push_back(1000.0 + all.cloud.blocks[id]);
   }
@@ -107,32 +133,98 @@ class ContactOfBlocks : public ::testing::TestWithParam<std::pair<int, int>> {
   const Part part = part_of(all, world);
 };
 
-TEST_P(ContactOfBlocks, SearchFindsExactlyThePairsOfBruteForce) {
-  const auto [a, b] = GetParam();
-  Pairs pairs = part.pairs(a, b);
-  std::map<int, std::vector<int>> found;
-  std::vector<double> ids(pairs.sites.size());  // of the pairs' sites, by a search for their places
-  for (std::size_t s = 0; s < pairs.sites.size(); ++s) {
-    const Vector place = pairs.sites[s].current.head<3>().matrix();
-    ids[s] = std::find(all.places.begin(), all.places.end(), place) - all.places.begin();
-  }
+// The partners of each owned point in the lists, by id.
+std::map<Id, std::vector<Id>> partners_in(const Pairs& pairs) {
+  std::map<Id, std::vector<Id>> found;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
-      found[static_cast<int>(ids[k])].push_back(static_cast<int>(ids[pairs.partners[p]]));
+      found[pairs.ids[k]].push_back(pairs.ids[pairs.partners[p]]);
     }
   }
-  std::int64_t total = 0;
-  for (int i = 0; i < part.domain.owned; ++i) {
-    const int id = static_cast<int>(part.domain.cloud.ids[i]);
-    std::vector<int> expected;
-    for (int j = 0; j < count; ++j) {
-      const bool near = distance(all, id, j) <= touching(all, id, j) + skin;
-      if (j != id && near && belong(all, id, j, a, b) && !joined(all, id, j)) expected.push_back(j);
+  return found;
+}
+
+// The same of all pairs that are no farther apart than the distance at which they touch, and `more`.
+std::map<Id, std::vector<Id>> partners_of(const Scatter& all, const Part& part, int a, int b, double more) {
+  std::map<Id, std::vector<Id>> expected;
+  for (const Id id : part.domain.cloud.ids) {
+    const int i = static_cast<int>(id);
+    for (int j = 0; j < static_cast<int>(all.places.size()); ++j) {
+      const bool near = distance(all, i, j) <= touching(all, i, j) + more;
+      if (j != i && near && belong(all, i, j, a, b) && !joined(all, i, j)) expected[id].push_back(j);
     }
-    total += static_cast<std::int64_t>(expected.size());
-    EXPECT_EQ(found[id], expected) << "point " << id;
   }
-  EXPECT_GT(world.sum(total), 50) << "the case is too empty to mean anything";
+  return expected;
+}
+
+TEST_P(ContactOfBlocks, SearchFindsExactlyThePairsOfBruteForce) {
+  const auto [a, b] = GetParam();
+  const auto expected = partners_of(all, part, a, b, skin);
+  EXPECT_EQ(partners_in(part.pairs(a, b)), expected);
+  EXPECT_GT(world.sum(static_cast<std::int64_t>(expected.size())), 50) << "the case is too empty to mean anything";
+}
+
+// Beside brute force, how many points have a partner.
+std::int64_t compare_search(const Scatter& all) {
+  const Communicator world;
+  const Part part = part_of(all, world);
+  const auto expected = partners_of(all, part, 0, 0, skin / 4);
+  EXPECT_EQ(partners_in(part.pairs(0, 0, skin / 4)), expected);
+  return world.sum(static_cast<std::int64_t>(expected.size()));
+}
+
+// What clusters rule out as wholes is nothing: far and bonded ones in a block that is folded until its halves meet …
+TEST(Contact, SearchFindsExactlyThePairsOfAFoldedBlock) {
+  const Tensor turn = Eigen::AngleAxisd(0.7, Vector(1, 2, -1).normalized()).toRotationMatrix();
+  const Tensor fold = Eigen::AngleAxisd(-2.6, Vector::UnitY()).toRotationMatrix();
+  const Vector hinge(5.5 * h, 0, 11 * h);
+  const std::int64_t with_partners = compare_search(block_on_lattice(
+      [&](const Vector& X) -> Vector { return turn * (X[0] > hinge[0] ? Vector(hinge + fold * (X - hinge)) : X); }));
+  EXPECT_GT(with_partners, 50);
+  EXPECT_LT(with_partners, 1000) << "many points have none";
+}
+
+// … and calm ones in a block that is turned, and pressed at one end by as much as a touch takes, or less, or more.
+TEST(Contact, SearchFindsExactlyThePairsOfAPressedBlock) {
+  const Tensor turn = Eigen::AngleAxisd(2, Vector(1, 2, -1).normalized()).toRotationMatrix();
+  const auto pressed_by = [&](double strain) {
+    return compare_search(block_on_lattice([&](const Vector& X) -> Vector {
+      const double length = (side - 1) * h;
+      return turn * (X - strain * length / M_PI * std::sin(M_PI * X[2] / length) * Vector::UnitZ());
+    }));
+  };
+  EXPECT_EQ(pressed_by(0.05), 0);
+  EXPECT_GT(pressed_by(0.11), 10);
+  EXPECT_GT(pressed_by(0.15), pressed_by(0.11));
+  EXPECT_LT(pressed_by(0.15), 900) << "most points are calm";
+}
+
+// Points fly on, some much faster than the others, until one has used up its skin: whatever touches is in the lists.
+TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
+  const auto [a, b] = GetParam();
+  Scatter now = all;
+  for (int i = 0; i < 3; ++i) now.velocities[i] *= 8;  // one of each block
+  Part moved = part_of(now, world);
+  const Parties parties = moved.parties(a, b);
+  const Vector mean = mean_velocity(moved.crowd(), parties);
+  Skins skins = skins_by_speed(moved.crowd(), parties, mean, 2 * skin, 1);
+  EXPECT_GT(skins.largest, 1.1 * 2 * skin) << "none is faster";
+  const auto found = partners_in(find_pairs(moved.crowd(), parties, model, skins));
+  const double t = 0.99 / world.max(largest_use(moved.crowd(), parties, mean, skins));
+  for (int i = 0; i < count; ++i) now.places[i] += t * now.velocities[i];
+  const std::vector<Vector> before = moved.places(parties);
+  moved = part_of(now, world);
+  EXPECT_NEAR(part_used(moved.crowd(), parties, before, skins), 0.99, 1e-9);
+  std::int64_t gained = 0;
+  for (const auto& [id, partners] : partners_of(now, moved, a, b, 0)) {
+    for (const Id partner : partners) {
+      const bool is_listed = found.contains(id) && std::ranges::count(found.at(id), partner) == 1;
+      EXPECT_TRUE(is_listed) << id << " and " << partner;
+      gained += distance(all, static_cast<int>(id), static_cast<int>(partner)) >
+                touching(all, static_cast<int>(id), static_cast<int>(partner));
+    }
+  }
+  EXPECT_GT(world.sum(gained), 4) << "nothing new has come to touch";
 }
 
 TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
@@ -153,7 +245,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
       expected += k * (r - d) * (all.places[id] - all.places[j]) / d;
       energy += 0.25 * k * (r - d) * (r - d);
     }
-    const Vector force = density[i] * part.domain.volumes[i];
+    const Vector force = density[i] * part.domain.volume(i);
     scale = std::max(scale, expected.norm());
     EXPECT_NEAR((force - expected).norm(), 0, 1e-12 * expected.norm()) << "point " << id;
     for (int c = 0; c < 3; ++c) sums[c] += force[c];

@@ -121,8 +121,8 @@ TEST_P(DomainOf, EveryPointHasOneOwnerAndKeepsWhatItIs) {
   for (int i = 0; i < domain.owned; ++i) {
     const Id id = domain.cloud.ids[i];
     EXPECT_EQ(domain.cloud.element_ids[i], whole.element_ids[id]);
-    EXPECT_EQ(domain.cloud.positions[i], whole.positions[id]);
-    EXPECT_EQ(domain.cloud.volumes[i], whole.volumes[id]);
+    EXPECT_EQ(domain.reference(i), whole.positions[id]);
+    EXPECT_EQ(domain.volume(i), whole.volumes[id]);
     EXPECT_EQ(domain.cloud.spacings[i], whole.spacings[id]);
     EXPECT_EQ(domain.cloud.blocks[i], whole.blocks[id]);
     EXPECT_EQ(domain.cloud.sets[i], whole.sets[id]);
@@ -159,14 +159,14 @@ TEST_P(DomainOf, FamiliesAreInTheOrderOfIds) {
 TEST_P(DomainOf, GhostsAreWhatTheirOwnersSay) {
   const std::set<Id> own(domain.cloud.ids.begin(), domain.cloud.ids.end());
   std::set<Id> seen;
-  ASSERT_EQ(domain.positions.size(), ids.size());
+  ASSERT_EQ(domain.sites.size(), ids.size());
   for (std::size_t g = domain.owned; g < ids.size(); ++g) {
     ASSERT_GE(ids[g], 0) << "the halo brings nothing";
     EXPECT_FALSE(own.contains(ids[g]));
     EXPECT_TRUE(seen.insert(ids[g]).second) << "twice";
-    EXPECT_EQ(domain.positions[g], whole.positions[ids[g]]);
-    EXPECT_EQ(domain.volumes[g], whole.volumes[ids[g]]);
-    EXPECT_EQ(domain.horizons[g], horizon_of(GetParam(), whole, ids[g]));
+    EXPECT_EQ(domain.reference(g), whole.positions[ids[g]]);
+    EXPECT_EQ(domain.volume(g), whole.volumes[ids[g]]);
+    EXPECT_EQ(domain.horizon(g), horizon_of(GetParam(), whole, ids[g]));
   }
   if (world.size() == 1) {
     EXPECT_EQ(domain.ghosts, 0);

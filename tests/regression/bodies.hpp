@@ -221,7 +221,7 @@ class Simulation {
 
   const Communicator& world() const { return scene.body.domain.communicator; }
   Body& body() { return scene.body; }
-  const Vector& reference(int i) const { return scene.body.domain.positions[i]; }
+  Vector reference(int i) const { return scene.body.domain.reference(i); }
   bool in_set(int i, const std::string& name) const {
     const PointCloud& cloud = scene.body.domain.cloud;
     for (std::size_t k = 0; k < cloud.set_names.size(); ++k) {
@@ -237,7 +237,7 @@ class Simulation {
   }
   double volume() const {
     double sum = 0;
-    for (int i = 0; i < scene.body.owned(); ++i) sum += scene.body.domain.volumes[i];
+    for (int i = 0; i < scene.body.owned(); ++i) sum += scene.body.domain.volume(i);
     return scene.body.domain.communicator.sum(sum);
   }
 

@@ -38,7 +38,7 @@ TEST(Condition, PrescribedDisplacementIsReachedExactly) {
   EXPECT_LE(worst(
                 run, [&](int i) { return run.in_set(i, "foot"); },
                 [&](int i) {
-                  const Vector& X = run.reference(i);
+                  const Vector X = run.reference(i);
                   return error(i, 2, -1.5 * t * (1 + 100 * X[0]) * (2 - 200 * X[1]));
                 }),
             round_off);
@@ -250,7 +250,7 @@ TEST(Condition, InitialVelocityIsAFunctionOfThePlace) {
                      along("c", "Initial Velocity", "foot", "z", "-5");
   Simulation run(folder, parts);
   const auto error = [&](int i) {
-    const Vector& X = run.reference(i);
+    const Vector X = run.reference(i);
     const Vector wanted(-1e3 * X[1], 1e3 * X[0] + 1, run.in_set(i, "foot") ? -5 : 0);
     return (run.body().velocity[i] - wanted).norm();
   };
@@ -278,7 +278,7 @@ class Wall {
     Vector push = Vector::Zero();
     for (int i = 0; i < body.owned(); ++i) {
       const Vector gained = body.mass(i) * (body.velocity[i] - body.previous_velocity[i]);
-      const Vector from_wall = gained - kick * body.domain.volumes[i] * body.force_density[i];
+      const Vector from_wall = gained - kick * body.domain.volume(i) * body.force_density[i];
       push += from_wall;
       hardest_pull_ = std::max(hardest_pull_, -normal_.dot(from_wall));
       lowest_ = std::min(lowest_, normal_.dot(body.current(i)) - offset_);

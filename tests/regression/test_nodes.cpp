@@ -45,7 +45,7 @@ TEST(Nodes, HorizonsFollowTheSpacing) {
   const RunFolder folder;
   Simulation run = simulation(folder, graded_mesh());
   const Domain& domain = run.scene.body.domain;
-  for (int i = 0; i < domain.owned; ++i) EXPECT_EQ(domain.horizons[i], 1.8 * domain.cloud.spacings[i]);
+  for (int i = 0; i < domain.owned; ++i) EXPECT_EQ(domain.horizon(i), 1.8 * domain.cloud.spacings[i]);
   // The cube root of the lowest brick, and of the eighth.
   EXPECT_NEAR(domain.blocks[0].smallest, 1.8e-3, 1e-15);
   EXPECT_NEAR(domain.blocks[0].largest, 1.8e-3 * std::cbrt(std::pow(1.08, 7)), 1e-15);
@@ -57,7 +57,7 @@ TEST(Nodes, FamiliesAreSymmetricWhereHorizonsDiffer) {
   const RunFolder folder;
   Simulation run = simulation(folder, distorted_mesh());
   Domain& domain = run.scene.body.domain;
-  std::vector<double> ids(domain.positions.size(), -1);
+  std::vector<double> ids(domain.sites.size(), -1);
   for (int i = 0; i < domain.owned; ++i) ids[i] = static_cast<double>(domain.cloud.ids[i]);
   domain.halo.exchange(ids.data(), 1, 1);
   std::vector<double> bonds;
@@ -65,8 +65,8 @@ TEST(Nodes, FamiliesAreSymmetricWhereHorizonsDiffer) {
   for (int i = 0; i < domain.owned; ++i) {
     domain.families.for_each(i, [&](int j) {
       bonds.insert(bonds.end(), {ids[i], ids[j]});
-      const double length = (domain.positions[j] - domain.positions[i]).norm();
-      one_sided += (length <= domain.horizons[i]) != (length <= domain.horizons[j]);
+      const double length = (domain.reference(j) - domain.reference(i)).norm();
+      one_sided += (length <= domain.horizon(i)) != (length <= domain.horizon(j));
     });
   }
   EXPECT_GT(folder.world.sum(static_cast<std::int64_t>(one_sided)), 0) << "the mesh is not a test of the rule";
@@ -85,7 +85,7 @@ TEST(Nodes, DeformationGradientOfAnAffineMotionIsExact) {
     Body& body = run.body();
     Tensor F;
     F << 1.002, 0.003, -0.001, 0.0005, 0.998, 0.002, -0.0015, 0.001, 1.001;
-    for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() = (F * run.reference(i)).array();
+    for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() = (F * run.reference(i)).array();
     find_undisturbed(body);  // no longer, by hand
     EXPECT_FALSE(advance_stress_and_force(body, 1e-9, true).failure);
     double error = 0, work = 0;

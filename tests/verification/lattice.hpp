@@ -60,7 +60,7 @@ inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
 // Puts every owned point at place(X).
 inline void deform(Body& body, const std::function<Vector(const Vector&)>& place) {
   for (int i = 0; i < body.owned(); ++i) {
-    body.sites[i].current.head<3>() = place(body.domain.positions[i]).array();
+    body.domain.sites[i].current.head<3>() = place(body.domain.reference(i)).array();
   }
 }
 

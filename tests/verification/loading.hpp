@@ -31,7 +31,7 @@ using Where = std::function<bool(const Vector&)>;
 inline std::vector<int> points_where(const Body& body, const Where& where) {
   std::vector<int> points;
   for (int i = 0; i < body.owned(); ++i) {
-    if (where(body.domain.positions[i])) points.push_back(i);
+    if (where(body.domain.reference(i))) points.push_back(i);
   }
   return points;
 }
@@ -87,7 +87,7 @@ struct Loaded {
 // The owned point nearest to a place, or −1 where another rank has it.
 inline int point_at(const Body& body, const Vector& place) {
   for (int i = 0; i < body.owned(); ++i) {
-    if ((body.domain.positions[i] - place).norm() < 1e-3 * spacing) return i;
+    if ((body.domain.reference(i) - place).norm() < 1e-3 * spacing) return i;
   }
   return -1;
 }

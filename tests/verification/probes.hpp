@@ -42,7 +42,7 @@ inline bool stays_bounded(Body body, double factor) {
 template <class OfPoint>
 std::vector<Vector> operator_on(Body& body, OfPoint&& field) {
   advance_stress_and_force(body, 0, false);
-  std::vector<Site> directions = body.sites;
+  std::vector<Site> directions = body.domain.sites;
   for (int i = 0; i < body.owned(); ++i) directions[i].current.head<3>() = field(i).array();
   ForceStates scratch = body.force_states;
   std::vector<Vector> result(body.owned());
@@ -56,12 +56,12 @@ template <class ClosedForm>
 void expect_dispersion(Body& body, const LatticeSpec& spec, const Vector& direction, const Vector& wave,
                        ClosedForm&& closed_form) {
   const Communicator& world = body.domain.communicator;
-  const auto phase = [&](int i) { return std::cos(wave.dot(body.domain.positions[i])); };
+  const auto phase = [&](int i) { return std::cos(wave.dot(body.domain.reference(i))); };
   const std::vector<Vector> result = operator_on(body, [&](int i) -> Vector { return direction * phase(i); });
   double scale = 0;
   int deep = 0;
   const double error = largest_over(body, [&](int i) {
-    if (!is_deep(spec, body.domain.positions[i], 3 * spec.horizon)) return 0.0;
+    if (!is_deep(spec, body.domain.reference(i), 3 * spec.horizon)) return 0.0;
     ++deep;
     const Vector expected = closed_form(i);
     scale = std::max(scale, expected.norm());
@@ -88,7 +88,7 @@ double displacement_error(const Body& body, Exact&& exact, Counts&& counts) {
   double sums[2] = {0, 0};
   for (int i = 0; i < body.owned(); ++i) {
     if (!counts(i)) continue;
-    const double expected = exact(body.domain.positions[i][0]);
+    const double expected = exact(body.domain.reference(i)[0]);
     sums[0] += std::pow(body.displacement(i)[0] - expected, 2);
     sums[1] += expected * expected;
   }

@@ -18,7 +18,7 @@ BlockMaterial copper(bool plastic) {
 // A free block whose ends fly apart and shear, smoothly.
 void throw_apart(Body& body, double speed, double size) {
   for (int i = 0; i < body.owned(); ++i) {
-    const Vector x = body.domain.positions[i] / size * M_PI;
+    const Vector x = body.domain.reference(i) / size * M_PI;
     body.velocity[i] = speed * Vector(std::cos(x[0]) + 0.3, 0.5 * std::cos(x[2]), -0.4 * std::cos(x[1]));
   }
 }

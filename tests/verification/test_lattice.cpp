@@ -127,7 +127,7 @@ TEST_P(LatticeOf, HasTheTangentOfLists) {
     Body body = body_of(GetParam(), families, world);
     deform(body, bent);
     const auto field = [&](int i) {
-      const Vector& X = body.domain.positions[i];
+      const Vector X = body.domain.reference(i);
       return Vector(std::sin(4000 * X[0]), std::cos(5000 * X[1]), std::sin(3000 * X[2] + 1));
     };
     const std::vector<Vector> image = operator_on(body, field);
@@ -150,7 +150,7 @@ TEST(Bundles, LanesAreTheSumsOfTheirPoints) {
       {{9, 7, 6}, 1e-3, 2.3, 0.2, Influence::linear_decay, {1000, elastic(1e9, 0.3), 0.02, {}, 0.01}}, world);
   deform(body, bent);
   ASSERT_FALSE(advance_stress_and_force(body, 1e-6, false).failure);
-  const Site* sites = body.sites.data();
+  const Site* sites = body.domain.sites.data();
   const ForceStates& states = body.force_states;
   const auto check = [&](const auto& lanes, int l, const auto& own) {
     double largest = 0;

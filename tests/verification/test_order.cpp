@@ -22,7 +22,7 @@ double slope_error(double horizon, int layer, const std::function<double(double)
   const double x = (layer + 0.5) * h;
   double least = 1e9, most = -1e9;
   for (int i = 0; i < body.owned(); ++i) {
-    if (std::abs(body.domain.positions[i][0] - x) > 0.1 * h) continue;
+    if (std::abs(body.domain.reference(i)[0] - x) > 0.1 * h) continue;
     const double error = body.points[i].deformation_gradient(0, 0) - 1 - exact_slope;
     least = std::min(least, error);
     most = std::max(most, error);
@@ -51,7 +51,7 @@ std::vector<Vector> places_after(double time, int steps) {
   const Communicator world;
   Body body = lattice_body(spec_of(1.75), world);
   for (int i = 0; i < body.owned(); ++i) {
-    const Vector x = body.domain.positions[i] / (7 * h) * M_PI;
+    const Vector x = body.domain.reference(i) / (7 * h) * M_PI;
     body.velocity[i] = 1e-2 * Vector(std::cos(x[0]), 0.5 * std::cos(x[2]), -0.4 * std::cos(x[1]));
   }
   CentralDifference solver(body, {}, {}, {time / steps, 0}, 0);

@@ -74,7 +74,7 @@ Quadrature quadrature(const Body& body, int i, Weight weight) {
     sum.diagonals += 15 * w * 0.25 * std::pow(x2 - y2, 2) / r2;
     m += w * r2;
   };
-  bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), weight, add);
+  bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight, add);
   return {sum.axes / m, sum.diagonals / m};
 }
 
@@ -96,7 +96,7 @@ TEST_P(Ordinary, ShearEnergyIsHookesUpToTheQuadrature) {
     advance_stress_and_force(body, 1, true);
     EXPECT_LT(largest_over(body,
                            [&](int i) {
-                             if (!is_deep(spec, body.domain.positions[i], 3.1)) return 0.0;
+                             if (!is_deep(spec, body.domain.reference(i), 3.1)) return 0.0;
                              return std::abs(body.blocks[0].ordinary[i].energy / W - quadrature(body, i).*factor);
                            }),
               10 * strain);  // the extensions are linear to the order of the strain
@@ -107,7 +107,7 @@ TEST_P(Ordinary, ShearEnergyIsHookesUpToTheQuadrature) {
   compare(axes, &Quadrature::axes);
   compare(diagonals, &Quadrature::diagonals);
   const double worst = largest_over(body, [&](int i) {
-    if (!is_deep(spec, body.domain.positions[i], 3.1)) return 0.0;
+    if (!is_deep(spec, body.domain.reference(i), 3.1)) return 0.0;
     const Quadrature q = quadrature(body, i);
     EXPECT_NEAR((3 * q.axes + 2 * q.diagonals) / 5, 1, 1e-12);  // the isotropic part of the sums is exact
     return std::max(std::abs(q.axes - 1), std::abs(q.diagonals - 1));
@@ -125,7 +125,7 @@ TEST_P(Ordinary, RigidMotionOfAnyAngleHasNoForce) {
     advance_stress_and_force(body, 1, true);
     // A strain of 1 has the force density E/δ; that of round-off is 1e-15 times a few.
     EXPECT_LT(largest_over(body, [&](int i) { return body.force_density[i].norm(); }), 2e-14 * young / 3e-3) << angle;
-    EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation - R).norm(); }), 1e-12) << angle;
+    EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation.tensor() - R).norm(); }), 1e-12) << angle;
     EXPECT_LT(largest_over(body, [&](int i) { return body.points[i].stress.norm(); }), 1e-12 * young) << angle;
   }
 }
@@ -148,7 +148,7 @@ TEST(Views, SeeAnAffineDeformation) {
   advance_stress_and_force(body, 1, true);
   EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].deformation_gradient - F).norm(); }), 1e-12);
   const Tensor R = polar_rotation(F);
-  EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation - R).norm(); }), 1e-12);
+  EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation.tensor() - R).norm(); }), 1e-12);
 }
 
 TEST(Views, AreLeftAloneWithoutALook) {
@@ -201,13 +201,14 @@ double noise(const Body& body, int i, int c) {
 // From the undeformed state to X + size (noise + shift) in one step: hypoelastic stress is then a function of places.
 void displace(Body& body, double size, std::int64_t moved = -1, const Vector& shift = Vector::Zero()) {
   for (MaterialPoint& p : body.points) {
-    p.deformation_gradient = p.rotation = Tensor::Identity();
+    p.deformation_gradient.setIdentity();
+    p.rotation = {};
     p.stress.setZero();
   }
   for (int i = 0; i < body.owned(); ++i) {
     Vector u(noise(body, i, 0), noise(body, i, 1), noise(body, i, 2));
     if (body.domain.cloud.ids[i] == moved) u += shift;
-    body.sites[i].current.head<3>() = (body.domain.positions[i] + size * u).array();
+    body.domain.sites[i].current.head<3>() = (body.domain.reference(i) + size * u).array();
   }
   EXPECT_FALSE(advance_stress_and_force(body, 1, true).failure);
 }
@@ -230,7 +231,7 @@ double gradient_error(Body& body, double size, double step, const Communicator& 
     }
     displace(body, size);
     for (int i = 0; i < body.owned(); ++i) {
-      const Vector force = body.force_density[i] * body.domain.volumes[i];
+      const Vector force = body.force_density[i] * body.domain.volume(i);
       scale = std::max(scale, force.norm());
       if (body.domain.cloud.ids[i] == id) error = std::max(error, (force + gradient).norm());
     }
@@ -262,7 +263,7 @@ TEST_P(Bodies, ConserveBothMomenta) {
   Vector force = Vector::Zero(), torque = Vector::Zero();
   double size = 0;
   for (int i = 0; i < b.owned(); ++i) {
-    const Vector f = b.force_density[i] * b.domain.volumes[i];
+    const Vector f = b.force_density[i] * b.domain.volume(i);
     force += f;
     torque += b.current(i).cross(f);
     size += f.norm();
@@ -340,7 +341,7 @@ Vector closed_form(const LatticeSpec& spec, const Body& body, int i, const Vecto
     sum += w * (1 - std::cos(k.dot(xi))) * xi * xi.dot(d) / xi.squaredNorm();
     m += w * xi.squaredNorm();
   };
-  bonds::over(bonds::OfPoint{body.domain.families, i}, body.sites.data(), bonds::LinearDecay{}, add);
+  bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), bonds::LinearDecay{}, add);
   const auto [K, mu] = moduli_of(spec);
   return (3 * (3 * K - 5 * mu) / (m * m) * g.dot(d) * g + 30 * mu / m * sum) / spec.material.density;
 }
@@ -361,13 +362,13 @@ double pulse_error(int cells, const Communicator& world) {
   const LatticeSpec spec{{cells, sides, sides}, length / cells, 2.515, 0, Influence::linear_decay, ordinary(0.25)};
   Body body = lattice_body(spec, world);
   const auto depth = [&](int i) {  // below the sides, m
-    const Vector& X = body.domain.positions[i];
+    const Vector X = body.domain.reference(i);
     const double side = sides * spec.spacing;
     return std::min({X[1], X[2], side - X[1], side - X[2]});
   };
   const double reach = spec.horizon * spec.spacing;
   const double q = largest_over(body, [&](int i) {
-    const bool whole = is_deep(spec, body.domain.positions[i], spec.horizon);
+    const bool whole = is_deep(spec, body.domain.reference(i), spec.horizon);
     return whole ? quadrature(body, i).diagonals : 0.0;
   });
   const auto [K, mu] = moduli_of(spec);

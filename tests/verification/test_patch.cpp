@@ -73,7 +73,7 @@ TEST_P(Patch, UniformStressExertsNoForceInsideALattice) {
   const auto force = [&](bool deep) {
     return largest_over(body, [&](int i) {
       // A point feels the families of its neighbours: two reaches from the surface all is uniform.
-      return is_deep(spec, body.domain.positions[i], 2 * 3.015) == deep ? body.force_density[i].norm() : 0.0;
+      return is_deep(spec, body.domain.reference(i), 2 * 3.015) == deep ? body.force_density[i].norm() : 0.0;
     });
   };
   EXPECT_LE(force(true), 1e-10 * force(false));

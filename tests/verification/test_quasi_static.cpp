@@ -33,7 +33,7 @@ Vector bent(const Vector& X) {
 Field wavy(const Body& body, double phase) {
   Field field(body.owned());
   for (int i = 0; i < body.owned(); ++i) {
-    const Vector X = body.domain.positions[i] / spacing;
+    const Vector X = body.domain.reference(i) / spacing;
     field[i] = Vector(std::sin(2 * X[1] + phase), std::cos(X[0] + 3 * X[2]), std::sin(X[0] * X[1] + phase));
   }
   return field;
@@ -49,7 +49,7 @@ TEST_P(Tangent, IsTheDerivativeOfTheForces) {
   const Field direction = wavy(body, 0);
   const auto forces_at = [&](double h) {
     deform(body, bent);
-    for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() += h * direction[i].array();
+    for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += h * direction[i].array();
     EXPECT_FALSE(equilibrium.evaluate().failed);
     return equilibrium.residual();
   };
@@ -126,7 +126,7 @@ TEST(QuasiStaticBar, MayBeHeldByObliquePlanes) {
   // Points of the planes stay on them to the last bits of their places.
   EXPECT_LT(largest_over(body,
                          [&](int i) {
-                           const Vector X = body.domain.positions[i], y = body.current(i);
+                           const Vector X = body.domain.reference(i), y = body.current(i);
                            if (std::abs(X[0] - X[1]) < 0.1 * spacing) return std::abs(y[0] - y[1]);
                            if (std::abs(X[0] + X[1] - width) > 0.1 * spacing) return 0.0;
                            return std::abs(y[0] + y[1] - width);
@@ -218,7 +218,7 @@ double error_of_smooth_field(int n) {
   QuasiStatic solver = loaded.solver({.load_steps = 1});
   load(solver);
   return largest_over(body, [&](int i) {
-    const Vector& X = body.domain.positions[i];
+    const Vector X = body.domain.reference(i);
     return (body.displacement(i) - A * std::sin(k * X[0]) * std::sin(k * X[2]) * Vector::UnitX()).norm() / A;
   });
 }

@@ -22,7 +22,7 @@ struct Probe {
 
   Probe(const Tool& tool, const Body& body) : contact({tool}, body) {}
   const Field& at(Body& body, const Field& places) {
-    for (int i = 0; i < body.owned(); ++i) body.sites[i].current.head<3>() = places[i].array();
+    for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() = places[i].array();
     forces.assign(body.owned(), Vector::Zero());
     contact.add_forces(body, forces);
     return forces;
@@ -38,7 +38,7 @@ double error_of_stiffness(const Tool& tool, const Vector& pressed, const Vector&
   Probe probe(all, body);
   probe.contact.begin(body, 0, 1);
   Field places(body.owned()), direction(body.owned()), product(body.owned(), Vector::Zero());
-  for (int i = 0; i < body.owned(); ++i) places[i] = body.domain.positions[i] + pressed;
+  for (int i = 0; i < body.owned(); ++i) places[i] = body.domain.reference(i) + pressed;
   probe.at(body, places);
   probe.contact.augment();
   for (int i = 0; i < body.owned(); ++i) {

@@ -29,7 +29,7 @@ TEST(Rotation, FullTurnLeavesNoStress) {
     deform(body, [&](const Vector& X) -> Vector { return Q * X; });
     const StepReport report = advance_stress_and_force(body, 1e-6, n == steps);
     ASSERT_FALSE(report.failure);
-    ASSERT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation - Q).norm(); }), 1e-12);
+    ASSERT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation.tensor() - Q).norm(); }), 1e-12);
   }
   // 72 additions of round-off (1e-14 of strain each) times the modulus.
   EXPECT_LT(largest_over(body, [&](int i) { return body.points[i].stress.norm(); }), 1e-12 * young);

@@ -51,13 +51,13 @@ double resistance(double horizon, double stabilization, const Eigen::Array3i& pa
   const LatticeSpec spec{{17, 17, 17}, h, horizon, 0, Influence::one, metal(stabilization)};
   Body body = lattice_body(spec, world);
   const auto sign = [&](int i) {
-    const Eigen::Array3i cell = (body.domain.positions[i] / h).array().floor().cast<int>();
+    const Eigen::Array3i cell = (body.domain.reference(i) / h).array().floor().cast<int>();
     return (cell * pattern).sum() % 2 == 0 ? 1.0 : -1.0;
   };
   const Vector direction = Vector(1, 0.5, -0.3).normalized();
   const std::vector<Vector> result = operator_on(body, [&](int i) -> Vector { return sign(i) * direction; });
   return largest_over(body, [&](int i) {
-    const bool middle = is_deep(spec, body.domain.positions[i], 8);
+    const bool middle = is_deep(spec, body.domain.reference(i), 8);
     return middle ? std::abs(sign(i) * direction.dot(result[i])) : 0.0;
   });
 }
@@ -85,7 +85,7 @@ double left_of_noise(double stabilization) {
   const double limit = CentralDifference(at_rest, {}, {}, {0, 1}, 0).stable_step();
   throw_apart(body, 1e-4 * h);
   for (int i = 0; i < body.owned(); ++i) {
-    body.sites[i].current.head<3>() += body.velocity[i].array();
+    body.domain.sites[i].current.head<3>() += body.velocity[i].array();
     body.velocity[i].setZero();
   }
   advance_stress_and_force(body, 1e-9, false);  // stress comes from motion, so the points have been moved there

@@ -30,7 +30,7 @@ BlockMaterial stabilized(double silling, double mean) {
 // The slowest motion that bends and stretches the bar at once.
 void swing(Body& body) {
   for (int i = 0; i < body.owned(); ++i) {
-    const double x = body.domain.positions[i][0] / (16 * h) * M_PI;
+    const double x = body.domain.reference(i)[0] / (16 * h) * M_PI;
     body.velocity[i] = Vector(std::cos(x), 0.4 * std::cos(x), 0.3 * std::cos(2 * x));
   }
 }

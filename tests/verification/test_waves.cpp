@@ -28,8 +28,8 @@ Vector closed_form(const Lattice& l, const Body& body, int i) {
   Tensor K = Tensor::Zero();
   const auto for_each_bond = [&](auto visit) {
     body.domain.families.for_each(i, [&](int j) {
-      const Vector xi = body.domain.positions[j] - body.domain.positions[i];
-      visit(xi, (1 - xi.norm() / l.spec.horizon) * body.domain.volumes[j]);
+      const Vector xi = body.domain.reference(j) - body.domain.reference(i);
+      visit(xi, (1 - xi.norm() / l.spec.horizon) * body.domain.volume(j));
     });
   };
   for_each_bond([&](const Vector& xi, double weight) {
