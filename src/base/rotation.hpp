@@ -42,6 +42,15 @@ small::Tensor3<T> rotation_of(const small::Vector3<T>& h) {
            {sx * z - sy, sy * z + sx, diagonal + sz * z}}};
 }
 
+// The third column of a rotation from the first two.
+template <class T>
+void complete(small::Tensor3<T>& R) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    R.c[i][2] = R.c[j][0] * R.c[k][1] - R.c[k][0] * R.c[j][1];
+  }
+}
+
 // The polar decomposition F = R U at the end of a step, from R at its start: Flanagan & Taylor's (1987) condition that
 // the stretch stay symmetric, posed for the step instead of the instant. Their rate form
 //   ω = w − [V − (tr V) I]⁻¹ z,  z_i = ε_ikj D_jm V_mk
@@ -58,7 +67,9 @@ Polar<T> polar_update(const small::Tensor3<T>& old_rotation, const small::Tensor
   const small::Vector3<T> t = small::product(small::inverse(defect), small::axial(turned));  // axis times tan(angle)
   const T half = 1 / (1 + sqrt(1 + t.c[0] * t.c[0] + t.c[1] * t.c[1] + t.c[2] * t.c[2]));    // tan(angle/2)/tan(angle)
   const small::Tensor3<T> increment = rotation_of(small::Vector3<T>{{half * t.c[0], half * t.c[1], half * t.c[2]}});
-  return {small::product(old_rotation, increment), small::symmetric_part(small::transposed_product(increment, turned))};
+  small::Tensor3<T> rotation = small::product(old_rotation, increment);
+  complete(rotation);  // the stretch is that of the rotation as it is kept, or round-off would add up as strain
+  return {rotation, small::symmetric_part(small::transposed_product(rotation, deformation_gradient))};
 }
 
 // R of F = R U from F alone, wherever the rotation was before: Newton's iteration R ← ½ (R + R⁻ᵀ) (Higham 1986), which

@@ -62,10 +62,7 @@ LaneTensor rotations(const Members& g) {
   for (int c = 0; c < 6; ++c) {
     R.c[c % 3][c / 3] = lanes(g, [=](const MaterialPoint& p) { return p.rotation.number(c); });
   }
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    R.c[i][2] = R.c[j][0] * R.c[k][1] - R.c[k][0] * R.c[j][1];
-  }
+  complete(R);
   return R;
 }
 
