@@ -1,6 +1,7 @@
 // The rotation of the material: the frame in which laws see their stress.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/small_tensors.hpp"
@@ -11,17 +12,18 @@ namespace strut {
 class Rotation {
  public:
   Rotation() : Rotation(Tensor::Identity()) {}
-  explicit Rotation(const Tensor& R) : first_(R.col(0)), second_(R.col(1)) {}
+  explicit Rotation(const Tensor& R) { std::copy_n(R.data(), 6, numbers_); }
   Tensor tensor() const {
+    const Eigen::Map<const Vector> first(numbers_), second(numbers_ + 3);
     Tensor R;
-    R << first_, second_, first_.cross(second_);
+    R << first, second, first.cross(second);
     return R;
   }
-  double& number(int c) { return c < 3 ? first_[c] : second_[c - 3]; }  // 0 ≤ c < 6
-  double number(int c) const { return c < 3 ? first_[c] : second_[c - 3]; }
+  double& number(int c) { return numbers_[c]; }  // 0 ≤ c < 6
+  double number(int c) const { return numbers_[c]; }
 
  private:
-  Vector first_, second_;
+  double numbers_[6];
 };
 
 template <class T>
