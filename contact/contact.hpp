@@ -69,10 +69,11 @@ class Contact {
     // As of the last search.
     std::vector<Vector> places = {};  // of parties.points, m
     Skins skins = {};
-    Vector mean_velocity = Vector::Zero();  // m/s
     Pairs pairs = {};
     bool searched = false;
-    double used = 0;  // a bound of the part of its skin that any point has used since
+    // As of the last look.
+    Vector mean_velocity = Vector::Zero();  // m/s
+    double used = 0;  // a bound of the part of its skin that any point has used since the last search
     bool due = true;  // that has come near 1
     Tally tally = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
