@@ -47,7 +47,6 @@ void Contact::search(const Crowd& crowd, double dt, Meeting& meeting) {
   const Parties& parties = meeting.parties;
   meeting.places.clear();
   for (const int i : parties.points) meeting.places.push_back(crowd.place(i));
-  meeting.mean_velocity = mean_velocity(crowd, parties);
   meeting.skins = skins_by_speed(crowd, parties, meeting.mean_velocity, meeting.skin, dt);
   meeting.pairs = find_pairs(crowd, parties, meeting.model, meeting.skins);
   meeting.searched = true;
@@ -63,10 +62,9 @@ void Contact::look(const Crowd& crowd, double dt, Meeting& meeting) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
   meeting.due = false;
-  if (!meeting.searched) return search(crowd, dt, meeting);
   meeting.mean_velocity = mean_velocity(crowd, meeting.parties);
-  meeting.used = part_used(crowd, meeting.parties, meeting.places, meeting.skins);
-  if (meeting.used > most_used) search(crowd, dt, meeting);
+  if (meeting.searched) meeting.used = part_used(crowd, meeting.parties, meeting.places, meeting.skins);
+  if (!meeting.searched || meeting.used > most_used) search(crowd, dt, meeting);
 }
 
 void Contact::add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density) {

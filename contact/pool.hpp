@@ -1,7 +1,6 @@
 // Inside contact: the points that a search on this rank knows.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
