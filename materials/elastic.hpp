@@ -18,22 +18,27 @@ namespace strut::materials {
 struct Elastic {
   double bulk = 0, shear = 0;  // Pa
 
-  struct State {};
+  template <class T>
+  struct StateOf {};
+  using State = StateOf<double>;
   static constexpr std::array<std::string_view, 0> state_names{};
 
   // The stress at the end of the step. Component by component, here and in other laws: compilers keep such a loop in
   // registers, where an Eigen expression of six doubles goes through memory at three times the cost.
-  Symmetric updated(const PointStep& step, const Symmetric& stress) const {
-    const double shear_part = 2 * shear * step.dt;
-    const double volume_part = (bulk - 2 * shear / 3) * step.dt * trace(step.rate);
-    Symmetric next;
-    for (int k = 0; k < 6; ++k) next[k] = stress[k] + shear_part * step.rate[k] + (k < 3 ? volume_part : 0);
+  template <class T>
+  SymmetricOf<T> updated(const StepOf<T>& step, const SymmetricOf<T>& stress) const {
+    const T shear_part = 2 * shear * step.dt;
+    const T volume_part = (bulk - 2 * shear / 3) * step.dt * trace(step.rate);
+    SymmetricOf<T> next;
+    for (int k = 0; k < 3; ++k) next[k] = stress[k] + shear_part * step.rate[k] + volume_part;
+    for (int k = 3; k < 6; ++k) next[k] = stress[k] + shear_part * step.rate[k];
     return next;
   }
 
-  PointStress step(const PointStep& step, const Symmetric& stress, State&) const {
-    const Symmetric next = updated(step, stress);
-    return {next, std::isfinite(next[0] + next[1] + next[2] + next[3] + next[4] + next[5])};
+  template <class T>
+  StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>&) const {
+    const SymmetricOf<T> next = updated(step, stress);
+    return {next, is_finite(T(next[0] + next[1] + next[2] + next[3] + next[4] + next[5]))};
   }
 
   Moduli moduli() const { return {bulk, shear}; }

@@ -1,7 +1,8 @@
 // The flow stress of J2 plasticity, σ̄(ε̄, ε̇) = h(ε̄) r(ε̇): a hardening curve times a rate factor with r(0) = 1.
 // Each is a plain value with one call operator that gives the function and its derivative; a law holds one of each.
 // Trade-off: a product, so hardening and rate do not interact; in return every combination is there, and the elastic
-// check needs the hardening curve only. To add one: a struct here and its word in the variant. Units: Pa, s, strain -.
+// check needs the hardening curve only. To add one: a struct here and its word in the variant. T is double or Lanes:
+// points side by side (side_by_side.hpp). Units: Pa, s, strain -.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +12,33 @@
 #include <variant>
 #include <vector>
 
+#include "materials/side_by_side.hpp"
+
 namespace strut::materials {
 
 // A function of one variable at one place.
+template <class T>
 struct Curve {
-  double value, slope;
+  T value, slope;
 };
 
 // ---- Hardening: (σ_y, ε̄) -> h and dh/dε̄; softens() is false only where h never falls below σ_y -------------------
 
 struct NoHardening {
-  Curve operator()(double yield_stress, double) const { return {yield_stress, 0}; }
+  template <class T>
+  Curve<T> operator()(double yield_stress, const T&) const {
+    return {same<T>(yield_stress), same<T>(0)};
+  }
   bool softens() const { return false; }
 };
 
 // h = σ_y + H ε̄
 struct LinearHardening {
   double modulus = 0;  // H, Pa
-  Curve operator()(double yield_stress, double strain) const { return {yield_stress + modulus * strain, modulus}; }
+  template <class T>
+  Curve<T> operator()(double yield_stress, const T& strain) const {
+    return {yield_stress + modulus * strain, same<T>(modulus)};
+  }
   bool softens() const { return modulus < 0; }
 };
 
@@ -36,8 +46,9 @@ struct LinearHardening {
 // exp(N log(…)) rather than pow: half the time, and as good: the error of log is scaled by N < 1.
 struct PowerHardening {
   double reference_strain = 0, exponent = 0;  // ε̄₀, N
-  Curve operator()(double yield_stress, double strain) const {
-    const double h = yield_stress * std::exp(exponent * std::log(1 + strain / reference_strain));
+  template <class T>
+  Curve<T> operator()(double yield_stress, const T& strain) const {
+    const T h = yield_stress * exp(exponent * log(1 + strain / reference_strain));
     return {h, h * exponent / (reference_strain + strain)};
   }
   bool softens() const { return exponent < 0; }
@@ -49,10 +60,11 @@ struct PowerHardening {
 struct LudwikHardening {
   double modulus = 0, exponent = 0;  // B Pa, n
   static constexpr double smallest_strain = 1e-9;
-  Curve operator()(double yield_stress, double strain) const {
-    const double e = std::max(strain, smallest_strain);
-    const double secant = modulus * std::exp((exponent - 1) * std::log(e));
-    return {yield_stress + secant * strain, strain < smallest_strain ? secant : exponent * secant};
+  template <class T>
+  Curve<T> operator()(double yield_stress, const T& strain) const {
+    const T least = same<T>(smallest_strain), e = strain < least ? least : strain;
+    const T secant = modulus * exp((exponent - 1) * log(e));
+    return {yield_stress + secant * strain, strain < least ? secant : T(exponent * secant)};
   }
   bool softens() const { return modulus < 0; }
 };
@@ -60,8 +72,9 @@ struct LudwikHardening {
 // h = σ_y + Q (1 − exp(−b ε̄))     (Voce 1948)
 struct VoceHardening {
   double saturation = 0, rate = 0;  // Q Pa, b -
-  Curve operator()(double yield_stress, double strain) const {
-    const double left = saturation * std::exp(-rate * strain);
+  template <class T>
+  Curve<T> operator()(double yield_stress, const T& strain) const {
+    const T left = saturation * exp(-rate * strain);
     return {yield_stress + saturation - left, rate * left};
   }
   bool softens() const { return saturation < 0; }
@@ -71,7 +84,15 @@ struct VoceHardening {
 // the yield stress itself (its first value). The slope at a kink is that of the piece to the right.
 struct TableHardening {
   std::vector<double> strains, stresses;  // -, Pa
-  Curve operator()(double, double strain) const {
+  Curve<Lanes> operator()(double, const Lanes& strain) const {
+    Curve<Lanes> curve;
+    for (int l = 0; l < small::lane_count; ++l) {
+      const auto [value, slope] = (*this)(0, strain[l]);
+      curve.value[l] = value, curve.slope[l] = slope;
+    }
+    return curve;
+  }
+  Curve<double> operator()(double, double strain) const {
     const auto above = std::upper_bound(strains.begin(), strains.end(), strain) - strains.begin();
     const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1) - 1);
     if (i + 1 == strains.size()) return {stresses[i], 0};
@@ -87,29 +108,46 @@ using Hardening =
 // ---- Rate: ε̇ -> r and dr/dε̇; rate_at(r) is an ε̇ ≥ 0 at which the factor is r ≥ 1, infinity if it never is ---------
 
 struct NoRate {
-  Curve operator()(double) const { return {1, 0}; }
-  double rate_at(double) const { return std::numeric_limits<double>::infinity(); }
+  template <class T>
+  Curve<T> operator()(const T&) const {
+    return {same<T>(1), same<T>(0)};
+  }
+  template <class T>
+  T rate_at(const T&) const {
+    return same<T>(std::numeric_limits<double>::infinity());
+  }
 };
 
 // r = (1 + ε̇/ε̇₀)^M     (Postek, Nowak & Pęcherski 2021, eq. 20, with M = 1/m)
 struct PowerRate {
   double reference_rate = 1, exponent = 0;  // ε̇₀ 1/s, M
-  Curve operator()(double rate) const {
-    const double r = std::exp(exponent * std::log(1 + rate / reference_rate));
+  template <class T>
+  Curve<T> operator()(const T& rate) const {
+    const T r = exp(exponent * log(1 + rate / reference_rate));
     return {r, r * exponent / (reference_rate + rate)};
   }
-  double rate_at(double factor) const { return reference_rate * std::expm1(std::log(factor) / exponent); }
+  template <class T>
+  T rate_at(const T& factor) const {
+    return reference_rate * expm1(log(factor) / exponent);
+  }
 };
 
 // r = 1 + C ln(max(ε̇/ε̇₀, 1))     (Johnson & Cook 1983)
 struct JohnsonCookRate {
   double reference_rate = 1, coefficient = 0;  // ε̇₀ 1/s, C
-  Curve operator()(double rate) const {
-    // Not std::max, which would hide a rate that is NaN.
-    if (rate <= reference_rate) return {1, 0};
-    return {1 + coefficient * std::log(rate / reference_rate), coefficient / rate};
+  template <class T>
+  Curve<T> operator()(const T& rate) const {
+    const auto is_slow = rate <= reference_rate;  // not where the rate is NaN
+    if constexpr (std::is_same_v<T, double>) {
+      if (is_slow) return {1, 0};  // without a logarithm
+    }
+    const T r = 1 + coefficient * log(rate / reference_rate), slope = coefficient / rate;
+    return {is_slow ? same<T>(1) : r, is_slow ? same<T>(0) : slope};
   }
-  double rate_at(double factor) const { return reference_rate * std::exp((factor - 1) / coefficient); }
+  template <class T>
+  T rate_at(const T& factor) const {
+    return reference_rate * exp((factor - 1) / coefficient);
+  }
 };
 
 using Rate = std::variant<NoRate, PowerRate, JohnsonCookRate>;
@@ -119,20 +157,24 @@ struct FlowStress {
   Hardening hardening;
   Rate rate;
 
+  template <class T>
   struct Value {
-    double stress, by_strain, by_rate;  // σ̄ Pa, ∂σ̄/∂ε̄ Pa, ∂σ̄/∂ε̇ Pa s
+    T stress, by_strain, by_rate;  // σ̄ Pa, ∂σ̄/∂ε̄ Pa, ∂σ̄/∂ε̇ Pa s
   };
-  Value operator()(double strain, double strain_rate) const { return at_rate(strain_rate, at_rest(strain)); }
+  Value<double> operator()(double strain, double strain_rate) const { return at_rate(strain_rate, at_rest(strain)); }
 
   // σ̄(ε̄, 0) and its slope; a curve that softens ends at zero.
-  Curve at_rest(double strain) const {
-    const Curve h = std::visit([this, strain](const auto& law) { return law(yield_stress, strain); }, hardening);
-    return h.value < 0 ? Curve{0, 0} : h;
+  template <class T>
+  Curve<T> at_rest(const T& strain) const {
+    const Curve<T> h = std::visit([&](const auto& law) { return law(yield_stress, strain); }, hardening);
+    const auto is_left = !(h.value < 0);  // also where it is NaN
+    return {is_left ? h.value : same<T>(0), is_left ? h.slope : same<T>(0)};
   }
 
   // σ̄(ε̄, ε̇) where the curve at rest has been evaluated.
-  Value at_rate(double strain_rate, const Curve& h) const {
-    const Curve r = std::visit([strain_rate](const auto& law) { return law(strain_rate); }, rate);
+  template <class T>
+  Value<T> at_rate(const T& strain_rate, const Curve<T>& h) const {
+    const Curve<T> r = std::visit([&](const auto& law) { return law(strain_rate); }, rate);
     return {h.value * r.value, h.slope * r.value, h.value * r.slope};
   }
 
@@ -142,8 +184,10 @@ struct FlowStress {
   }
 
   // The plastic strain rate at which the flow stress is `stress`, if `stress_at_rest` is the one at rest.
-  double rate_at(double stress, double stress_at_rest) const {
-    return std::visit([=](const auto& law) { return law.rate_at(stress / stress_at_rest); }, rate);
+  template <class T>
+  T rate_at(const T& stress, const T& stress_at_rest) const {
+    const T factor = stress / stress_at_rest;
+    return std::visit([&](const auto& law) { return law.rate_at(factor); }, rate);
   }
 };
 

@@ -3,6 +3,7 @@
 // Method: implicit radial return (Wilkins 1964; Simo & Hughes, Computational Inelasticity, 3.3). The deviator of the
 // elastic trial stress is scaled back so that
 //   σ_trial − 3μ Δε̄ − σ̄(ε̄ + Δε̄, Δε̄/dt) = 0.
+// Written once for a point and for points side by side, a lane each.
 // Trade-off: first order in the step where the direction of loading turns, exact where it does not; stable for any
 // step, and the stress never lies above the flow stress. Units: Pa, 1/s, s.
 #pragma once
@@ -23,32 +24,35 @@ struct J2 {
   double bulk = 0, shear = 0;  // Pa
   FlowStress flow;
 
-  struct State {
-    double equivalent_plastic_strain = 0;  // ε̄ = ∫ √(2/3 ė_p:ė_p) dt
-    double plastic_strain_rate = 0;        // of the last step, 1/s; 0 if it was elastic
-    double plastic_work = 0;               // J per m³ of reference volume
+  template <class T>
+  struct StateOf {
+    T equivalent_plastic_strain{};  // ε̄ = ∫ √(2/3 ė_p:ė_p) dt
+    T plastic_strain_rate{};        // of the last step, 1/s; 0 if it was elastic
+    T plastic_work{};               // J per m³ of reference volume
   };
+  using State = StateOf<double>;
   static constexpr std::array<std::string_view, 3> state_names{
       "Equivalent_Plastic_Strain", "Equivalent_Plastic_Strain_Rate", "Plastic_Work_Density"};
 
-  PointStress step(const PointStep& step, const Symmetric& stress, State& state) const {
-    const Symmetric trial = Elastic{bulk, shear}.updated(step, stress);
-    const Symmetric s = deviator(trial);
-    const double q2 = 1.5 * double_dot(s, s);  // σ_trial²
+  template <class T>
+  StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
+    const SymmetricOf<T> trial = Elastic{bulk, shear}.updated(step, stress);
+    const SymmetricOf<T> s = deviator(trial);
+    const T q2 = 1.5 * double_dot(s, s);  // σ_trial²
     const double bound = flow.lower_bound();
-    if (q2 <= bound * bound) return elastic(trial, state);
-    const Curve at_rest = flow.at_rest(state.equivalent_plastic_strain);
-    if (q2 <= at_rest.value * at_rest.value) return elastic(trial, state);
-    // Here also with a NaN, of which no comparison is true.
-    const double q = std::sqrt(q2);
-    const Flow f = solve(q, at_rest, state, step.dt);
-    const double rate = f.increment / step.dt;
-    const double work = step.J * f.increment * mean_stress(stress, s, q, f.stress);
-    if (!f.converged || !(rate >= 0) || !std::isfinite(rate + work)) return {trial, false};
-    state.equivalent_plastic_strain += f.increment;
-    state.plastic_strain_rate = rate;
-    state.plastic_work += work;
-    return {returned(trial, s, f.stress / q), true};
+    if (!any(!(q2 <= bound * bound))) return elastic(trial, state);
+    const Curve<T> at_rest = flow.at_rest(state.equivalent_plastic_strain);
+    const MaskOf<T> flows = !(q2 <= at_rest.value * at_rest.value);  // also with a NaN, of which no comparison is true
+    if (!any(flows)) return elastic(trial, state);
+    const T q = sqrt(q2);
+    const Flow<T> f = solve(flows, q, at_rest, state, step.dt);
+    const T rate = f.increment / step.dt, work = step.J * f.increment * mean_stress(stress, s, q, f.stress);
+    const MaskOf<T> converged = f.converged && rate >= 0 && is_finite(T(rate + work)), changes = flows && converged;
+    const T none{};
+    state.equivalent_plastic_strain += changes ? f.increment : none;
+    state.plastic_strain_rate = changes ? rate : flows ? state.plastic_strain_rate : none;
+    state.plastic_work += changes ? work : none;
+    return {returned(trial, s, changes ? T(1 - f.stress / q) : none), converged || !flows};
   }
 
   Moduli moduli() const { return {bulk, shear}; }
@@ -62,21 +66,24 @@ struct J2 {
   }
 
  private:
-  static PointStress elastic(const Symmetric& trial, State& state) {
-    state.plastic_strain_rate = 0;
-    return {trial, true};
+  template <class T>
+  static StressOf<T> elastic(const SymmetricOf<T>& trial, StateOf<T>& state) {
+    state.plastic_strain_rate = T{};
+    return {trial, T{} == T{}};
   }
 
-  // The trial stress with its deviator s scaled.
-  static Symmetric returned(const Symmetric& trial, const Symmetric& s, double scale) {
-    Symmetric stress;
-    for (int k = 0; k < 6; ++k) stress[k] = trial[k] - (1 - scale) * s[k];
+  // The trial stress less so much of its deviator s.
+  template <class T>
+  static SymmetricOf<T> returned(const SymmetricOf<T>& trial, const SymmetricOf<T>& s, const T& part) {
+    SymmetricOf<T> stress;
+    for (int k = 0; k < 6; ++k) stress[k] = trial[k] - part * s[k];
     return stress;
   }
 
+  template <class T>
   struct Flow {
-    double increment, stress;  // Δε̄; σ̄ at the end of the step, Pa
-    bool converged;
+    T increment, stress;  // Δε̄; σ̄ at the end of the step, Pa
+    MaskOf<T> converged;
   };
 
   // Residual of the return relative to σ_trial: a few thousand times the round-off of the flow stress.
@@ -87,44 +94,61 @@ struct J2 {
   // Newton needs 3 on average and 11 at worst; bisection alone reaches round-off in about 50.
   static constexpr int most_iterations = 100;
 
-  // Δε̄ by Newton, kept in a bracket that shrinks: the residual is ≥ 0 at its left end and ≤ 0 at its right end.
-  Flow solve(double q, const Curve& at_rest, const State& state, double dt) const {
-    double left = 0, right = q / (3 * shear);
-    double x = warm_guess(q, at_rest, state, dt);
-    if (!(x > left && x < right)) x = cold_guess(q, at_rest, dt);
+  // Δε̄ of the points that flow, by Newton, kept in a bracket that shrinks: the residual is ≥ 0 at its left end and ≤ 0
+  // at its right end. A point that is done waits for those beside it.
+  template <class T>
+  Flow<T> solve(const MaskOf<T>& flows, const T& q, const Curve<T>& at_rest, const StateOf<T>& state,
+                const T& dt) const {
+    const T &strain = state.equivalent_plastic_strain, modulus = same<T>(3 * shear);
+    T left{}, right = q / modulus;
+    T x = warm_guess(q, at_rest, state, dt);
+    const MaskOf<T> is_warm = x > left && x < right;
+    if (any(flows && !is_warm)) x = is_warm ? x : cold_guess(q, at_rest, dt);
+    Flow<T> flow{T{}, q, T{} > T{}};
+    MaskOf<T> open = flows;
     for (int i = 0; i < most_iterations; ++i) {
-      const auto [stress, by_strain, by_rate] = flow(state.equivalent_plastic_strain + x, x / dt);
-      const double residual = q - 3 * shear * x - stress;
-      if (std::abs(residual) <= tolerance * q) return {x, stress, true};
-      if (!std::isfinite(residual)) break;
-      (residual > 0 ? left : right) = x;
-      const double next = x + residual / (3 * shear + by_strain + by_rate / dt);
-      const bool inside = next > left && next < right;
-      if (inside && std::abs(next - x) <= last_step * x) return {next, q - 3 * shear * next, true};
-      x = inside ? next : fallback(left, right, cold_guess(q, at_rest, dt));
+      const auto [stress, by_strain, by_rate] = this->flow.at_rate(T(x / dt), this->flow.at_rest(T(strain + x)));
+      const T residual = q - modulus * x - stress;
+      const T next = x + residual / (modulus + by_strain + by_rate / dt);
+      left = residual > 0 ? x : left;
+      right = residual > 0 ? right : x;
+      const MaskOf<T> is_root = absolute(residual) <= tolerance * q, inside = next > left && next < right;
+      const MaskOf<T> found = open && (is_root || (inside && absolute(T(next - x)) <= last_step * x));
+      flow.increment = found ? (is_root ? x : next) : flow.increment;
+      flow.stress = found ? (is_root ? stress : T(q - modulus * next)) : flow.stress;
+      flow.converged = flow.converged || found;
+      open = open && !found && is_finite(residual);
+      if (!any(open)) break;
+      x = inside ? next : x;
+      if (any(open && !inside)) x = inside ? x : fallback(left, right, cold_guess(q, at_rest, dt));
     }
-    return {0, q, false};
+    return flow;
   }
 
   // Flow went on: the flow stress linearised about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
   // It follows a change of the rate at once, where the last rate itself as a guess would lag behind.
-  double warm_guess(double q, const Curve& at_rest, const State& state, double dt) const {
-    const double rate = state.plastic_strain_rate;
-    if (!(rate > 0)) return 0;
+  template <class T>
+  T warm_guess(const T& q, const Curve<T>& at_rest, const StateOf<T>& state, const T& dt) const {
+    const T& rate = state.plastic_strain_rate;
+    if (!any(rate > 0)) return T{};
     const auto [stress, by_strain, by_rate] = flow.at_rate(rate, at_rest);
-    return (q - stress + by_rate * rate) / (3 * shear + by_strain + by_rate / dt);
+    const T guess = (q - stress + by_rate * rate) / (3 * shear + by_strain + by_rate / dt);
+    return rate > 0 ? guess : T{};
   }
 
   // Flow begins: the lesser of two upper bounds (if the law does not soften), what flows if the stress falls to the
   // flow stress at rest and if it does not fall at all. From this side of the root a Newton step on a concave flow
   // stress does not leave the bracket.
-  double cold_guess(double q, const Curve& at_rest, double dt) const {
-    return std::min((q - at_rest.value) / (3 * shear), flow.rate_at(q, at_rest.value) * dt);
+  template <class T>
+  T cold_guess(const T& q, const Curve<T>& at_rest, const T& dt) const {
+    const T to_rest = (q - at_rest.value) / (3 * shear), all = flow.rate_at(q, at_rest.value) * dt;
+    return all < to_rest ? all : to_rest;
   }
 
   // Where Newton left the bracket.
-  static double fallback(double left, double right, double guess) {
-    return guess > left && guess < right ? guess : (left + right) / 2;
+  template <class T>
+  static T fallback(const T& left, const T& right, const T& guess) {
+    return guess > left && guess < right ? guess : T((left + right) / 2);
   }
 
   // The stress that does the plastic work of a step, ½(σ_old + σ_new) : (3/2) s_trial/σ_trial. With it
@@ -132,8 +156,10 @@ struct J2 {
   // holds to round-off (J = 1) whether or not the step began below yield, so the ledger of a run closes; σ̄ in the place
   // of s_old would count more than was put in. Where one step crosses the whole yield surface while the rate falls it
   // could turn negative: dissipation does not.
-  static double mean_stress(const Symmetric& old, const Symmetric& s, double q, double flow_stress) {
-    return std::max(0.0, (flow_stress + 1.5 * double_dot(old, s) / q) / 2);
+  template <class T>
+  static T mean_stress(const SymmetricOf<T>& old, const SymmetricOf<T>& s, const T& q, const T& flow_stress) {
+    const T mean = (flow_stress + 1.5 * double_dot(old, s) / q) / 2;
+    return mean > 0 ? mean : T{};
   }
 };
 

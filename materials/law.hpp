@@ -10,6 +10,9 @@
 //   moduli    the elastic moduli that bound the stable step, of the Cauchy stress; of the state, where they change.
 //   energies  elastic_energy and dissipation feed the ledger of a run.
 //   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
+//   side by side  a law may take points side by side, a lane each: its step and its StateOf<T> are then templates over
+//             the number, double or Lanes, and State is StateOf<double>. All lanes are computed; those where J is not
+//             positive are thrown away.
 //   tangent   if it has one: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
 //             with its mirror image, and J with it (J = det U). NaN where the step does not converge. tangent_of
 //             (tangent.hpp) finds it by differences for laws that have none.
@@ -20,21 +23,26 @@
 #include <concepts>
 #include <string_view>
 
-#include "base/tensors.hpp"
+#include "materials/side_by_side.hpp"
 
 namespace strut::materials {
 
-struct PointStep {
-  Symmetric rate;     // unrotated rate of deformation at mid-step, 1/s
-  double dt;          // s
-  double J;           // det F at the end of the step
-  Symmetric stretch;  // U at the end of the step: R is taken out of F = R U, so F = U in the unrotated frame
+template <class T>
+struct StepOf {
+  SymmetricOf<T> rate;     // unrotated rate of deformation at mid-step, 1/s
+  T dt;                    // s
+  T J;                     // det F at the end of the step
+  SymmetricOf<T> stretch;  // U at the end of the step: R is taken out of F = R U, so F = U in the unrotated frame
 };
 
-struct PointStress {
-  Symmetric stress;  // unrotated Cauchy stress at the end of the step, Pa
-  bool converged;    // false: the law could not find a stress; the caller must not go on silently
+template <class T>
+struct StressOf {
+  SymmetricOf<T> stress;  // unrotated Cauchy stress at the end of the step, Pa
+  MaskOf<T> converged;    // false: the law could not find a stress; the caller must not go on silently
 };
+
+using PointStep = StepOf<double>;
+using PointStress = StressOf<double>;
 
 struct Moduli {
   double bulk;   // Pa
@@ -54,6 +62,13 @@ concept Law = std::copyable<L> && std::default_initializable<typename L::State> 
   { law.equivalent_stress(stress, committed) } -> std::same_as<double>;  // Pa
   { law.flow_stress(committed) } -> std::same_as<double>;                // Pa
   { L::state_names.size() } -> std::convertible_to<std::size_t>;
+};
+
+// Whether a law takes points side by side.
+template <class L>
+inline constexpr bool takes_lanes = requires(const L law, const StepOf<Lanes>& step, const SymmetricOf<Lanes>& stress,
+                                             typename L::template StateOf<Lanes>& state) {
+  { law.step(step, stress, state) } -> std::same_as<StressOf<Lanes>>;
 };
 
 // Whether a law's moduli change with its state.

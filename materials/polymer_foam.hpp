@@ -120,15 +120,15 @@ struct PolymerFoam {
   };
 
   // Constant beyond the ends of the table, also below zero: where the foam has been pulled longer.
-  static Curve hardening(const TableHardening& table, double strain) {
+  static Curve<double> hardening(const TableHardening& table, double strain) {
     if (table.strains.empty()) return {0, 0};
-    return strain < 0 ? Curve{table.stresses.front(), 0} : table(0, strain);
+    return strain < 0 ? Curve<double>{table.stresses.front(), 0} : table(0, strain);
   }
 
   Surface surface(double compaction) const {
     const double axial = 1 / (1 - 2 * plastic_poisson);  // ε_a/ε_v
-    const Curve a = hardening(uniaxial_hardening, axial * compaction);
-    const Curve p = hardening(hydrostatic_hardening, compaction);
+    const Curve<double> a = hardening(uniaxial_hardening, axial * compaction);
+    const Curve<double> p = hardening(hydrostatic_hardening, compaction);
     const double uniaxial = uniaxial_yield + a.value, hydrostatic = hydrostatic_yield + p.value;
     const double ratio = hydrostatic / uniaxial, ratio_slope = (p.slope - ratio * axial * a.slope) / uniaxial;
     const double compression = ratio - 1.0 / 3, tension = tension_ratio * ratio + 1.0 / 3;

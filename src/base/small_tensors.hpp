@@ -29,7 +29,25 @@ template <class T>
 struct Symmetric3 {
   T c[6];  // xx yy zz xy yz zx
   const T& operator[](int i) const { return c[i]; }
+  T& operator[](int i) { return c[i]; }
 };
+
+template <class T>
+T trace(const Symmetric3<T>& s) {
+  return s[0] + s[1] + s[2];
+}
+
+template <class T>
+Symmetric3<T> deviator(const Symmetric3<T>& s) {
+  const T mean = trace(s) / 3;
+  return {{s[0] - mean, s[1] - mean, s[2] - mean, s[3], s[4], s[5]}};
+}
+
+// a : b
+template <class T>
+T double_dot(const Symmetric3<T>& a, const Symmetric3<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
 
 // a b
 template <class T>
@@ -86,7 +104,7 @@ Symmetric3<T> inverse(const Symmetric3<T>& s) {
 // s : s
 template <class T>
 T square(const Symmetric3<T>& s) {
-  return s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+  return double_dot(s, s);
 }
 
 // s v

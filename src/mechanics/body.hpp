@@ -106,10 +106,12 @@ struct MaterialBlock {
 
   int lattice = -1;  // in domain.families.lattices, where its points sit on one
 
+  double& state_at(std::size_t column, std::size_t k) { return state[column * points.size() + k]; }
+  double state_at(std::size_t column, std::size_t k) const { return state[column * points.size() + k]; }
   template <class L>
   typename L::State state_of(std::size_t k) const {
     std::array<double, materials::state_size<L>> columns{};
-    for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = state[c * points.size() + k];
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = state_at(c, k);
     return materials::from_columns<L>(columns);
   }
   // Of points[k] as it is now.

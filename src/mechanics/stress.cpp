@@ -2,6 +2,8 @@
 // stress.
 #include "mechanics/stress.hpp"
 
+#include <bit>
+
 #include "base/rotation.hpp"
 
 // What is not inlined into the loop over groups passes its lanes through memory. Checking builds (debug, asan) go
@@ -16,13 +18,8 @@ namespace strut {
 
 namespace {
 
-template <class L>
-void store(MaterialBlock& block, std::size_t k, const typename L::State& state) {
-  const auto columns = materials::to_columns<L>(state);
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    double& kept = block.state[c * block.points.size() + k];
-    if (kept != columns[c]) kept = columns[c];  // below yield nothing changes: memory need not be written
-  }
+void keep(double& kept, double value) {
+  if (kept != value) kept = value;  // below yield nothing changes: memory need not be written
 }
 
 // ---- Points side by side -------------------------------------------------------------------------------------------
@@ -72,6 +69,13 @@ LaneSymmetric symmetrics(const Members& g, Symmetric MaterialPoint::*field) {
   return s;
 }
 
+// The same numbers as laws take them.
+materials::SymmetricOf<materials::Lanes> from_eigen(const LaneSymmetric& s) {
+  materials::SymmetricOf<materials::Lanes> result;
+  for (int c = 0; c < 6; ++c) result[c] = materials::from_eigen(s[c]);
+  return result;
+}
+
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
 // linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
 LaneSymmetric strain_rate(const Members& g, const LaneSymmetric& stretch, const Lanes& dt) {
@@ -86,10 +90,9 @@ LaneSymmetric strain_rate(const Members& g, const LaneSymmetric& stretch, const 
 }
 
 // A = P K⁻¹ − C F, P = J R (τ − q I) Rᵀ F⁻ᵀ = J R (τ − q I) U⁻¹; times the share of the step. `viscous`: q, Pa.
-LaneTensor force_states(const Members& g, const Polar<Lanes>& polar, const LaneSymmetric& inverse_stretch,
-                        const LaneTensor& F, const LaneSymmetric& shape_inverse, const Lanes& J, const Lanes& share,
-                        const Lanes& viscous) {
-  LaneSymmetric stress = symmetrics(g, &MaterialPoint::stress);
+LaneTensor force_states(const Members& g, LaneSymmetric stress, const Polar<Lanes>& polar,
+                        const LaneSymmetric& inverse_stretch, const LaneTensor& F, const LaneSymmetric& shape_inverse,
+                        const Lanes& J, const Lanes& share, const Lanes& viscous) {
   for (int c = 0; c < 3; ++c) stress.c[c] -= viscous;
   LaneTensor A = small::product(small::full(stress), small::full(inverse_stretch));
   A = small::product(small::product(polar.rotation, A), small::full(shape_inverse));
@@ -119,7 +122,50 @@ struct Update {
     const auto [stress, converged] = law.step({rate, dt, J, stretch}, g.points[l]->stress, state);
     if (!converged) return failure.report(g.k[l], Failure::Kind::no_stress);
     g.points[l]->stress = stress;
-    store<L>(block, g.k[l], state);
+    const auto columns = materials::to_columns<L>(state);
+    for (std::size_t c = 0; c < columns.size(); ++c) keep(block.state_at(c, g.k[l]), columns[c]);
+  }
+
+  // Stress and state of the points of a group at once.
+  LaneSymmetric advance_side_by_side(const Members& g, const LaneSymmetric& rates, const LaneSymmetric& stretches,
+                                     const Lanes& dt, const Lanes& J) const {
+    using State = typename L::template StateOf<materials::Lanes>;
+    constexpr std::size_t columns = materials::state_size<L>;
+    std::array<double, width * std::max<std::size_t>(columns, 1)> numbers;
+    for (std::size_t c = 0; c < columns; ++c) {
+      for (int l = 0; l < width; ++l) numbers[width * c + l] = block.state_at(c, g.k[l]);
+    }
+    State state;
+    if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
+    const auto [stress, converged] =
+        law.step({from_eigen(rates), materials::from_eigen(dt), materials::from_eigen(J), from_eigen(stretches)},
+                 from_eigen(symmetrics(g, &MaterialPoint::stress)), state);
+    if constexpr (columns > 0) numbers = std::bit_cast<decltype(numbers)>(state);
+    for (int l = 0; l < g.count; ++l) {
+      if (!(J[l] > 0)) continue;
+      if (!converged[l]) {
+        failure.report(g.k[l], Failure::Kind::no_stress);
+        continue;
+      }
+      for (int c = 0; c < 6; ++c) g.points[l]->stress[c] = stress[c][l];
+      for (std::size_t c = 0; c < columns; ++c) keep(block.state_at(c, g.k[l]), numbers[width * c + l]);
+    }
+    LaneSymmetric result;
+    for (int c = 0; c < 6; ++c) result[c] = materials::to_eigen(stress[c]);
+    return result;
+  }
+
+  // The stresses of a group at the end of the step.
+  LaneSymmetric advance_laws(const Members& g, const LaneSymmetric& rates, const LaneSymmetric& stretches,
+                             const Lanes& dt, const Lanes& J) const {
+    if constexpr (materials::takes_lanes<L>) {
+      return advance_side_by_side(g, rates, stretches, dt, J);
+    } else {
+      for (int l = 0; l < g.count; ++l) {
+        if (J[l] > 0) advance_law(g, l, rates, stretches, dt[l], J[l]);
+      }
+      return symmetrics(g, &MaterialPoint::stress);
+    }
   }
 
   // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
@@ -215,15 +261,17 @@ struct Update {
     const Lanes share = of_points(g, [this](int i) { return body.share(i, pass.order); });
     const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
     Lanes stiffness = stiffness_of(g), viscous = Lanes::Zero();
+    LaneSymmetric stress;
     if (pass.dt > 0) {
-      const LaneSymmetric rates = strain_rate(g, polar.stretch, pass.dt * share);
-      for (int l = 0; l < g.count; ++l) {
-        if (J[l] > 0) advance_law(g, l, rates, polar.stretch, pass.dt * share[l], J[l]);
-      }
+      const Lanes dt = pass.dt * share;
+      const LaneSymmetric rates = strain_rate(g, polar.stretch, dt);
+      stress = advance_laws(g, rates, polar.stretch, dt, J);
       if constexpr (materials::has_changing_moduli<L>) stiffness = stiffness_of(g);
-      if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, stiffness, J, pass.dt * share);
+      if (!block.viscous.empty()) viscous = viscous_pressure(g, rates, inverse_stretch, stiffness, J, dt);
+    } else {
+      stress = symmetrics(g, &MaterialPoint::stress);
     }
-    const LaneTensor A = force_states(g, polar, inverse_stretch, F, shape_inverse, J, share, viscous);
+    const LaneTensor A = force_states(g, stress, polar, inverse_stretch, F, shape_inverse, J, share, viscous);
     const Lanes volume = of_points(g, [this](int i) { return body.domain.volume(i); });
     const Lanes pace2 = stiffness * share * share * J * volume * small::square(inverse_stretch) *
                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);

@@ -40,7 +40,7 @@ std::vector<Symmetric> random_rates(double size) {
   return rates;
 }
 
-// The points of a block, stepped once per call with all rates multiplied by `factor`.
+// The points of a block, stepped once per call with all rates multiplied by `factor`, one by one.
 template <Law L>
 struct Block {
   const L law;
@@ -57,17 +57,46 @@ struct Block {
     }
     return converged;
   }
+};
 
-  // Each call follows the table of factors round and round.
-  void time(benchmark::State& run, const std::vector<double>& factors) {
-    std::size_t turn = 0;
-    for (auto _ : run) {
-      if (!advance(factors[turn++ % factors.size()])) run.SkipWithError("a step did not converge");
+// The same side by side.
+template <Law L>
+struct LaneBlock {
+  static constexpr int width = small::lane_count, groups = points / width;
+  const L law;
+  std::vector<SymmetricOf<Lanes>> rates;
+  std::vector<SymmetricOf<Lanes>> stress = std::vector<SymmetricOf<Lanes>>(groups, SymmetricOf<Lanes>{});
+  std::vector<typename L::template StateOf<Lanes>> state{groups};
+
+  LaneBlock(const L& l, const std::vector<Symmetric>& of_points) : law(l), rates(groups) {
+    for (int i = 0; i < points; ++i) {
+      for (int k = 0; k < 6; ++k) rates[i / width][k][i % width] = of_points[i][k];
     }
-    run.counters["time_per_point"] = benchmark::Counter(points * static_cast<double>(run.iterations()),
-                                                        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  }
+
+  bool advance(double factor) {
+    bool converged = true;
+    for (int g = 0; g < groups; ++g) {
+      StepOf<Lanes> step{rates[g], same<Lanes>(dt), same<Lanes>(1), {}};
+      for (int k = 0; k < 6; ++k) step.rate[k] *= factor;
+      const auto [next, good] = law.step(step, stress[g], state[g]);
+      stress[g] = next;
+      converged &= !any(!good);
+    }
+    return converged;
   }
 };
+
+// Each call follows the table of factors round and round.
+template <class Block>
+void time(benchmark::State& run, Block&& block, const std::vector<double>& factors) {
+  std::size_t turn = 0;
+  for (auto _ : run) {
+    if (!block.advance(factors[turn++ % factors.size()])) run.SkipWithError("a step did not converge");
+  }
+  run.counters["time_per_point"] = benchmark::Counter(points * static_cast<double>(run.iterations()),
+                                                      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
 
 // There and back below the yield stress.
 const std::vector<double> back_and_forth{1, 1, -1, -1};
@@ -75,27 +104,37 @@ const std::vector<double> back_and_forth{1, 1, -1, -1};
 const std::vector<double> steady{1.0, 1.02, 1.05, 1.06, 1.04, 1.02, 0.99, 0.98};
 const std::vector<double> unsteady{1.0, 1.1, 0.95, 0.8, 0.9, 1.05, 1.2, 1.0};
 
-void elastic(benchmark::State& run) { Block<Elastic>{{bulk, shear}, random_rates(1e3)}.time(run, back_and_forth); }
+template <template <Law> class Block>
+void elastic(benchmark::State& run) {
+  time(run, Block<Elastic>{{bulk, shear}, random_rates(1e3)}, back_and_forth);
+}
 
-void j2_below_yield(benchmark::State& run) { Block<J2>{power_law, random_rates(1e3)}.time(run, back_and_forth); }
+template <template <Law> class Block>
+void j2_below_yield(benchmark::State& run) {
+  time(run, Block<J2>{power_law, random_rates(1e3)}, back_and_forth);
+}
 
 // Hardened by one per cent of strain, then back and forth under the flow stress, above the first yield stress.
+template <template <Law> class Block>
 void j2_hardened_elastic(benchmark::State& run) {
   Block<J2> block{power_law, random_rates(1e4)};
   for (int i = 0; i < 100; ++i) block.advance(1);
-  for (auto& rate : block.rates) rate /= 100;
+  for (auto& rate : block.rates) {
+    for (int k = 0; k < 6; ++k) rate[k] /= 100;
+  }
   block.advance(-120);
-  block.time(run, back_and_forth);
+  time(run, block, back_and_forth);
 }
 
+template <template <Law> class Block>
 void flow(benchmark::State& run, const J2& law, const std::vector<double>& factors) {
   Block<J2> block{law, random_rates(1e4)};
   for (int i = 0; i < 20; ++i) block.advance(1);
-  block.time(run, factors);
+  time(run, block, factors);
 }
 
 // Every other step relaxes under a falling rate: the flow jumps by orders of magnitude from step to step.
-void j2_jerky_flow(benchmark::State& run) { flow(run, power_law, {-0.5, 1.0}); }
+const std::vector<double> jerky{-0.5, 1.0};
 
 // The foam goes by the stretch. Each call makes the same step again from the same states: one in the elastic range, one
 // that flows by 1e-4 of strain in each point's own direction, as explicit steps of a crushed foam do.
@@ -125,18 +164,30 @@ void polymer_foam(benchmark::State& run, double crushed, double more) {
                                                       benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-BENCHMARK(elastic);
-BENCHMARK(j2_below_yield);
-BENCHMARK(j2_hardened_elastic);
-BENCHMARK_CAPTURE(flow, power_hardening_power_rate, power_law, steady);
-BENCHMARK_CAPTURE(flow, power_hardening_power_rate_unsteady, power_law, unsteady);
-BENCHMARK_CAPTURE(flow, linear_hardening_no_rate, linear_law, steady);
-BENCHMARK_CAPTURE(flow, table_hardening_johnson_cook_rate, table_law, steady);
-BENCHMARK(j2_jerky_flow);
+template <template <Law> class Block>
+void add_benches(const std::string& how) {
+  benchmark::RegisterBenchmark((how + "/elastic").c_str(), elastic<Block>);
+  benchmark::RegisterBenchmark((how + "/j2_below_yield").c_str(), j2_below_yield<Block>);
+  benchmark::RegisterBenchmark((how + "/j2_hardened_elastic").c_str(), j2_hardened_elastic<Block>);
+  const auto add = [&how](const std::string& name, const J2& law, const std::vector<double>& factors) {
+    benchmark::RegisterBenchmark((how + "/flow/" + name).c_str(), flow<Block>, law, factors);
+  };
+  add("power_hardening_power_rate", power_law, steady);
+  add("power_hardening_power_rate_unsteady", power_law, unsteady);
+  add("power_hardening_power_rate_jerky", power_law, jerky);
+  add("linear_hardening_no_rate", linear_law, steady);
+  add("table_hardening_johnson_cook_rate", table_law, steady);
+}
+
 BENCHMARK_CAPTURE(polymer_foam, elastic, 0.0, 0.005);
 BENCHMARK_CAPTURE(polymer_foam, flow, 3.0, 0.0005);
 BENCHMARK_CAPTURE(polymer_foam, flow_in_large_steps, 3.0, 0.5);
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  add_benches<Block>("one_by_one");
+  add_benches<LaneBlock>("side_by_side");
+  benchmark::RunSpecifiedBenchmarks();
+}

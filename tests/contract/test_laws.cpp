@@ -3,6 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -379,6 +381,90 @@ TEST_P(LawTest, WorkIsStoredOrDissipated) {
     }
     const double balance = law.elastic_energy(point.stress, point.state) + law.dissipation(point.state);
     EXPECT_NEAR(work, balance, 1e-10 * size);
+  });
+}
+
+// ---- Side by side
+// ----------------------------------------------------------------------------------------------------
+
+// Some points side by side.
+template <Law L>
+struct SideBySide {
+  SymmetricOf<Lanes> stress{};
+  typename L::template StateOf<Lanes> state{};
+
+  // Each by a step of its own; whether they converged.
+  std::vector<bool> advance(const L& law, const std::vector<PointStep>& steps) {
+    StepOf<Lanes> step;
+    for (int l = 0; l < small::lane_count; ++l) {
+      for (int c = 0; c < 6; ++c) step.rate[c][l] = steps[l].rate[c], step.stretch[c][l] = steps[l].stretch[c];
+      step.dt[l] = steps[l].dt, step.J[l] = steps[l].J;
+    }
+    const auto [next, converged] = law.step(step, stress, state);
+    stress = next;
+    std::vector<bool> result(small::lane_count);
+    for (int l = 0; l < small::lane_count; ++l) result[l] = converged[l] != 0;
+    return result;
+  }
+  std::vector<double> numbers(int lane) const {
+    std::vector<double> result;
+    for (int c = 0; c < 6; ++c) result.push_back(stress[c][lane]);
+    if constexpr (state_size < L >> 0) {
+      const auto columns = std::bit_cast<std::array<Lanes, state_size<L>>>(state);
+      for (const Lanes& column : columns) result.push_back(column[lane]);
+    }
+    return result;
+  }
+};
+
+// Paths of points that are all the same or each another, and a step at the end that is none.
+template <class L>
+std::vector<std::vector<PointStep>> paths_side_by_side(int first_seed, bool alike) {
+  std::vector<std::vector<PointStep>> paths;
+  for (int l = 0; l < small::lane_count; ++l) {
+    Random random(first_seed + (alike ? 0 : l));
+    Point<L> point;
+    paths.emplace_back();
+    for (const Increment& increment : wild_path<L>(random, 50)) paths.back().push_back(point.step(increment));
+    if (l % 2 == 1) paths.back().back().rate[l % 6] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return paths;
+}
+
+// As one by one: both solve to 1e-12 of the trial stress from the same iterates; an error of it stands in numbers of
+// the state that may be small beside what they were before, as in IsIsotropic. Whoever is beside a point does not
+// change a bit of it.
+TEST_P(LawTest, PointsSideBySideAreAsOneByOne) {
+  with_law([]<Law L>(const L& law) {
+    if constexpr (!takes_lanes<L>) {
+      GTEST_SKIP() << "goes point by point";
+    } else {
+      for (int seed = 0; seed < 20; ++seed) {
+        const auto paths = paths_side_by_side<L>(seed, false), alike = paths_side_by_side<L>(seed, true);
+        SideBySide<L> group, same;
+        std::vector<Point<L>> points(small::lane_count);
+        std::vector<std::array<double, state_size<L>>> largest(small::lane_count);
+        for (std::size_t n = 0; n < paths[0].size(); ++n) {
+          std::vector<PointStep> steps, same_steps;
+          for (int l = 0; l < small::lane_count; ++l) steps.push_back(paths[l][n]), same_steps.push_back(alike[l][n]);
+          const std::vector<bool> converged = group.advance(law, steps);
+          same.advance(law, same_steps);
+          EXPECT_EQ(group.numbers(0), same.numbers(0));
+          for (int l = 0; l < small::lane_count; ++l) {
+            const double trial = points[l].stress.norm() + 10 * law.moduli().bulk * steps[l].rate.norm() * steps[l].dt;
+            ASSERT_EQ(converged[l], points[l].advance(law, steps[l]));
+            const std::vector<double> found = group.numbers(l);
+            const auto columns = to_columns<L>(points[l].state);
+            for (std::size_t c = 0; c < columns.size(); ++c) {
+              largest[l][c] = std::max(largest[l][c], std::abs(columns[c]));
+              EXPECT_NEAR(found[6 + c], columns[c], 1e-9 * largest[l][c]) << L::state_names[c];
+            }
+            if (!converged[l]) continue;
+            for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], points[l].stress[c], 1e-12 * trial);
+          }
+        }
+      }
+    }
   });
 }
 

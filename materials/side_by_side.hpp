@@ -1,0 +1,60 @@
+// The numbers of points side by side, as a law may take them, a point a lane. What is written with + − * / < && and ?:
+// is the same for one point (double) and for these, where a comparison gives a mask and ?: chooses by lane. Functions
+// here are those of the standard library for them; exp and log are Eigen's, good to two units in the last place.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "base/small_tensors.hpp"
+#include "base/tensors.hpp"
+
+namespace strut::materials {
+
+using Lanes = double __attribute__((vector_size(8 * small::lane_count)));  // the compiler's small::Lanes
+template <class T>
+using MaskOf = decltype(T{} < T{});  // bool of a double
+using Mask = MaskOf<Lanes>;
+
+template <class T>
+using SymmetricOf = std::conditional_t<std::is_same_v<T, double>, Symmetric, small::Symmetric3<T>>;
+
+// The same number for each.
+template <class T>
+T same(double value) {
+  return T{} + value;
+}
+
+inline bool any(bool is) { return is; }
+inline bool any(const Mask& is) {
+  const Mask none{};
+  return std::memcmp(&is, &none, sizeof is) != 0;
+}
+
+inline Eigen::Map<const small::Lanes, Eigen::AlignedMax> to_eigen(const Lanes& x) {
+  return Eigen::Map<const small::Lanes, Eigen::AlignedMax>(reinterpret_cast<const double*>(&x));
+}
+template <class Expression>
+Lanes from_eigen(const Expression& x) {
+  Lanes result;
+  Eigen::Map<small::Lanes, Eigen::AlignedMax>(reinterpret_cast<double*>(&result)) = x;
+  return result;
+}
+
+using std::exp, std::log, std::expm1, std::sqrt;
+inline Lanes exp(const Lanes& x) { return from_eigen(to_eigen(x).exp()); }
+inline Lanes log(const Lanes& x) { return from_eigen(to_eigen(x).log()); }
+inline Lanes sqrt(const Lanes& x) { return from_eigen(to_eigen(x).sqrt()); }
+inline Lanes expm1(const Lanes& x) { return exp(x) - 1; }  // near 0 good to round-off of 1
+
+template <class T>
+T absolute(const T& x) {
+  return x < 0 ? -x : x;
+}
+template <class T>
+auto is_finite(const T& x) {
+  return x - x == 0;
+}
+
+}  // namespace strut::materials
