@@ -12,7 +12,7 @@
 
 namespace strut::materials {
 
-using Lanes = double __attribute__((vector_size(8 * small::lane_count)));  // the compiler's small::Lanes
+using Lanes = small::RawLanes;
 template <class T>
 using MaskOf = decltype(T{} < T{});  // bool of a double
 using Mask = MaskOf<Lanes>;
@@ -32,20 +32,10 @@ inline bool any(const Mask& is) {
   return std::memcmp(&is, &none, sizeof is) != 0;
 }
 
-inline Eigen::Map<const small::Lanes, Eigen::AlignedMax> to_eigen(const Lanes& x) {
-  return Eigen::Map<const small::Lanes, Eigen::AlignedMax>(reinterpret_cast<const double*>(&x));
-}
-template <class Expression>
-Lanes from_eigen(const Expression& x) {
-  Lanes result;
-  Eigen::Map<small::Lanes, Eigen::AlignedMax>(reinterpret_cast<double*>(&result)) = x;
-  return result;
-}
-
 using std::exp, std::log, std::expm1, std::sqrt;
-inline Lanes exp(const Lanes& x) { return from_eigen(to_eigen(x).exp()); }
-inline Lanes log(const Lanes& x) { return from_eigen(to_eigen(x).log()); }
-inline Lanes sqrt(const Lanes& x) { return from_eigen(to_eigen(x).sqrt()); }
+inline Lanes exp(const Lanes& x) { return small::raw(small::lanes(x).exp()); }
+inline Lanes log(const Lanes& x) { return small::raw(small::lanes(x).log()); }
+inline Lanes sqrt(const Lanes& x) { return small::raw(small::lanes(x).sqrt()); }
 inline Lanes expm1(const Lanes& x) { return exp(x) - 1; }  // near 0 good to round-off of 1
 
 template <class T>

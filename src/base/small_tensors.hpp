@@ -3,17 +3,10 @@
 // matrices of doubles would leave most of each register empty.
 #pragma once
 
+#include "base/lanes.hpp"
 #include "base/tensors.hpp"
 
 namespace strut::small {
-
-// The same number of as many points as a register holds; four at least.
-#ifdef __AVX512F__
-inline constexpr int lane_count = 8;
-#else
-inline constexpr int lane_count = 4;
-#endif
-using Lanes = Eigen::Array<double, lane_count, 1>;
 
 template <class T>
 struct Vector3 {

@@ -73,7 +73,7 @@ void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, const Di
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];
-      const auto K = moments(block, group, places, weight);
+      const auto K = moments(group, places, weight);
       for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l));
     });
   });

@@ -84,12 +84,16 @@ struct OfBundle {
 
   template <int count, class Of>
   std::array<Lanes, count> own(Of of) const {
-    std::array<Lanes, count> numbers;
-    for (int l = 0; l < Bundle::width; ++l) {
-      const double* from = of(bundle.points[l < static_cast<int>(bundle.points.size()) ? l : 0]);
-      for (int n = 0; n < count; ++n) numbers[n][l] = from[n];
+    const auto of_lane = [&](int l) { return of(bundle.points[l < static_cast<int>(bundle.points.size()) ? l : 0]); };
+    if constexpr (count >= 4) {
+      return small::numbers_of<count>(of_lane);
+    } else {
+      std::array<Lanes, count> numbers;
+      for (int l = 0; l < Bundle::width; ++l) {
+        for (int n = 0; n < count; ++n) numbers[n][l] = of_lane(l)[n];
+      }
+      return numbers;
     }
-    return numbers;
   }
   template <class Visit>
   void for_each(Visit&& visit) const {  // visit(j, 1 in the lanes of those who have j in their family, else 0)
@@ -116,7 +120,7 @@ using ScalarOf = typename Family::Scalar;
 
 template <class Family>
 Vector3<ScalarOf<Family>> own_place(const Family& family, const Site* sites, Eigen::Array4d Site::*place) {
-  const auto X = family.template own<3>([&](int i) { return (sites[i].*place).data(); });
+  const auto X = family.template own<4>([&](int i) { return (sites[i].*place).data(); });
   return {{X[0], X[1], X[2]}};
 }
 
@@ -191,11 +195,10 @@ struct OwnState {
 
 template <class Family>
 OwnState<ScalarOf<Family>> own_state(const Family& family, const ForceState* states) {
-  const auto numbers = family.template own<8>([&](int i) { return states[i].column[0].data(); });
-  const auto last = family.template own<3>([&](int i) { return states[i].column[2].data(); });
+  const auto numbers = family.template own<12>([&](int i) { return states[i].column[0].data(); });
   OwnState<ScalarOf<Family>> state;
   for (int r = 0; r < 3; ++r) {
-    state.tensor.c[r][0] = numbers[r], state.tensor.c[r][1] = numbers[4 + r], state.tensor.c[r][2] = last[r];
+    for (int c = 0; c < 3; ++c) state.tensor.c[r][c] = numbers[4 * c + r];
   }
   state.scalar = numbers[3], state.share = numbers[7];
   return state;

@@ -10,6 +10,10 @@ namespace strut {
 
 namespace {
 
+using small::Lanes;
+using LaneVector = small::Vector3<Lanes>;
+using LaneTensor = small::Tensor3<Lanes>;
+
 // What is summed of a point for residuals: F − I, u, C̄, V and the share of the step; and what comes of it: M, a force.
 constexpr int residual_inputs = 15, residual_outputs = 12;
 
@@ -20,13 +24,28 @@ void with_constant(int value, const Work& work) {
   if constexpr (n < pencil_width) with_constant<n + 1>(value, work);
 }
 
-// Points stand in memory as in their lattice: what is packed soon is a few records on.
-template <class Record>
-inline void fetch_ahead(const Record* records, int i) {
-  constexpr int ahead = 24;
-  const char* first = reinterpret_cast<const char*>(records + i + ahead);
-  for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
-}
+// The points in some cells side by side of a pencil; −1 where there is none.
+struct Cells {
+  Indices i;
+
+  // Where the records of these points begin; where there is no point, at zeros.
+  template <class Record>
+  auto of(const Record* records) const {
+    alignas(64) static constexpr double zeros[sizeof(Record) / sizeof(double)] = {};
+    std::array<const double*, small::lane_count> at;
+    for (int l = 0; l < small::lane_count; ++l) {
+      at[l] = i[l] < 0 ? zeros : reinterpret_cast<const double*>(records + i[l]);
+      fetch_ahead(records, i[l]);
+    }
+    return [at](int l) { return at[l]; };
+  }
+};
+
+// Where a column of these cells is put.
+struct Put {
+  double* to;
+  void operator()(int column, const Lanes& values) const { Eigen::Map<Lanes>(to + column * pencil_width) = values; }
+};
 
 // Calls visit(k) for the bits that are set in a row of words.
 template <class Visit>
@@ -93,7 +112,8 @@ void LatticeSums::mark_places() {
 
 // With V in the place of V u or V |u|², moments and squares are what is looked for.
 void LatticeSums::set_constants(const Body& body) {
-  const auto volume = [&](int i, const auto& put) { put(0, body.domain.volume(i)); };
+  const Displacements u{body.domain.sites.data()};
+  const auto volume = [&](const auto& cells, const Put& put) { put(0, u.of(cells.of(u.sites)).volume); };
   const auto each_owned = [&](const Chunk& chunk, const auto& set) {
     for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
       const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
@@ -102,7 +122,9 @@ void LatticeSums::set_constants(const Body& body) {
   };
   with_constant(lattice_->reach(), [&](auto reach) {
     sweep<MomentSweep<reach>>(volume, [&](const Chunk& chunk) {
-      each_owned(chunk, [&](int i) { constants_[i].first = chunk.tensor(i).row(0); });
+      each_owned(chunk, [&](int i) {
+        for (int c = 0; c < 3; ++c) constants_[i].first[c] = chunk.at(i)[3 * c * pencil_width];
+      });
     });
     sweep<SquareSweep<reach>>(
         volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants_[i].weight = *chunk.at(i); }); });
@@ -124,6 +146,39 @@ std::pair<int, int> LatticeSums::Chunk::part_of(const std::vector<int>& points, 
   };
   return {place_of(begin), place_of(end)};
 }
+
+// The sums of some points.
+struct LatticeSums::Chunk::OfGroup {
+  const Chunk& chunk;
+  const Indices& i;
+  std::array<const double*, small::lane_count> at;
+  bool together;  // side by side in one pencil
+
+  OfGroup(const Chunk& c, const Indices& points) : chunk(c), i(points), together(true) {
+    for (int l = 0; l < small::lane_count; ++l) {
+      at[l] = chunk.at(i[l]);
+      together = together && at[l] == at[0] + l;
+    }
+  }
+  Lanes column(int c) const {
+    if (together) return Eigen::Map<const Lanes>(at[0] + c * pencil_width);
+    Lanes values;
+    for (int l = 0; l < small::lane_count; ++l) values[l] = at[l][c * pencil_width];
+    return values;
+  }
+  LaneVector vector(int c) const { return {{column(c), column(c + 1), column(c + 2)}}; }
+  LaneTensor tensor(int first) const {  // by columns
+    LaneTensor t;
+    for (int c = 0; c < 9; ++c) t.c[c % 3][c / 3] = column(first + c);
+    return t;
+  }
+  std::array<Lanes, 4> constants() const {
+    return small::four_of([&](int l) { return chunk.all->constants_[i[l]].first.data(); });
+  }
+};
+
+LaneVector LatticeSums::Chunk::residual_forces(const Indices& i) const { return OfGroup(*this, i).vector(9); }
+LaneTensor LatticeSums::Chunk::residual_moments(const Indices& i) const { return OfGroup(*this, i).tensor(0); }
 
 // ---- Strips --------------------------------------------------------------------------------------------------------
 
@@ -196,13 +251,13 @@ void LatticeSums::sum_plane(int z, const Strip& strip, const Fill& fill) {
   }
 }
 
-// Fills the columns of a pencil by fill(point, put) with put(column, value). Empty cells stay zero.
+// Fills the columns of a pencil by fill(cells, put) with put(column, values). Empty cells are zero.
 template <class Fill>
 void LatticeSums::pack(int slot, const Fill& fill, Pencil* to) const {
-  double* cells = reinterpret_cast<double*>(to);
-  for (int lane = 0; lane < pencil_width; ++lane) {
-    const int i = lattice_->point(slot, lane);
-    if (i >= 0) fill(i, [&](int column, double value) { cells[column * pencil_width + lane] = value; });
+  for (int first = 0; first < pencil_width; first += small::lane_count) {
+    Cells cells;
+    for (int l = 0; l < small::lane_count; ++l) cells.i[l] = lattice_->point(slot, first + l);
+    fill(cells, Put{reinterpret_cast<double*>(to) + first});
   }
 }
 
@@ -335,16 +390,22 @@ struct LatticeSums::MomentSweep {
 };
 
 void LatticeSums::moments(const Displacements& u, const Take& take) {
-  const auto fill = [&](int i, const auto& put) {
-    fetch_ahead(u.sites, i);
-    const Eigen::Array4d Vu = u.sites[i].reference[3] * u(i);
-    for (int c = 0; c < 3; ++c) put(c, Vu[c]);
+  const auto fill = [&](const Cells& cells, const Put& put) {
+    const auto [ui, V] = u.of(cells.of(u.sites));
+    for (int c = 0; c < 3; ++c) put(c, V * ui.c[c]);
   };
   with_constant(lattice_->reach(), [&](auto reach) { sweep<MomentSweep<reach>>(fill, take); });
 }
 
-Tensor LatticeSums::Chunk::moment(int i, const Displacements& u) const {
-  return tensor(i) - u(i).head<3>().matrix() * all->constants_[i].first.transpose();
+LaneTensor LatticeSums::Chunk::moments(const Indices& i, const Displacements& u) const {
+  const OfGroup group(*this, i);
+  const LaneVector ui = u.of([&](int l) { return u.sites[i[l]].reference.data(); }).u;
+  const auto S = group.constants();
+  LaneTensor H = group.tensor(0);
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) H.c[r][c] -= ui.c[r] * S[c];
+  }
+  return H;
 }
 
 // ---- Squares -------------------------------------------------------------------------------------------------------
@@ -369,11 +430,10 @@ struct LatticeSums::SquareSweep {
 };
 
 void LatticeSums::squares(const Displacements& u, const Take& take) {
-  const auto fill = [&](int i, const auto& put) {
-    const Eigen::Array4d ui = u(i);
-    const double V = u.sites[i].reference[3];
-    put(0, V * ui.head<3>().square().sum());
-    for (int c = 0; c < 3; ++c) put(1 + c, V * ui[c]);
+  const auto fill = [&](const Cells& cells, const Put& put) {
+    const auto [ui, V] = u.of(cells.of(u.sites));
+    put(0, V * bonds::dot(ui, ui));
+    for (int c = 0; c < 3; ++c) put(1 + c, V * ui.c[c]);
   };
   with_constant(lattice_->reach(), [&](auto reach) { sweep<SquareSweep<reach>>(fill, take); });
 }
@@ -441,15 +501,17 @@ struct LatticeSums::ForceSweep {
 // f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω
 // V_j, q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
 void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take) {
-  const auto fill = [&](int i, const auto& put) {
-    fetch_ahead(u.sites, i), fetch_ahead(states.data(), i);
-    const double V = u.sites[i].reference[3], C = states[i].column[0][3], stretched = u.is_field ? 0 : C;
+  const auto fill = [&](const Cells& cells, const Put& put) {
+    const auto [ui, V] = u.of(cells.of(u.sites));
+    const auto A = small::numbers_of<12>(cells.of(states.data()));
+    const Lanes& C = A[3];
     for (int axis = 0; axis < 3; ++axis) {
-      for (int c = 0; c < 3; ++c) put(3 * axis + c, V * (states[i].column[axis][c] + (c == axis ? stretched : 0)));
+      for (int c = 0; c < 3; ++c) {
+        put(3 * axis + c, c == axis && !u.is_field ? Lanes(V * (A[4 * axis + c] + C)) : Lanes(V * A[4 * axis + c]));
+      }
     }
     if (!has_springs_) return;
-    const Eigen::Array4d ui = u(i);
-    for (int c = 0; c < 3; ++c) put(9 + c, V * C * ui[c]), put(13 + c, V * ui[c]);
+    for (int c = 0; c < 3; ++c) put(9 + c, V * C * ui.c[c]), put(13 + c, V * ui.c[c]);
     put(12, V * C);
   };
   with_constant(lattice_->reach(), [&](auto reach) {
@@ -457,33 +519,35 @@ void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& 
   });
 }
 
-Vector LatticeSums::Chunk::force(int i, const Displacements& u, const ForceState& state) const {
-  const Constants& own = all->constants_[i];
-  Tensor A;
-  for (int c = 0; c < 3; ++c) A.col(c) = state.column[c].head<3>().matrix();
-  Vector f = vector(i, 0) + A * own.first;
+LaneVector LatticeSums::Chunk::forces(const Indices& i, const Displacements& u,
+                                      const std::vector<ForceState>& states) const {
+  const OfGroup group(*this, i);
+  const auto S = group.constants();
+  const auto A = small::numbers_of<12>([&](int l) { return states[i[l]].column[0].data(); });
+  LaneVector f = group.vector(0);
+  for (int r = 0; r < 3; ++r) f.c[r] += A[r] * S[0] + A[4 + r] * S[1] + A[8 + r] * S[2];
   if (!all->has_springs_) return f;
-  const Vector ui = u(i).head<3>().matrix();
-  Vector stretch = vector(i, 4) - own.weight * ui;
-  if (!u.is_field) stretch += own.first;
-  return f + state.column[0][3] * stretch - at(i)[3 * pencil_width] * ui;
+  const LaneVector ui = u.of([&](int l) { return u.sites[i[l]].reference.data(); }).u;
+  const LaneVector q = group.vector(4);
+  const Lanes stiffness = group.column(3);
+  for (int r = 0; r < 3; ++r) {
+    const Lanes stretch = q.c[r] - S[3] * ui.c[r];
+    f.c[r] += A[3] * (u.is_field ? stretch : Lanes(stretch + S[r])) - stiffness * ui.c[r];
+  }
+  return f;
 }
 
 // ---- Residuals -----------------------------------------------------------------------------------------------------
 
 void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState>& gradients, const Take& take) {
-  const auto fill = [&](int i, const auto& put) {
-    fetch_ahead(u.sites, i), fetch_ahead(gradients.data(), i);
-    const Eigen::Array4d ui = u(i);
+  const auto fill = [&](const Cells& cells, const Put& put) {
+    const auto [ui, V] = u.of(cells.of(u.sites));
+    const auto F = small::numbers_of<12>(cells.of(gradients.data()));
     for (int axis = 0; axis < 3; ++axis) {
-      for (int c = 0; c < 3; ++c) {
-        put(3 * axis + c, gradients[i].column[axis][c] - (c == axis && !u.is_field ? 1 : 0));
-      }
-      put(9 + axis, ui[axis]);
+      for (int c = 0; c < 3; ++c) put(3 * axis + c, F[4 * axis + c] - (c == axis && !u.is_field ? 1 : 0));
+      put(9 + axis, ui.c[axis]);
     }
-    put(12, gradients[i].column[0][3]);
-    put(13, u.sites[i].reference[3]);
-    put(14, gradients[i].column[1][3]);
+    put(12, F[3]), put(13, V), put(14, F[7]);
   };
   const int planes = lattice_->shape()[2], far = far_z();
   for (const Strip& strip : strips(residual_inputs)) {

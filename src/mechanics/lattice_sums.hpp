@@ -16,6 +16,7 @@
 // point. A sum has the order of the planes, so that results are the same on any number of ranks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -25,6 +26,17 @@
 
 namespace strut {
 
+// Local indices of points side by side.
+using Indices = std::array<int, small::lane_count>;
+
+// Points are taken in the order in which they stand in memory: what is read soon is a few records on.
+template <class Record>
+inline void fetch_ahead(const Record* records, int i) {
+  constexpr int ahead = 24;
+  const char* first = reinterpret_cast<const char*>(records + i + ahead);
+  for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
+}
+
 // What is summed: u = y − X of sites, or a field that stands in the place of y, less `origin`.
 struct Displacements {
   const Site* sites;
@@ -33,6 +45,20 @@ struct Displacements {
 
   Eigen::Array4d operator()(int i) const {
     return is_field ? Eigen::Array4d(sites[i].current - origin) : Eigen::Array4d(sites[i].current - sites[i].reference);
+  }
+  // Of the sites that begin at(lane), and their volumes.
+  struct OfLanes {
+    small::Vector3<small::Lanes> u;
+    small::Lanes volume;
+  };
+  template <class At>
+  OfLanes of(const At& at) const {
+    const auto site = small::numbers_of<8>(at);  // X, V, y, δ
+    OfLanes result{{}, site[3]};
+    for (int c = 0; c < 3; ++c) {
+      result.u.c[c] = is_field ? small::Lanes(site[4 + c] - origin[c]) : small::Lanes(site[4 + c] - site[c]);
+    }
+    return result;
   }
 };
 
@@ -47,13 +73,20 @@ class LatticeSums {
     // Which of `points`, ascending local indices, from place `low` to `high`, are in these slots: first and end.
     std::pair<int, int> part_of(const std::vector<int>& points, int low, int high) const;
 
-    // After the sweep that is named alike.
-    Tensor moment(int i, const Displacements& u) const;  // H
+    // Whether a point and the one `apart` places after it stand so far apart in one pencil.
+    bool are_side_by_side(int i, int j, int apart) const {
+      const int cell = all->lattice_->cell(i), end = all->lattice_->cell(j);
+      return end - cell == apart && cell / pencil_width == end / pencil_width;
+    }
+
+    // After the sweep that is named alike: of some points.
+    small::Tensor3<small::Lanes> moments(const Indices& i, const Displacements& u) const;  // H
+    small::Vector3<small::Lanes> residual_forces(const Indices& i) const;
+    small::Tensor3<small::Lanes> residual_moments(const Indices& i) const;  // M
+    small::Vector3<small::Lanes> forces(const Indices& i, const Displacements& u,
+                                        const std::vector<ForceState>& states) const;  // N/m³
     double squared_residual(int i, const Displacements& u,
                             const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
-    Vector residual_force(int i) const { return vector(i, 9); }
-    Tensor residual_moment(int i) const { return tensor(i); }                    // M
-    Vector force(int i, const Displacements& u, const ForceState& state) const;  // N/m³
 
    private:
     friend class LatticeSums;
@@ -67,12 +100,7 @@ class LatticeSums {
       const double* numbers = at(i) + column * pencil_width;
       return {numbers[0], numbers[pencil_width], numbers[2 * pencil_width]};
     }
-    Tensor tensor(int i) const {
-      const double* numbers = at(i);
-      Tensor t;
-      for (int c = 0; c < 9; ++c) t.data()[c] = numbers[c * pencil_width];
-      return t;
-    }
+    struct OfGroup;
 
     const LatticeSums* all;
     int begin, end;

@@ -82,12 +82,12 @@ bool all_undisturbed(const Body& body) {
 }
 
 template <class Weight>
-Lanes residual_energies(const Body& body, const MaterialBlock& block, const Group& group, const Site* places,
+Lanes residual_energies(const Body& body, const Group& group, const Site* places,
                         const std::vector<ForceState>& gradients, Weight weight) {
   if (group.bundle) return bonds::residual_energy(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
   Lanes energies = Lanes::Zero();
   for (int l = 0; l < group.count; ++l) {
-    const bonds::OfPoint family{body.domain.families, block.points[group.k[l]]};
+    const bonds::OfPoint family{body.domain.families, group.i[l]};
     energies[l] = bonds::residual_energy(family, places, gradients.data(), weight);
   }
   return energies;
@@ -98,23 +98,23 @@ Lanes residual_energies(const Body& body, const MaterialBlock& block, const Grou
 // the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
 void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part part, ForceStates& states,
                   std::vector<Vector>& result, std::span<double> energy) {
-  const auto add = [&](const MaterialBlock& block, const Group& group, auto weight) {
-    const bonds::Residual<Lanes> sums = residuals(block, group, u.sites, states.gradients, weight);
+  const auto add = [&](const Group& group, auto weight) {
+    const bonds::Residual<Lanes> sums = residuals(group, u.sites, states.gradients, weight);
     for (int l = 0; l < group.count; ++l) {
-      const int i = block.points[group.k[l]];
+      const int i = group.i[l];
       take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
       result[i] = at(sums.force, l);
     }
     if (energy.empty()) return;
-    const Lanes energies = residual_energies(body, block, group, u.sites, states.gradients, weight);
-    for (int l = 0; l < group.count; ++l) energy[block.points[group.k[l]]] += energies[l];
+    const Lanes energies = residual_energies(body, group, u.sites, states.gradients, weight);
+    for (int l = 0; l < group.count; ++l) energy[group.i[l]] += energies[l];
   };
   over_blocks(
       body, bodies, part,
       [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.residuals(u, states.gradients, take); },
       [&](const MaterialBlock& block, const Groups& groups) {
         if (!(block.material.mean_stabilization > 0)) return;
-        over_groups(body, groups, [&](const Group& group, auto weight) { add(block, group, weight); });
+        over_groups(body, groups, [&](const Group& group, auto weight) { add(group, weight); });
       });
 }
 
@@ -143,7 +143,7 @@ struct ForceSum {
       if (!block.feels_correspondence) return;
       const bool is_begun = block.material.mean_stabilization > 0;
       over_groups(body, groups, [&](const Group& group, auto weight) {
-        add(block, group, forces(block, group, u, states.tensors, with_springs, weight), is_begun);
+        add(group, forces(group, u, states.tensors, with_springs, weight), is_begun);
       });
     });
   }
@@ -153,7 +153,7 @@ struct ForceSum {
       if (!is_due(block, bodies) || !block.feels_ordinary) continue;
       over_groups(body, Groups(body, block, part), [&](const Group& group, auto weight) {
         const bonds::OfBundle family{*group.bundle};
-        add(block, group,
+        add(group,
             bonds::ordinary_force(family, body.domain.sites.data(), states.scalars.data(), weight,
                                   extension_of(family)),
             block.feels_correspondence);
@@ -162,9 +162,9 @@ struct ForceSum {
   }
 
  private:
-  void add(const MaterialBlock& block, const Group& group, const small::Vector3<Lanes>& force, bool is_begun) const {
+  void add(const Group& group, const small::Vector3<Lanes>& force, bool is_begun) const {
     for (int l = 0; l < group.count; ++l) {
-      Vector& sum = result[block.points[group.k[l]]];
+      Vector& sum = result[group.i[l]];
       sum = is_begun ? Vector(sum + at(force, l)) : at(force, l);
     }
   }
@@ -211,7 +211,7 @@ void set_tangent_scalars(const Body& body, const MaterialBlock& block, const Gro
   const Lanes moment = bonds::extensions(family, body.domain.sites.data(), weight, bonds::OfField(family, field));
   for (int l = 0; l < group.count; ++l) {
     const double m = block.ordinary[group.k[l]].weighted_volume;
-    result[block.points[group.k[l]]] = scalar_state(block.moduli(group.k[l]), 3 * moment[l] / m, m);
+    result[group.i[l]] = scalar_state(block.moduli(group.k[l]), 3 * moment[l] / m, m);
   }
 }
 
@@ -232,7 +232,7 @@ void set_tangent_states(const Body& body, const Displacements& field, const std:
                         Part part, ForceStates& result) {
   const auto set = [&](const MaterialBlock& block, const Group& group, auto weight) {
     if (block.is_ordinary()) return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
-    const auto dN = moments(block, group, field, weight);
+    const auto dN = moments(group, field, weight);
     for (int l = 0; l < group.count; ++l) set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
   };
   over_blocks(
@@ -255,7 +255,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
     advance_stress(body, block, pass, groups, report);
   };
   const auto view = [&](const MaterialBlock& block, const Groups& groups) {
-    if (!block.is_ordinary()) view_residuals(body, block, groups);
+    if (!block.is_ordinary()) view_residuals(body, groups);
   };
   const auto over = [&](Part part) {
     const Timed timed(deforming);

@@ -26,7 +26,7 @@ void advance_points(Body& body, MaterialBlock& block, Weight weight, const Group
       OrdinaryPoint& point = block.ordinary[group.k[l]];
       const double m = point.weighted_volume;
       point.dilatation = 3 * moment[l] / m;
-      body.force_states.scalars[block.points[group.k[l]]] = scalar_state(moduli, point.dilatation, m);
+      body.force_states.scalars[group.i[l]] = scalar_state(moduli, point.dilatation, m);
       if (!std::isfinite(point.dilatation)) failure.report(group.k[l], Failure::Kind::not_finite);
     }
   });
@@ -52,7 +52,7 @@ void set_views(Body& body, MaterialBlock& block, Weight weight, const Groups& gr
     for (int l = 0; l < group.count; ++l) {
       OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
       ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);
-      MaterialPoint& point = body.points[block.points[group.k[l]]];
+      MaterialPoint& point = body.points[group.i[l]];
       point.deformation_gradient = at(N, l) * to_tensor(point.shape_inverse);
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);

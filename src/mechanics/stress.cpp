@@ -33,46 +33,47 @@ constexpr int width = Group::width;
 struct Members : Group {
   std::array<MaterialPoint*, width> points;
 
-  Members(const Group& group, Body& body, const MaterialBlock& block) : Group(group) {
-    for (int l = 0; l < width; ++l) points[l] = &body.points[block.points[k[l]]];
+  Members(const Group& group, Body& body) : Group(group) {
+    for (int l = 0; l < width; ++l) {
+      points[l] = &body.points[i[l]];
+      fetch_ahead(body.points.data(), i[l]);
+    }
   }
 };
 
-// The number that `of` finds in each point.
+// The number that of(lane) is.
 template <class Of>
-Lanes lanes(const Members& g, Of of) {
-  alignas(Lanes) double values[width];
-  for (int l = 0; l < width; ++l) values[l] = of(*g.points[l]);
-  return Eigen::Map<const Lanes, Eigen::AlignedMax>(values);
+Lanes lanes(const Of& of) {
+  Lanes values;
+  for (int l = 0; l < width; ++l) values[l] = of(l);
+  return values;
 }
 
 LaneTensor tensors(const Members& g, Tensor MaterialPoint::*field) {
   LaneTensor t;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) t.c[i][j] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)(i, j); });
+    for (int j = 0; j < 3; ++j) t.c[i][j] = lanes([&](int l) { return (g.points[l]->*field)(i, j); });
   }
   return t;
 }
 
 LaneTensor rotations(const Members& g) {
   LaneTensor R;
-  for (int c = 0; c < 6; ++c) {
-    R.c[c % 3][c / 3] = lanes(g, [=](const MaterialPoint& p) { return p.rotation.number(c); });
-  }
+  for (int c = 0; c < 6; ++c) R.c[c % 3][c / 3] = lanes([&](int l) { return g.points[l]->rotation.number(c); });
   complete(R);
   return R;
 }
 
 LaneSymmetric symmetrics(const Members& g, Symmetric MaterialPoint::*field) {
   LaneSymmetric s;
-  for (int c = 0; c < 6; ++c) s.c[c] = lanes(g, [=](const MaterialPoint& p) { return (p.*field)[c]; });
+  for (int c = 0; c < 6; ++c) s[c] = lanes([&](int l) { return (g.points[l]->*field)[c]; });
   return s;
 }
 
 // The same numbers as laws take them.
-materials::SymmetricOf<materials::Lanes> from_eigen(const LaneSymmetric& s) {
+materials::SymmetricOf<materials::Lanes> raw(const LaneSymmetric& s) {
   materials::SymmetricOf<materials::Lanes> result;
-  for (int c = 0; c < 6; ++c) result[c] = materials::from_eigen(s[c]);
+  for (int c = 0; c < 6; ++c) result[c] = small::raw(s[c]);
   return result;
 }
 
@@ -89,14 +90,12 @@ LaneSymmetric strain_rate(const Members& g, const LaneSymmetric& stretch, const 
   return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
 }
 
-// A = P K⁻¹ − C F, P = J R (τ − q I) Rᵀ F⁻ᵀ = J R (τ − q I) U⁻¹; times the share of the step. `viscous`: q, Pa.
-LaneTensor force_states(const Members& g, LaneSymmetric stress, const Polar<Lanes>& polar,
+// A = P K⁻¹ − C F, P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹; times the share of the step. `stress`: τ, Pa.
+LaneTensor force_states(const LaneSymmetric& stress, const Lanes& C, const Polar<Lanes>& polar,
                         const LaneSymmetric& inverse_stretch, const LaneTensor& F, const LaneSymmetric& shape_inverse,
-                        const Lanes& J, const Lanes& share, const Lanes& viscous) {
-  for (int c = 0; c < 3; ++c) stress.c[c] -= viscous;
+                        const Lanes& J, const Lanes& share) {
   LaneTensor A = small::product(small::full(stress), small::full(inverse_stretch));
   A = small::product(small::product(polar.rotation, A), small::full(shape_inverse));
-  const Lanes C = lanes(g, [](const MaterialPoint& p) { return p.stabilization; });
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) A.c[i][j] = share * (J * A.c[i][j] - C * F.c[i][j]);
   }
@@ -137,10 +136,11 @@ struct Update {
     }
     State state;
     if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
-    const auto [stress, converged] =
-        law.step({from_eigen(rates), materials::from_eigen(dt), materials::from_eigen(J), from_eigen(stretches)},
-                 from_eigen(symmetrics(g, &MaterialPoint::stress)), state);
+    const auto [stress, converged] = law.step({raw(rates), small::raw(dt), small::raw(J), raw(stretches)},
+                                              raw(symmetrics(g, &MaterialPoint::stress)), state);
     if constexpr (columns > 0) numbers = std::bit_cast<decltype(numbers)>(state);
+    LaneSymmetric result;
+    for (int c = 0; c < 6; ++c) result[c] = small::lanes(stress[c]);
     for (int l = 0; l < g.count; ++l) {
       if (!(J[l] > 0)) continue;
       if (!converged[l]) {
@@ -150,8 +150,6 @@ struct Update {
       for (int c = 0; c < 6; ++c) g.points[l]->stress[c] = stress[c][l];
       for (std::size_t c = 0; c < columns; ++c) keep(block.state_at(c, g.k[l]), numbers[width * c + l]);
     }
-    LaneSymmetric result;
-    for (int c = 0; c < 6; ++c) result[c] = materials::to_eigen(stress[c]);
     return result;
   }
 
@@ -178,7 +176,7 @@ struct Update {
     for (int l = 0; l < g.count; ++l) {
       if (!(J[l] > 0) || !(stiffness[l] > 0)) continue;
       const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
-      const double length = std::cbrt(body.domain.volume(block.points[g.k[l]])) / std::sqrt(steepness2[l]);
+      const double length = std::cbrt(body.domain.volume(g.i[l])) / std::sqrt(steepness2[l]);
       const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
       q[l] = block.material.density / J[l] * jump * by_speed;
       ViscousPoint& point = block.viscous[g.k[l]];
@@ -198,7 +196,7 @@ struct Update {
 
   void drop_forces(const Members& g, int l) const {
     const MaterialPoint& point = *g.points[l];
-    const int i = block.points[g.k[l]];
+    const int i = g.i[l];
     body.force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
     if (block.material.mean_stabilization > 0) {
       body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, 0, body.share(i, pass.order));
@@ -218,17 +216,16 @@ struct Update {
     MaterialPoint& point = *g.points[l];
     point.rotation = Rotation(at(polar.rotation, l));
     point.deformation_gradient = at(F, l);
-    const int i = block.points[g.k[l]];
-    const double share = body.share(i, pass.order);
-    body.force_states.tensors[i] = bonds::packed(at(A, l), share * point.stabilization);
+    const double share = body.share(g.i[l], pass.order);
+    body.force_states.tensors[g.i[l]] = bonds::packed(at(A, l), share * point.stabilization);
     if (block.material.mean_stabilization > 0) {
-      body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.mean_stabilization, share);
+      body.force_states.gradients[g.i[l]] = bonds::packed(point.deformation_gradient, point.mean_stabilization, share);
     }
   }
 
   // F of the points of a group.
   LaneTensor deformation_gradient(const Members& g, const LaneSymmetric& shape_inverse) const {
-    const LaneTensor N = moments(block, g, {body.domain.sites.data()}, weight);
+    const LaneTensor N = moments(g, {body.domain.sites.data()}, weight);
     LaneTensor F = small::product(N, small::full(shape_inverse));
     if (!g.bundle) {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
@@ -243,22 +240,14 @@ struct Update {
     return polar;
   }
 
-  // Of each point of a group.
-  template <class Of>
-  Lanes of_points(const Members& g, Of of) const {
-    alignas(Lanes) double values[width];
-    for (int l = 0; l < width; ++l) values[l] = of(block.points[g.k[l]]);
-    return Eigen::Map<const Lanes, Eigen::AlignedMax>(values);
-  }
-
   // The largest pace² of the points of a group.
   double advance(const Group& group) const {
-    const Members g(group, body, block);
+    const Members g(group, body);
     const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
     const LaneTensor F = deformation_gradient(g, shape_inverse);
     const Lanes J = small::determinant(F);
     const Polar<Lanes> polar = polar_of(g, F);
-    const Lanes share = of_points(g, [this](int i) { return body.share(i, pass.order); });
+    const Lanes share = lanes([&](int l) { return body.share(g.i[l], pass.order); });
     const LaneSymmetric inverse_stretch = small::inverse(polar.stretch);
     Lanes stiffness = stiffness_of(g), viscous = Lanes::Zero();
     LaneSymmetric stress;
@@ -271,8 +260,10 @@ struct Update {
     } else {
       stress = symmetrics(g, &MaterialPoint::stress);
     }
-    const LaneTensor A = force_states(g, stress, polar, inverse_stretch, F, shape_inverse, J, share, viscous);
-    const Lanes volume = of_points(g, [this](int i) { return body.domain.volume(i); });
+    const Lanes C = lanes([&](int l) { return g.points[l]->stabilization; });
+    for (int c = 0; c < 3; ++c) stress[c] -= viscous;
+    const LaneTensor A = force_states(stress, C, polar, inverse_stretch, F, shape_inverse, J, share);
+    const Lanes volume = lanes([&](int l) { return body.domain.volume(g.i[l]); });
     const Lanes pace2 = stiffness * share * share * J * volume * small::square(inverse_stretch) *
                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
@@ -327,14 +318,14 @@ namespace {
 
 // Of each point of a group.
 template <class Weight>
-Lanes squared_residuals(const Body& body, const MaterialBlock& block, const Group& group, Weight weight) {
+Lanes squared_residuals(const Body& body, const Group& group, Weight weight) {
   if (group.bundle) {
     return bonds::squared_residual(bonds::OfBundle{*group.bundle}, body.domain.sites.data(), body.points.data(),
                                    weight);
   }
   Lanes result = Lanes::Zero();
   for (int l = 0; l < group.count; ++l) {
-    const int i = block.points[group.k[l]];
+    const int i = group.i[l];
     result[l] = group.chunk->squared_residual(i, {body.domain.sites.data()}, body.points[i]);
   }
   return result;
@@ -342,13 +333,13 @@ Lanes squared_residuals(const Body& body, const MaterialBlock& block, const Grou
 
 }  // namespace
 
-void view_residuals(Body& body, const MaterialBlock& block, const Groups& groups) {
+void view_residuals(Body& body, const Groups& groups) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];
-      const Lanes squares = squared_residuals(body, block, group, weight);
+      const Lanes squares = squared_residuals(body, group, weight);
       for (int l = 0; l < group.count; ++l) {
-        const int i = block.points[group.k[l]];
+        const int i = group.i[l];
         body.residual[i] = squares[l];
         body.stabilization_work[i] = 0.5 * body.points[i].stabilization * squares[l];
       }

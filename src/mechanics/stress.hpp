@@ -39,7 +39,7 @@ void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, const G
 
 // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it;
 // on a lattice from its squares.
-void view_residuals(Body& body, const MaterialBlock& block, const Groups& groups);
+void view_residuals(Body& body, const Groups& groups);
 
 // What a residual of the mean gradient takes from A by way of F: ½ M K⁻¹.
 inline void take_residual(ForceState& state, const Tensor& moment, const MaterialPoint& point) {

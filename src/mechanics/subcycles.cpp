@@ -295,7 +295,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   now.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (!body.blocks[b].undisturbed && !now.stressed[b].places.empty()) {
-      advance_stress(body, body.blocks[b], {dt, order}, Groups(now.stressed[b]), report);
+      advance_stress(body, body.blocks[b], {dt, order}, Groups(body.blocks[b], now.stressed[b]), report);
     }
   }
   add_residuals(body, now, order);

@@ -227,9 +227,10 @@ void CentralDifference::check(const StepReport& report) {
   pace_ = agreed[2];
   damping_ = agreed[3];
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
-  went_on_ = agreed[0] == passable;
+  const auto gravity = static_cast<Gravity>(agreed[0]);
+  went_on_ = gravity == passable;
   warning_.clear();
-  if (agreed[0] == harmless) return;
+  if (gravity == harmless) return;
   std::ostringstream text;
   if (report.failure) {
     text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);

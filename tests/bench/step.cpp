@@ -75,11 +75,11 @@ void passes(benchmark::State& state) {
   std::vector<small::Vector3<small::Lanes>> force(body.owned());
   std::size_t next = 0;
   const auto gather = [&](const Groups& groups) {
-    for (int g = 0; g < groups.count(); ++g) moment[next++] = moments(block, groups[g], {sites}, bonds::One{});
+    for (int g = 0; g < groups.count(); ++g) moment[next++] = moments(groups[g], {sites}, bonds::One{});
   };
   const auto sum = [&](const Groups& groups) {
     for (int g = 0; g < groups.count(); ++g)
-      force[next++] = forces(block, groups[g], {sites}, states, true, bonds::One{});
+      force[next++] = forces(groups[g], {sites}, states, true, bonds::One{});
   };
   for (auto _ : state) {
     if (kind == FamilyKind::lists) {
