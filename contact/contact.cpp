@@ -46,7 +46,7 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
 void Contact::search(const Crowd& crowd, double dt, Meeting& meeting) {
   const Parties& parties = meeting.parties;
   meeting.places.clear();
-  for (const int i : parties.points) meeting.places.push_back(crowd.place(i));
+  for (const int i : parties.points) meeting.places.push_back(crowd.domain.current(i));
   meeting.skins = skins_by_speed(crowd, parties, meeting.mean_velocity, meeting.skin, dt);
   meeting.pairs = find_pairs(crowd, parties, meeting.model, meeting.skins);
   meeting.searched = true;

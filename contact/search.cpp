@@ -40,7 +40,7 @@ Site site(const Candidate& c) {
 Box box_of(const Crowd& crowd, const Parties& parties, int block) {
   Box mine;
   for (const int i : parties.points) {
-    if (crowd.domain.cloud.blocks[i] == block) mine.extend(crowd.place(i));
+    if (crowd.domain.cloud.blocks[i] == block) mine.extend(crowd.domain.current(i));
   }
   return common_box(mine, crowd.domain.communicator);
 }
@@ -55,8 +55,8 @@ std::vector<int> near_points(const Crowd& crowd, const Parties& parties, double 
   std::erase_if(near, [&](int k) {
     const int i = parties.points[k];
     const Box& others = crowd.domain.cloud.blocks[i] == parties.first ? second : first;
-    const double room =
-        others.isEmpty() ? std::numeric_limits<double>::infinity() : others.exteriorDistance(crowd.place(i)) - radius;
+    const double room = others.isEmpty() ? std::numeric_limits<double>::infinity()
+                                         : others.exteriorDistance(crowd.domain.current(i)) - radius;
     if (room <= skins.of[k] + skins.largest) return false;
     skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({room / 2, room - skins.largest, 1e30}));  // rounds
     return true;

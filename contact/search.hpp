@@ -16,8 +16,6 @@ struct Crowd {
   const Domain& domain;
   std::span<const Vector> velocities;  // m/s
   std::span<const double> densities;   // kg/m³
-
-  Vector place(int i) const { return domain.sites[i].current.head<3>().matrix(); }
 };
 
 // The two blocks that may touch, and this rank's points of them.

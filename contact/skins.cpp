@@ -88,7 +88,7 @@ double largest_use(const Crowd& crowd, const Parties& parties, const Vector& mea
 }
 
 double part_used(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Skins& skins) {
-  const auto way = [&](std::size_t k) -> Vector { return crowd.place(parties.points[k]) - places[k]; };
+  const auto way = [&](std::size_t k) -> Vector { return crowd.domain.current(parties.points[k]) - places[k]; };
   const Vector together = mean(crowd, parties, way);
   double most[] = {0};
   for (std::size_t k = 0; k < places.size(); ++k) {

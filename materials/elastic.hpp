@@ -55,6 +55,6 @@ struct Elastic {
   double flow_stress(const State&) const { return std::numeric_limits<double>::infinity(); }
 };
 
-static_assert(Law<Elastic>);
+static_assert(Law<Elastic> && takes_lanes<Elastic>);
 
 }  // namespace strut::materials

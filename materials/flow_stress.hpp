@@ -1,12 +1,11 @@
 // The flow stress of J2 plasticity, σ̄(ε̄, ε̇) = h(ε̄) r(ε̇): a hardening curve times a rate factor with r(0) = 1.
 // Each is a plain value with one call operator that gives the function and its derivative; a law holds one of each.
 // Trade-off: a product, so hardening and rate do not interact; in return every combination is there, and the elastic
-// check needs the hardening curve only. To add one: a struct here and its word in the variant. T is double or Lanes:
+// check needs the hardening curve only. To add one: a struct here and its word in the variant. T is double or RawLanes:
 // points side by side (side_by_side.hpp). Units: Pa, s, strain -.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <variant>
@@ -84,8 +83,8 @@ struct VoceHardening {
 // the yield stress itself (its first value). The slope at a kink is that of the piece to the right.
 struct TableHardening {
   std::vector<double> strains, stresses;  // -, Pa
-  Curve<Lanes> operator()(double, const Lanes& strain) const {
-    Curve<Lanes> curve;
+  Curve<RawLanes> operator()(double, const RawLanes& strain) const {
+    Curve<RawLanes> curve;
     for (int l = 0; l < small::lane_count; ++l) {
       const auto [value, slope] = (*this)(0, strain[l]);
       curve.value[l] = value, curve.slope[l] = slope;
@@ -167,8 +166,8 @@ struct FlowStress {
   template <class T>
   Curve<T> at_rest(const T& strain) const {
     const Curve<T> h = std::visit([&](const auto& law) { return law(yield_stress, strain); }, hardening);
-    const auto is_left = !(h.value < 0);  // also where it is NaN
-    return {is_left ? h.value : same<T>(0), is_left ? h.slope : same<T>(0)};
+    const auto holds = !(h.value < 0);  // also where it is NaN
+    return {holds ? h.value : same<T>(0), holds ? h.slope : same<T>(0)};
   }
 
   // σ̄(ε̄, ε̇) where the curve at rest has been evaluated.

@@ -8,9 +8,7 @@
 // step, and the stress never lies above the flow stress. Units: Pa, 1/s, s.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
 #include "base/tensors.hpp"
@@ -42,7 +40,9 @@ struct J2 {
     const double bound = flow.lower_bound();
     if (!any(!(q2 <= bound * bound))) return elastic(trial, state);
     const Curve<T> at_rest = flow.at_rest(state.equivalent_plastic_strain);
-    const MaskOf<T> flows = !(q2 <= at_rest.value * at_rest.value);  // also with a NaN, of which no comparison is true
+    // Not below the bound and the curve, though round-off may put one over the other. Also with a NaN, of which no
+    // comparison is true.
+    const MaskOf<T> flows = !(q2 <= bound * bound) && !(q2 <= at_rest.value * at_rest.value);
     if (!any(flows)) return elastic(trial, state);
     const T q = sqrt(q2);
     const Flow<T> f = solve(flows, q, at_rest, state, step.dt);
@@ -52,7 +52,7 @@ struct J2 {
     state.equivalent_plastic_strain += changes ? f.increment : none;
     state.plastic_strain_rate = changes ? rate : flows ? state.plastic_strain_rate : none;
     state.plastic_work += changes ? work : none;
-    return {returned(trial, s, changes ? T(1 - f.stress / q) : none), converged || !flows};
+    return {returned(changes, trial, s, T(1 - f.stress / q)), converged || !flows};
   }
 
   Moduli moduli() const { return {bulk, shear}; }
@@ -72,11 +72,12 @@ struct J2 {
     return {trial, T{} == T{}};
   }
 
-  // The trial stress less so much of its deviator s.
+  // The trial stress, where it changes less so much of its deviator s.
   template <class T>
-  static SymmetricOf<T> returned(const SymmetricOf<T>& trial, const SymmetricOf<T>& s, const T& part) {
+  static SymmetricOf<T> returned(const MaskOf<T>& changes, const SymmetricOf<T>& trial, const SymmetricOf<T>& s,
+                                 const T& part) {
     SymmetricOf<T> stress;
-    for (int k = 0; k < 6; ++k) stress[k] = trial[k] - part * s[k];
+    for (int k = 0; k < 6; ++k) stress[k] = changes ? T(trial[k] - part * s[k]) : trial[k];
     return stress;
   }
 
@@ -99,30 +100,31 @@ struct J2 {
   template <class T>
   Flow<T> solve(const MaskOf<T>& flows, const T& q, const Curve<T>& at_rest, const StateOf<T>& state,
                 const T& dt) const {
-    const T &strain = state.equivalent_plastic_strain, modulus = same<T>(3 * shear);
+    const T& strain = state.equivalent_plastic_strain;
+    const T modulus = same<T>(3 * shear);
     T left{}, right = q / modulus;
     T x = warm_guess(q, at_rest, state, dt);
     const MaskOf<T> is_warm = x > left && x < right;
     if (any(flows && !is_warm)) x = is_warm ? x : cold_guess(q, at_rest, dt);
-    Flow<T> flow{T{}, q, T{} > T{}};
+    Flow<T> result{T{}, q, T{} > T{}};
     MaskOf<T> open = flows;
     for (int i = 0; i < most_iterations; ++i) {
-      const auto [stress, by_strain, by_rate] = this->flow.at_rate(T(x / dt), this->flow.at_rest(T(strain + x)));
+      const auto [stress, by_strain, by_rate] = flow.at_rate(T(x / dt), flow.at_rest(T(strain + x)));
       const T residual = q - modulus * x - stress;
       const T next = x + residual / (modulus + by_strain + by_rate / dt);
       left = residual > 0 ? x : left;
       right = residual > 0 ? right : x;
       const MaskOf<T> is_root = absolute(residual) <= tolerance * q, inside = next > left && next < right;
       const MaskOf<T> found = open && (is_root || (inside && absolute(T(next - x)) <= last_step * x));
-      flow.increment = found ? (is_root ? x : next) : flow.increment;
-      flow.stress = found ? (is_root ? stress : T(q - modulus * next)) : flow.stress;
-      flow.converged = flow.converged || found;
+      result.increment = found ? (is_root ? x : next) : result.increment;
+      result.stress = found ? (is_root ? stress : T(q - modulus * next)) : result.stress;
+      result.converged = result.converged || found;
       open = open && !found && is_finite(residual);
       if (!any(open)) break;
       x = inside ? next : x;
       if (any(open && !inside)) x = inside ? x : fallback(left, right, cold_guess(q, at_rest, dt));
     }
-    return flow;
+    return result;
   }
 
   // Flow went on: the flow stress linearised about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
@@ -163,6 +165,6 @@ struct J2 {
   }
 };
 
-static_assert(Law<J2>);
+static_assert(Law<J2> && takes_lanes<J2>);
 
 }  // namespace strut::materials

@@ -11,8 +11,8 @@
 //   energies  elastic_energy and dissipation feed the ledger of a run.
 //   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
 //   side by side  a law may take points side by side, a lane each: its step and its StateOf<T> are then templates over
-//             the number, double or Lanes, and State is StateOf<double>. All lanes are computed; those where J is not
-//             positive are thrown away.
+//             the number, double or RawLanes, and State is StateOf<double>. All lanes are computed; those where J is
+//             not positive are thrown away.
 //   tangent   if it has one: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
 //             with its mirror image, and J with it (J = det U). NaN where the step does not converge. tangent_of
 //             (tangent.hpp) finds it by differences for laws that have none.
@@ -66,9 +66,10 @@ concept Law = std::copyable<L> && std::default_initializable<typename L::State> 
 
 // Whether a law takes points side by side.
 template <class L>
-inline constexpr bool takes_lanes = requires(const L law, const StepOf<Lanes>& step, const SymmetricOf<Lanes>& stress,
-                                             typename L::template StateOf<Lanes>& state) {
-  { law.step(step, stress, state) } -> std::same_as<StressOf<Lanes>>;
+inline constexpr bool takes_lanes = requires(const L law, const StepOf<RawLanes>& step,
+                                             const SymmetricOf<RawLanes>& stress,
+                                             typename L::template StateOf<RawLanes>& state) {
+  { law.step(step, stress, state) } -> std::same_as<StressOf<RawLanes>>;
 };
 
 // Whether a law's moduli change with its state.

@@ -12,10 +12,10 @@
 
 namespace strut::materials {
 
-using Lanes = small::RawLanes;
+using small::RawLanes;
 template <class T>
 using MaskOf = decltype(T{} < T{});  // bool of a double
-using Mask = MaskOf<Lanes>;
+using Mask = MaskOf<RawLanes>;
 
 template <class T>
 using SymmetricOf = std::conditional_t<std::is_same_v<T, double>, Symmetric, small::Symmetric3<T>>;
@@ -33,10 +33,10 @@ inline bool any(const Mask& is) {
 }
 
 using std::exp, std::log, std::expm1, std::sqrt;
-inline Lanes exp(const Lanes& x) { return small::raw(small::lanes(x).exp()); }
-inline Lanes log(const Lanes& x) { return small::raw(small::lanes(x).log()); }
-inline Lanes sqrt(const Lanes& x) { return small::raw(small::lanes(x).sqrt()); }
-inline Lanes expm1(const Lanes& x) { return exp(x) - 1; }  // near 0 good to round-off of 1
+inline RawLanes exp(const RawLanes& x) { return small::raw(small::lanes(x).exp()); }
+inline RawLanes log(const RawLanes& x) { return small::raw(small::lanes(x).log()); }
+inline RawLanes sqrt(const RawLanes& x) { return small::raw(small::lanes(x).sqrt()); }
+inline RawLanes expm1(const RawLanes& x) { return exp(x) - 1; }  // near 0 good to round-off of 1
 
 template <class T>
 T absolute(const T& x) {

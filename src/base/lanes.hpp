@@ -1,9 +1,10 @@
-// One number of each of some points, side by side, and its way from the records of the points.
+// One number of each of some points, side by side, and its way there from the records of the points.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstring>
+#include <utility>
 
 // As calls these would pass their lanes through memory.
 #define STRUT_INLINE __attribute__((always_inline)) inline
@@ -20,6 +21,9 @@ using Lanes = Eigen::Array<double, lane_count, 1>;
 // The same as the compiler's vector, whose comparisons give masks.
 using RawLanes = double __attribute__((vector_size(8 * lane_count)));
 
+// Local indices of points side by side.
+using Indices = std::array<int, lane_count>;
+
 template <class Expression>
 RawLanes raw(const Expression& x) {
   RawLanes result;
@@ -29,6 +33,16 @@ RawLanes raw(const Expression& x) {
 inline Eigen::Map<const Lanes, Eigen::AlignedMax> lanes(const RawLanes& x) {
   return Eigen::Map<const Lanes, Eigen::AlignedMax>(reinterpret_cast<const double*>(&x));
 }
+
+// The number that of(lane) is.
+template <class Of>
+STRUT_INLINE Lanes lanes_of(const Of& of) {
+  Lanes values;
+  for (int l = 0; l < lane_count; ++l) values[l] = of(l);
+  return values;
+}
+
+// ---- Numbers that follow upon each other in each record: registers of records, transposed --------------------------
 
 namespace detail {
 
@@ -41,35 +55,7 @@ STRUT_INLINE Quad quad_at(const double* numbers) {
   return quad;
 }
 
-// Four rows of four or, for eight points, twice that beside each other: rows become columns.
-STRUT_INLINE Rows transposed(const Rows& r) {
-#ifdef __AVX512F__
-#define STRUT_EVEN 0, 8, 2, 10, 4, 12, 6, 14
-#define STRUT_ODD 1, 9, 3, 11, 5, 13, 7, 15
-#define STRUT_LOW 0, 1, 8, 9, 4, 5, 12, 13
-#define STRUT_HIGH 2, 3, 10, 11, 6, 7, 14, 15
-#else
-#define STRUT_EVEN 0, 4, 2, 6
-#define STRUT_ODD 1, 5, 3, 7
-#define STRUT_LOW 0, 1, 4, 5
-#define STRUT_HIGH 2, 3, 6, 7
-#endif
-  const RawLanes a = __builtin_shufflevector(r[0], r[1], STRUT_EVEN),
-                 b = __builtin_shufflevector(r[0], r[1], STRUT_ODD);
-  const RawLanes c = __builtin_shufflevector(r[2], r[3], STRUT_EVEN),
-                 d = __builtin_shufflevector(r[2], r[3], STRUT_ODD);
-  return {__builtin_shufflevector(a, c, STRUT_LOW), __builtin_shufflevector(b, d, STRUT_LOW),
-          __builtin_shufflevector(a, c, STRUT_HIGH), __builtin_shufflevector(b, d, STRUT_HIGH)};
-#undef STRUT_EVEN
-#undef STRUT_ODD
-#undef STRUT_LOW
-#undef STRUT_HIGH
-}
-
-}  // namespace detail
-
-namespace detail {
-
+// Four numbers of record k, and of record k + 4 where there are eight.
 template <class Of>
 STRUT_INLINE RawLanes row_of(const Of& of, int k) {
 #ifdef __AVX512F__
@@ -79,32 +65,47 @@ STRUT_INLINE RawLanes row_of(const Of& of, int k) {
 #endif
 }
 
-}  // namespace detail
-
-// The four numbers from of(lane) on, of all lanes.
-template <class Of>
-STRUT_INLINE std::array<Lanes, 4> four_of(const Of& of) {
-  const detail::Rows rows =
-      detail::transposed({detail::row_of(of, 0), detail::row_of(of, 1), detail::row_of(of, 2), detail::row_of(of, 3)});
-  return {lanes(rows[0]), lanes(rows[1]), lanes(rows[2]), lanes(rows[3])};
+// What place(lane) says of the numbers of a, followed by those of b.
+template <int (*place)(int), int... lane>
+STRUT_INLINE RawLanes mixed(const RawLanes& a, const RawLanes& b, std::integer_sequence<int, lane...>) {
+  return __builtin_shufflevector(a, b, place(lane)...);
 }
 
-// The `count` numbers from of(lane) on; count is 4 at least.
-template <int count, int first = 0, class Of>
+constexpr int even(int lane) { return lane % 2 == 0 ? lane : lane_count + lane - 1; }
+constexpr int odd(int lane) { return lane % 2 == 0 ? lane + 1 : lane_count + lane; }
+constexpr int low(int lane) { return lane % 4 < 2 ? lane : lane_count + lane - 2; }
+constexpr int high(int lane) { return lane % 4 < 2 ? lane + 2 : lane_count + lane; }
+
+// Four rows of four, or twice that side by side.
+STRUT_INLINE Rows transposed(const Rows& r) {
+  constexpr std::make_integer_sequence<int, lane_count> all;
+  const RawLanes a = mixed<even>(r[0], r[1], all), b = mixed<odd>(r[0], r[1], all);
+  const RawLanes c = mixed<even>(r[2], r[3], all), d = mixed<odd>(r[2], r[3], all);
+  return {mixed<low>(a, c, all), mixed<low>(b, d, all), mixed<high>(a, c, all), mixed<high>(b, d, all)};
+}
+
+template <int count, int first, class Of>
 STRUT_INLINE void take_numbers(const Of& of, std::array<Lanes, count>& numbers) {
-  static_assert(count >= 4);
   if constexpr (first < count) {
     constexpr int at = first + 4 <= count ? first : count - 4;
-    const std::array<Lanes, 4> four = four_of([&](int l) { return of(l) + at; });
-    numbers[at] = four[0], numbers[at + 1] = four[1], numbers[at + 2] = four[2], numbers[at + 3] = four[3];
+    const auto from = [&](int l) { return of(l) + at; };
+    const Rows rows = transposed({row_of(from, 0), row_of(from, 1), row_of(from, 2), row_of(from, 3)});
+    for (int n = 0; n < 4; ++n) numbers[at + n] = lanes(rows[n]);
     take_numbers<count, first + 4>(of, numbers);
   }
 }
+
+}  // namespace detail
+
+// The `count` numbers from of(lane) on, four at least.
 template <int count, class Of>
 STRUT_INLINE std::array<Lanes, count> numbers_of(const Of& of) {
+  static_assert(count >= 4);
   std::array<Lanes, count> numbers;
-  take_numbers<count>(of, numbers);
+  detail::take_numbers<count, 0>(of, numbers);
   return numbers;
 }
 
 }  // namespace strut::small
+
+#undef STRUT_INLINE

@@ -88,6 +88,14 @@ struct BlockMaterial {
   Viscosity viscosity = {};       // by correspondence
 };
 
+// The state of point k from columns of so many points.
+template <class L>
+typename L::State state_in(const std::vector<double>& columns, std::size_t points, std::size_t k) {
+  std::array<double, materials::state_size<L>> values{};
+  for (std::size_t c = 0; c < values.size(); ++c) values[c] = columns[c * points + k];
+  return materials::from_columns<L>(values);
+}
+
 // The points of one block of the mesh on this rank, with their law's state in columns.
 struct MaterialBlock {
   std::string name;
@@ -107,12 +115,9 @@ struct MaterialBlock {
   int lattice = -1;  // in domain.families.lattices, where its points sit on one
 
   double& state_at(std::size_t column, std::size_t k) { return state[column * points.size() + k]; }
-  double state_at(std::size_t column, std::size_t k) const { return state[column * points.size() + k]; }
   template <class L>
   typename L::State state_of(std::size_t k) const {
-    std::array<double, materials::state_size<L>> columns{};
-    for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = state_at(c, k);
-    return materials::from_columns<L>(columns);
+    return state_in<L>(state, points.size(), k);
   }
   // Of points[k] as it is now.
   materials::Moduli moduli(std::size_t k) const {
@@ -153,7 +158,7 @@ struct Body {
   // The step of a point's stress as a part of the one that is halved `order` times.
   double share(int i, int order = 0) const { return halvings.empty() ? 1 : power_of_two(order - halvings[i]); }
   double mass(int i) const { return density[i] * domain.volume(i); }
-  Vector current(int i) const { return domain.sites[i].current.head<3>().matrix(); }
+  Vector current(int i) const { return domain.current(i); }
   Vector displacement(int i) const { return current(i) - domain.reference(i); }
 };
 

@@ -89,9 +89,7 @@ struct OfBundle {
       return small::numbers_of<count>(of_lane);
     } else {
       std::array<Lanes, count> numbers;
-      for (int l = 0; l < Bundle::width; ++l) {
-        for (int n = 0; n < count; ++n) numbers[n][l] = of_lane(l)[n];
-      }
+      for (int n = 0; n < count; ++n) numbers[n] = small::lanes_of([&](int l) { return of_lane(l)[n]; });
       return numbers;
     }
   }

@@ -64,14 +64,16 @@ class Groups {
     count_ = static_cast<int>(full_.size()) + groups_of(others_);
   }
   Groups(const MaterialBlock& block, const Chosen& chosen)
-      : points_(&block.points), others_(chosen.places), lists_(&chosen.lists), count_(chosen.lists.count()) {}
+      : points_(&block.points), chosen_(&chosen.places), lists_(&chosen.lists), count_(chosen.lists.count()) {}
 
   int count() const { return count_; }
   Group operator[](int g) const {
     const int full = static_cast<int>(full_.size());
-    if (chunk_) return g < full ? of_run(full_[g], Group::width, {}) : of_others(g - full, {});
+    if (chunk_) {
+      return g < full ? of_run(full_[g], Group::width, {}) : of_places(others_, g - full, {});
+    }
     const Bundle bundle = (*lists_)[first_ + g];
-    if (!others_.empty()) return of_others(g, bundle);
+    if (chosen_) return of_places(*chosen_, g, bundle);
     return of_run(begin_ + bundle.points[0] - (*points_)[begin_], static_cast<int>(bundle.points.size()), bundle);
   }
 
@@ -79,13 +81,13 @@ class Groups {
   static int groups_of(const std::vector<int>& places) {
     return (static_cast<int>(places.size()) + Group::width - 1) / Group::width;
   }
-  // Of places that follow upon each other; of the next ones of `others`.
+  // Of places that follow upon each other; of the g-th so many of some.
   Group of_run(int begin, int count, std::optional<Bundle> bundle) const {
     return group(count, bundle, [begin](int l) { return begin + l; });
   }
-  Group of_others(int g, std::optional<Bundle> bundle) const {
-    const int begin = g * Group::width, left = static_cast<int>(others_.size()) - begin;
-    return group(std::min(left, Group::width), bundle, [&](int l) { return others_[begin + l]; });
+  Group of_places(const std::vector<int>& places, int g, std::optional<Bundle> bundle) const {
+    const int begin = g * Group::width, left = static_cast<int>(places.size()) - begin;
+    return group(std::min(left, Group::width), bundle, [&](int l) { return places[begin + l]; });
   }
   template <class PlaceOf>
   Group group(int count, std::optional<Bundle> bundle, const PlaceOf& place_of) const {
@@ -98,7 +100,9 @@ class Groups {
   }
 
   const std::vector<int>* points_;
-  std::vector<int> full_, others_;  // places in block.points: the first of a group; of whoever is not in these
+  // Places in block.points: on a lattice the first of each full group, and whoever is in none; those that are chosen.
+  std::vector<int> full_, others_;
+  const std::vector<int>* chosen_ = nullptr;
   const Bundles* lists_ = nullptr;
   int begin_ = 0, first_ = 0, count_ = 0;  // place of the first point; its list; groups
   const LatticeSums::Chunk* chunk_ = nullptr;

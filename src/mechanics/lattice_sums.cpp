@@ -24,6 +24,12 @@ void with_constant(int value, const Work& work) {
   if constexpr (n < pencil_width) with_constant<n + 1>(value, work);
 }
 
+// Where the records of some points begin, for numbers_of.
+template <class Record>
+auto records(const Record* all, const Indices& i) {
+  return [all, &i](int l) { return reinterpret_cast<const double*>(all + i[l]); };
+}
+
 // The points in some cells side by side of a pencil; −1 where there is none.
 struct Cells {
   Indices i;
@@ -58,7 +64,7 @@ inline void for_each_bit(const std::uint64_t* words, int count, const Visit& vis
 }  // namespace
 
 LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice)
-    : lattice_(&lattice), constants_(body.owned()) {
+    : lattice_(&lattice), constants_(body.owned(), Constants::Zero()) {
   make_rows(body.influence);
   mark_places();
   has_springs_ = std::any_of(body.blocks.begin(), body.blocks.end(),
@@ -113,7 +119,7 @@ void LatticeSums::mark_places() {
 // With V in the place of V u or V |u|², moments and squares are what is looked for.
 void LatticeSums::set_constants(const Body& body) {
   const Displacements u{body.domain.sites.data()};
-  const auto volume = [&](const auto& cells, const Put& put) { put(0, u.of(cells.of(u.sites)).volume); };
+  const auto volume = [&](const Cells& cells, const Put& put) { put(0, u.of(cells.of(u.sites)).volume); };
   const auto each_owned = [&](const Chunk& chunk, const auto& set) {
     for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
       const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
@@ -123,11 +129,11 @@ void LatticeSums::set_constants(const Body& body) {
   with_constant(lattice_->reach(), [&](auto reach) {
     sweep<MomentSweep<reach>>(volume, [&](const Chunk& chunk) {
       each_owned(chunk, [&](int i) {
-        for (int c = 0; c < 3; ++c) constants_[i].first[c] = chunk.at(i)[3 * c * pencil_width];
+        for (int c = 0; c < 3; ++c) constants_[i][c] = chunk.at(i)[3 * c * pencil_width];
       });
     });
     sweep<SquareSweep<reach>>(
-        volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants_[i].weight = *chunk.at(i); }); });
+        volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants_[i][3] = *chunk.at(i); }); });
   });
 }
 
@@ -162,9 +168,7 @@ struct LatticeSums::Chunk::OfGroup {
   }
   Lanes column(int c) const {
     if (together) return Eigen::Map<const Lanes>(at[0] + c * pencil_width);
-    Lanes values;
-    for (int l = 0; l < small::lane_count; ++l) values[l] = at[l][c * pencil_width];
-    return values;
+    return small::lanes_of([&](int l) { return at[l][c * pencil_width]; });
   }
   LaneVector vector(int c) const { return {{column(c), column(c + 1), column(c + 2)}}; }
   LaneTensor tensor(int first) const {  // by columns
@@ -173,7 +177,7 @@ struct LatticeSums::Chunk::OfGroup {
     return t;
   }
   std::array<Lanes, 4> constants() const {
-    return small::four_of([&](int l) { return chunk.all->constants_[i[l]].first.data(); });
+    return small::numbers_of<4>([&](int l) { return chunk.all->constants_[i[l]].data(); });
   }
 };
 
@@ -251,7 +255,8 @@ void LatticeSums::sum_plane(int z, const Strip& strip, const Fill& fill) {
   }
 }
 
-// Fills the columns of a pencil by fill(cells, put) with put(column, values). Empty cells are zero.
+// Fills the columns of a pencil by fill(cells, put) with put(column, values). In empty cells V and C are 0, and all
+// else is finite.
 template <class Fill>
 void LatticeSums::pack(int slot, const Fill& fill, Pencil* to) const {
   for (int first = 0; first < pencil_width; first += small::lane_count) {
@@ -399,7 +404,7 @@ void LatticeSums::moments(const Displacements& u, const Take& take) {
 
 LaneTensor LatticeSums::Chunk::moments(const Indices& i, const Displacements& u) const {
   const OfGroup group(*this, i);
-  const LaneVector ui = u.of([&](int l) { return u.sites[i[l]].reference.data(); }).u;
+  const LaneVector ui = u.of(records(u.sites, i)).u;
   const auto S = group.constants();
   LaneTensor H = group.tensor(0);
   for (int r = 0; r < 3; ++r) {
@@ -442,7 +447,7 @@ void LatticeSums::squares(const Displacements& u, const Take& take) {
 // |u_i|².
 double LatticeSums::Chunk::squared_residual(int i, const Displacements& u, const MaterialPoint& point) const {
   const Vector ui = u(i).head<3>().matrix();
-  const double squares = *at(i) - 2 * ui.dot(vector(i, 1)) + all->constants_[i].weight * ui.squaredNorm();
+  const double squares = *at(i) - 2 * ui.dot(vector(i, 1)) + all->constants_[i][3] * ui.squaredNorm();
   const Tensor gradient = point.deformation_gradient - Tensor::Identity();
   const Tensor shape = to_tensor(point.shape_inverse).inverse();
   return std::max(0.0, squares - (gradient * shape).cwiseProduct(gradient).sum());
@@ -523,11 +528,11 @@ LaneVector LatticeSums::Chunk::forces(const Indices& i, const Displacements& u,
                                       const std::vector<ForceState>& states) const {
   const OfGroup group(*this, i);
   const auto S = group.constants();
-  const auto A = small::numbers_of<12>([&](int l) { return states[i[l]].column[0].data(); });
+  const auto A = small::numbers_of<12>(records(states.data(), i));
   LaneVector f = group.vector(0);
   for (int r = 0; r < 3; ++r) f.c[r] += A[r] * S[0] + A[4 + r] * S[1] + A[8 + r] * S[2];
   if (!all->has_springs_) return f;
-  const LaneVector ui = u.of([&](int l) { return u.sites[i[l]].reference.data(); }).u;
+  const LaneVector ui = u.of(records(u.sites, i)).u;
   const LaneVector q = group.vector(4);
   const Lanes stiffness = group.column(3);
   for (int r = 0; r < 3; ++r) {

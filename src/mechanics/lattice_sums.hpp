@@ -16,7 +16,6 @@
 // point. A sum has the order of the planes, so that results are the same on any number of ranks.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -26,8 +25,7 @@
 
 namespace strut {
 
-// Local indices of points side by side.
-using Indices = std::array<int, small::lane_count>;
+using small::Indices;
 
 // Points are taken in the order in which they stand in memory: what is read soon is a few records on.
 template <class Record>
@@ -131,11 +129,8 @@ class LatticeSums {
     double weight[pencil_width + 1] = {}, first[pencil_width + 1] = {};
     bool operator==(const Kind&) const = default;
   };
-  // Of a point, over its family and itself: Σ ω V ξ, Σ ω V.
-  struct Constants {
-    Vector first = Vector::Zero();
-    double weight = 0;
-  };
+  // Of a point, over its family and itself: Σ ω V ξ, and in the fourth lane Σ ω V.
+  using Constants = Eigen::Array4d;
   // The rows y0 … y1 − 1 of all planes.
   struct Strip {
     int y0, y1;

@@ -70,13 +70,6 @@ PointTangent point_tangent(const MaterialPoint& point, const materials::StretchT
 }
 
 template <class L>
-typename L::State state_of(const std::vector<double>& columns, std::size_t points, std::size_t k) {
-  std::array<double, materials::state_size<L>> values{};
-  for (std::size_t c = 0; c < values.size(); ++c) values[c] = columns[c * points + k];
-  return materials::from_columns<L>(values);
-}
-
-template <class L>
 materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
                                      const typename L::State& state) {
   const auto stretch = [](const MaterialPoint& p) {
@@ -97,7 +90,7 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
       for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
         if (!(block.moduli(k).longitudinal() > 0)) return;
         const int i = block.points[k];
-        const auto state = state_of<L>(start.state(b), block.points.size(), k);
+        const auto state = state_in<L>(start.state(b), block.points.size(), k);
         tangents[i] = point_tangent(body.points[i], by_stretch(law, start.point(i), body.points[i], dt, state));
       });
     };

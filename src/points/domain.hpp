@@ -59,6 +59,7 @@ struct Domain {
   Halo halo;
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
+  Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
   double volume(int i) const { return sites[i].reference[3]; }                     // m³
   double horizon(int i) const { return sites[i].current[3]; }                      // δ, m
 };

@@ -64,9 +64,9 @@ template <Law L>
 struct LaneBlock {
   static constexpr int width = small::lane_count, groups = points / width;
   const L law;
-  std::vector<SymmetricOf<Lanes>> rates;
-  std::vector<SymmetricOf<Lanes>> stress = std::vector<SymmetricOf<Lanes>>(groups, SymmetricOf<Lanes>{});
-  std::vector<typename L::template StateOf<Lanes>> state{groups};
+  std::vector<SymmetricOf<RawLanes>> rates;
+  std::vector<SymmetricOf<RawLanes>> stress = std::vector<SymmetricOf<RawLanes>>(groups, SymmetricOf<RawLanes>{});
+  std::vector<typename L::template StateOf<RawLanes>> state{groups};
 
   LaneBlock(const L& l, const std::vector<Symmetric>& of_points) : law(l), rates(groups) {
     for (int i = 0; i < points; ++i) {
@@ -77,7 +77,7 @@ struct LaneBlock {
   bool advance(double factor) {
     bool converged = true;
     for (int g = 0; g < groups; ++g) {
-      StepOf<Lanes> step{rates[g], same<Lanes>(dt), same<Lanes>(1), {}};
+      StepOf<RawLanes> step{rates[g], same<RawLanes>(dt), same<RawLanes>(1), {}};
       for (int k = 0; k < 6; ++k) step.rate[k] *= factor;
       const auto [next, good] = law.step(step, stress[g], state[g]);
       stress[g] = next;
@@ -187,7 +187,9 @@ BENCHMARK_CAPTURE(polymer_foam, flow_in_large_steps, 3.0, 0.5);
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   add_benches<Block>("one_by_one");
   add_benches<LaneBlock>("side_by_side");
   benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
 }
