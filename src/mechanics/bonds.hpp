@@ -84,14 +84,12 @@ struct OfBundle {
 
   template <int count, class Of>
   std::array<Lanes, count> own(Of of) const {
-    const auto of_lane = [&](int l) { return of(bundle.points[l < static_cast<int>(bundle.points.size()) ? l : 0]); };
-    if constexpr (count >= 4) {
-      return small::numbers_of<count>(of_lane);
-    } else {
-      std::array<Lanes, count> numbers;
-      for (int n = 0; n < count; ++n) numbers[n] = small::lanes_of([&](int l) { return of_lane(l)[n]; });
-      return numbers;
+    std::array<Lanes, count> numbers;
+    for (int l = 0; l < Bundle::width; ++l) {
+      const double* from = of(bundle.points[l < static_cast<int>(bundle.points.size()) ? l : 0]);
+      for (int n = 0; n < count; ++n) numbers[n][l] = from[n];
     }
+    return numbers;
   }
   template <class Visit>
   void for_each(Visit&& visit) const {  // visit(j, 1 in the lanes of those who have j in their family, else 0)
@@ -118,7 +116,7 @@ using ScalarOf = typename Family::Scalar;
 
 template <class Family>
 Vector3<ScalarOf<Family>> own_place(const Family& family, const Site* sites, Eigen::Array4d Site::*place) {
-  const auto X = family.template own<4>([&](int i) { return (sites[i].*place).data(); });
+  const auto X = family.template own<3>([&](int i) { return (sites[i].*place).data(); });
   return {{X[0], X[1], X[2]}};
 }
 
