@@ -123,9 +123,9 @@ struct Update {
                                      const Lanes& dt, const Lanes& J) const {
     using State = typename L::template StateOf<small::RawLanes>;
     constexpr std::size_t columns = materials::state_size<L>;
-    std::array<double, width * std::max<std::size_t>(columns, 1)> numbers;
+    std::array<small::RawLanes, columns> numbers;
     for (std::size_t c = 0; c < columns; ++c) {
-      for (int l = 0; l < width; ++l) numbers[width * c + l] = block.state_at(c, g.k[l]);
+      numbers[c] = small::raw(lanes_of([&](int l) { return block.state_at(c, g.k[l]); }));
     }
     State state;
     if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
@@ -141,7 +141,7 @@ struct Update {
         continue;
       }
       for (int c = 0; c < 6; ++c) g.points[l]->stress[c] = result[c][l];
-      for (std::size_t c = 0; c < columns; ++c) keep(block.state_at(c, g.k[l]), numbers[width * c + l]);
+      for (std::size_t c = 0; c < columns; ++c) keep(block.state_at(c, g.k[l]), numbers[c][l]);
     }
     return result;
   }
