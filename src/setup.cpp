@@ -11,6 +11,7 @@
 #include "deck/problems.hpp"
 #include "io/exodus.hpp"
 #include "io/grid.hpp"
+#include "points/common_box.hpp"
 #include "points/partition.hpp"
 
 namespace strut {
@@ -190,6 +191,38 @@ std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, 
     costs[b] += update + (flows ? state : 0);
   }
   return costs;
+}
+
+// The box of the points of each block over all ranks.
+std::vector<Eigen::AlignedBox3d> boxes_of_blocks(const PointCloud& cloud, const Communicator& communicator) {
+  std::vector<Eigen::AlignedBox3d> boxes(cloud.block_names.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) boxes[cloud.blocks[i]].extend(cloud.positions[i]);
+  for (Eigen::AlignedBox3d& box : boxes) box = common_box(box, communicator);
+  return boxes;
+}
+
+// The axis along which two bodies lie one after the other, if there is one: they will meet on this way.
+std::optional<int> way_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  constexpr double hardly = 0.1;  // of the smaller one's length
+  if (a.isEmpty() || b.isEmpty()) return std::nullopt;
+  const Vector common = a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min());
+  int axis = 0;
+  return common.minCoeff(&axis) <= hardly * std::min(a.sizes()[axis], b.sizes()[axis]) ? std::optional(axis)
+                                                                                       : std::nullopt;
+}
+
+// Collective. A cut between two bodies that meet would leave all of the contact to one rank, and a cut along their way
+// shares it: a length along the way counts half.
+Vector lengths_for_cuts(const std::vector<contact::Interaction>& interactions, const std::vector<BlockBonds>& bonds,
+                        const PointCloud& cloud, const Communicator& communicator) {
+  Vector lengths = Vector::Ones();
+  if (interactions.empty()) return lengths;
+  const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_blocks(cloud, communicator);
+  for (const auto& [first, second, model] : interactions) {
+    if (bonds[first].body == bonds[second].body) continue;
+    if (const auto axis = way_between(boxes[first], boxes[second])) lengths[*axis] = 0.5;
+  }
+  return lengths;
 }
 
 // Every interaction names blocks of the mesh.
@@ -388,6 +421,13 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
   return interactions;
 }
 
+// Collective.
+Cuts cuts(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+          const Communicator& communicator) {
+  return {step_costs(deck, cloud, spacings, communicator),
+          lengths_for_cuts(interactions_of(deck, cloud), block_bonds(deck, cloud), cloud, communicator)};
+}
+
 std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
   if (!solver.quasi_static) return std::nullopt;
   const auto& [with_tangent, load_steps, tolerance, most_iterations] = *solver.quasi_static;
@@ -419,7 +459,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   raise_together(communicator, problems.text(deck.file.string()));
   {
     const Timed timed(phase("Partition"));
-    cloud = partitioned(cloud, communicator, step_costs(deck, cloud, spacing, communicator));
+    cloud = partitioned(cloud, communicator, cuts(deck, cloud, spacing, communicator));
   }
   std::int64_t dropped = 0;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);

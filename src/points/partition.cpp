@@ -45,7 +45,7 @@ void append(PointCloud& cloud, const Parcel& parcel) {
 // What Zoltan's callbacks read and fill.
 struct Migration {
   const PointCloud& from;
-  const std::vector<double>& costs;  // of a point of each block
+  const Cuts& cuts;
   PointCloud arrived;
 };
 
@@ -58,7 +58,7 @@ int count(void* data, int* error) {
 
 void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int weights, float* weight, int* error) {
   const PointCloud& cloud = cloud_of(data);
-  const std::vector<double>& costs = static_cast<Migration*>(data)->costs;
+  const std::vector<double>& costs = static_cast<Migration*>(data)->cuts.costs;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     global[i] = static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]);
     local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
@@ -73,7 +73,8 @@ int dimensions(void*, int* error) {
 }
 
 void place(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* position, int* error) {
-  std::copy_n(cloud_of(data).positions[*local].data(), 3, position);
+  Eigen::Map<Vector>{position} =
+      cloud_of(data).positions[*local].cwiseProduct(static_cast<Migration*>(data)->cuts.lengths);
   *error = ZOLTAN_OK;
 }
 
@@ -107,7 +108,7 @@ Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
   zoltan.Set_Param("DEBUG_LEVEL", "0");
   zoltan.Set_Param("LB_METHOD", "RCB");
   zoltan.Set_Param("RETURN_LISTS", "EXPORT");
-  zoltan.Set_Param("OBJ_WEIGHT_DIM", migration.costs.empty() ? "0" : "1");
+  zoltan.Set_Param("OBJ_WEIGHT_DIM", migration.cuts.costs.empty() ? "0" : "1");
   zoltan.Set_Num_Obj_Fn(count, &migration);
   zoltan.Set_Obj_List_Fn(list, &migration);
   zoltan.Set_Num_Geom_Fn(dimensions, &migration);
@@ -127,8 +128,8 @@ PointCloud emptied(const PointCloud& cloud) {
   return result;
 }
 
-PointCloud bisected(const PointCloud& cloud, const Communicator& communicator, const std::vector<double>& costs) {
-  Migration migration{cloud, costs, emptied(cloud)};
+PointCloud bisected(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts) {
+  Migration migration{cloud, cuts, emptied(cloud)};
   Zoltan zoltan = started_zoltan(communicator, migration);
   int changed, gid_size, lid_size, imports, exports;
   ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
@@ -209,8 +210,8 @@ std::vector<int> along_curve(const PointCloud& cloud) {
 
 }  // namespace
 
-PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const std::vector<double>& costs) {
-  const PointCloud mine = communicator.size() == 1 ? cloud : bisected(cloud, communicator, costs);
+PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts) {
+  const PointCloud mine = communicator.size() == 1 ? cloud : bisected(cloud, communicator, cuts);
   return reordered(mine, along_curve(mine));
 }
 
