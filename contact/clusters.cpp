@@ -2,6 +2,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -173,6 +174,15 @@ void Clusters::add_whole(const Whole& whole) {
   largest_skin_ = std::max(largest_skin_, whole.skin);
 }
 
+// Calls visit(i) for the lanes below zero of those that stand for i = begin … end − 1.
+template <class Visit>
+void visit_below_zero(const Lanes& values, int begin, int end, const Visit& visit) {
+  const unsigned there = (1u << std::min(width, end - begin)) - 1;
+  for (unsigned left = small::lanes_below_zero(values) & there; left != 0; left &= left - 1) {
+    visit(begin + std::countr_zero(left));
+  }
+}
+
 Lanes squared_length(const Lanes* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 template <class Visit>
@@ -184,7 +194,7 @@ void Clusters::visit_clusters_near(const Whole& one, double radius, double horiz
     for (int k = 0; k < 3; ++k) apart[k] = centre_.c[k].at(c) - one.place[k];
     const Lanes skins = skin_.at(c) + one.skin, reach = radius + slack + skins + radius_.at(c) + one.radius;
     const Lanes far = squared_length(apart) - reach * reach;
-    if (horizon == 0 || far.minCoeff() >= 0) return far;
+    if (horizon == 0 || !small::lanes_below_zero(far)) return far;
     Lanes xi[3], way[3], turn2 = Lanes::Zero();
     for (int k = 0; k < 3; ++k) {
       xi[k] = centre_reference_.c[k].at(c) - one.reference[k];
@@ -202,20 +212,18 @@ void Clusters::visit_clusters_near(const Whole& one, double radius, double horiz
   };
   const Vector around = Vector::Constant(radius + slack + one.skin + largest_skin_ + one.radius);
   grid_.visit_rows(Box(one.place - around, one.place + around), [&](int begin, int end) {
-    for (int c = first_[begin]; c < first_[end]; c += width) {
-      const Lanes out = ruled_out(c);
-      if (out.minCoeff() >= 0) continue;
-      for (int l = 0; l < std::min(width, first_[end] - c); ++l) {
-        if (out[l] < 0) visit(c + l);
-      }
-    }
+    for (int c = first_[begin]; c < first_[end]; c += width) visit_below_zero(ruled_out(c), c, first_[end], visit);
   });
 }
 
 template <class Visit>
 void Clusters::visit_members_near(const Candidate& point, int c, double radius, double horizon,
                                   const Visit& visit) const {
-  const double skins = point.skin + skin_[c] + round_off * radius;
+  // The square of where a pair would touch, both skins added: of r_c, and of a share of |ξ| in the form a |ξ|² + b, for
+  // |ξ| ≤ (|ξ|²/δ + δ)/2.
+  const double skins = point.skin + skin_[c] + round_off * radius, most = (radius + skins) * (radius + skins);
+  const double a = reference_share * (reference_share + (horizon > 0 ? skins / horizon : 0));
+  const double b = skins * (reference_share * horizon + skins);
   const int end = static_cast<int>(start_[c + 1]);
   for (int m = static_cast<int>(start_[c]); m < end; m += width) {
     Lanes eta[3], xi[3];
@@ -223,14 +231,10 @@ void Clusters::visit_members_near(const Candidate& point, int c, double radius, 
       eta[k] = place_.c[k].at(m) - point.current[k];
       xi[k] = reference_.c[k].at(m) - point.reference[k];
     }
-    const Lanes then2 = squared_length(xi);
-    const Lanes reach = (horizon > 0 ? Lanes((reference_share * then2.sqrt()).min(radius)) : Lanes::Constant(radius));
-    const Lanes far = squared_length(eta) - (reach + skins).square();
-    const Lanes out = far.max(horizon * horizon - then2);
-    if (out.minCoeff() >= 0) continue;
-    for (int l = 0; l < std::min(width, end - m); ++l) {
-      if (out[l] < 0) visit(members_[m + l]);
-    }
+    const Lanes then2 = squared_length(xi), now2 = squared_length(eta);
+    Lanes out = now2 - most;
+    if (horizon > 0) out = out.max(now2 - (a * then2 + b)).max(horizon * horizon - then2);
+    visit_below_zero(out, m, end, [&](int n) { visit(members_[n]); });
   }
 }
 
