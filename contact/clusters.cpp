@@ -2,6 +2,7 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -48,12 +49,83 @@ struct Columns3 {
   Vector operator[](std::size_t i) const { return {c[0][i], c[1][i], c[2][i]}; }
 };
 
-// A cluster as a whole: y = place + rotation (X − reference) but for `spread`.
+// Points as a whole: y = place + rotation (X − reference) but for `spread`.
 struct Whole {
   Vector place, reference;            // of its centre, m
   double radius, size, spread, skin;  // the largest |y − place|, |X − reference|, and skin of a point, m
   Tensor rotation;
 };
+
+// How near points may touch: r_c, and the smallest horizon, 0 between bodies; m.
+struct Reach {
+  double radius, horizon;
+  double slack() const { return round_off * radius; }
+};
+
+Lanes squared_length(const Lanes* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
+
+// Wholes side by side.
+class Wholes {
+ public:
+  void add(const Whole& whole);
+  void close();
+  int count() const { return count_; }
+  Whole operator[](int n) const;
+  double skin(int n) const { return skin_[n]; }
+  double largest_skin() const { return largest_skin_; }
+
+  // What rules some out beside `one`, from n on, is not negative.
+  Lanes ruled_out(int n, const Whole& one, const Reach& reach) const;
+
+ private:
+  int count_ = 0;
+  Columns3 place_, reference_;
+  Column radius_, size_, spread_, skin_, rotation_[9];
+  double largest_skin_ = 0;
+};
+
+void Wholes::add(const Whole& whole) {
+  place_.add(whole.place), reference_.add(whole.reference);
+  radius_.add(whole.radius), size_.add(whole.size), spread_.add(whole.spread), skin_.add(whole.skin);
+  for (int n = 0; n < 9; ++n) rotation_[n].add(whole.rotation.data()[n]);
+  largest_skin_ = std::max(largest_skin_, whole.skin);
+  ++count_;
+}
+
+void Wholes::close() {
+  place_.close(), reference_.close();
+  for (Column* column : {&radius_, &size_, &spread_, &skin_}) column->close();
+  for (Column& column : rotation_) column.close();
+}
+
+Whole Wholes::operator[](int n) const {
+  Tensor R;
+  for (int k = 0; k < 9; ++k) R.data()[k] = rotation_[k][n];
+  return {place_[n], reference_[n], radius_[n], size_[n], spread_[n], skin_[n], R};
+}
+
+Lanes Wholes::ruled_out(int n, const Whole& one, const Reach& reach) const {
+  Lanes apart[3];
+  for (int k = 0; k < 3; ++k) apart[k] = place_.c[k].at(n) - one.place[k];
+  const Lanes skins = skin_.at(n) + one.skin, radii = radius_.at(n) + one.radius;
+  const Lanes far = squared_length(apart) - (reach.radius + reach.slack() + skins + radii).square();
+  if (reach.horizon == 0 || !small::lanes_below_zero(far)) return far;
+  Lanes xi[3], way[3], turn2 = Lanes::Zero();
+  for (int k = 0; k < 3; ++k) {
+    xi[k] = reference_.c[k].at(n) - one.reference[k];
+    way[k] = one.rotation(0, k) * apart[0] + one.rotation(1, k) * apart[1] + one.rotation(2, k) * apart[2] - xi[k];
+  }
+  for (int k = 0; k < 9; ++k) turn2 += (rotation_[k].at(n) - one.rotation.data()[k]).square();
+  const Lanes size = size_.at(n), sizes = size + one.size, spreads = spread_.at(n) + one.spread;
+  const Lanes then = squared_length(xi).sqrt(), now = squared_length(apart).sqrt();
+  const Lanes all_bonded = reach.horizon - (then + sizes);
+  const Lanes lengths = then + now - 2 * sizes;
+  const Lanes by_place = 2 * sizes * squared_length(way).sqrt() / lengths.max(1e-3 * reach.horizon);
+  const Lanes nearer = now - then - by_place - size * turn2.sqrt() - spreads - skins;
+  const Lanes calm =
+      (nearer + ((1 - reference_share) * reach.horizon - reach.slack())).min(lengths - 0.5 * reach.horizon);
+  return far.max(all_bonded).max(calm);
+}
 
 // The rotation R that comes nearest to y − place = R (X − reference): of the moment Σ (y − place) ⊗ (X − reference).
 Tensor fitted_rotation(const Tensor& moment) {
@@ -63,45 +135,46 @@ Tensor fitted_rotation(const Tensor& moment) {
   return U * svd.matrixV().transpose();
 }
 
-// Of a cell for about eight points of a block where they are dense, m.
+// Of a cell for about 64 points of a block where they are dense, m.
 double cell_width(const Pool& pool, int block) {
   double volume = 0, count = 0;
   for (const Candidate& member : pool.members) {
     if (member.block == block) volume += member.reference[3], ++count;
   }
-  return count > 0 ? 2 * std::cbrt(volume / count) : 1;
+  return count > 0 ? 4 * std::cbrt(volume / count) : 1;
 }
 
-// The clusters of one block's members.
+// Calls visit(i) for the lanes below zero of those that stand for i = begin … end − 1.
+template <class Visit>
+void visit_below_zero(const Lanes& values, int begin, int end, const Visit& visit) {
+  const unsigned there = (1u << std::min(width, end - begin)) - 1;
+  for (unsigned left = small::lanes_below_zero(values) & there; left != 0; left &= left - 1) {
+    visit(begin + std::countr_zero(left));
+  }
+}
+
+// The clusters of one block's members, in clumps.
 class Clusters {
  public:
-  Clusters(const Pool& pool, int block) : grid_(CellGrid::of_width(places_of(pool, block), cell_width(pool, block))) {
-    first_.push_back(0);
-    for (int c = 0; c < grid_.cells(); ++c) {
-      if (!grid_.members(c).empty()) add(pool, c);
-      first_.push_back(count());
-    }
-    for (Columns3* columns : {&centre_, &centre_reference_, &place_, &reference_}) columns->close();
-    for (Column* column : {&radius_, &size_, &spread_, &skin_}) column->close();
-    for (Column& column : rotation_) column.close();
-  }
+  Clusters(const Pool& pool, int block);
 
-  int count() const { return static_cast<int>(start_.size()) - 1; }
+  int clumps() const { return clumps_.count(); }
+  Whole clump(int n) const { return clumps_[n]; }
+  std::pair<int, int> clusters(int clump) const { return {first_cluster_[clump], first_cluster_[clump + 1]}; }
+  Whole cluster(int c) const { return clusters_[c]; }
   std::span<const int> members(int c) const { return {members_.data() + start_[c], members_.data() + start_[c + 1]}; }
-  Whole whole(int c) const {
-    Tensor R;
-    for (int n = 0; n < 9; ++n) R.data()[n] = rotation_[n][c];
-    return {centre_[c], centre_reference_[c], radius_[c], size_[c], spread_[c], skin_[c], R};
+
+  // Calls visit for the clumps that are not ruled out as wholes beside `one`; for the clusters of one of them; for the
+  // members of a cluster that are not ruled out beside a point.
+  template <class Visit>
+  void visit_clumps_near(const Whole& one, const Reach& reach, const Visit& visit) const;
+  template <class Visit>
+  void visit_clusters_near(const Whole& one, int clump, const Reach& reach, const Visit& visit) const {
+    const auto [begin, end] = clusters(clump);
+    for (int c = begin; c < end; c += width) visit_below_zero(clusters_.ruled_out(c, one, reach), c, end, visit);
   }
-
-  // Calls visit(c) for the clusters that are not ruled out as wholes beside `one`. `horizon`: the smallest; 0 between
-  // bodies.
   template <class Visit>
-  void visit_clusters_near(const Whole& one, double radius, double horizon, const Visit& visit) const;
-
-  // Calls visit(m) for the members of a cluster that are not ruled out beside a point.
-  template <class Visit>
-  void visit_members_near(const Candidate& point, int c, double radius, double horizon, const Visit& visit) const;
+  void visit_members_near(const Candidate& point, int c, const Reach& reach, const Visit& visit) const;
 
  private:
   std::vector<Vector> places_of(const Pool& pool, int block) {
@@ -113,36 +186,64 @@ class Clusters {
     }
     return places;
   }
-  void add(const Pool& pool, int cell);
-  void add_whole(const Whole& whole);
+  void add_clump(const Pool& pool, int cell);
+  Whole whole(const Pool& pool, std::size_t begin, std::size_t end) const;
 
   std::vector<int> in_block_;  // members of the pool
   CellGrid grid_;              // of these
-  std::vector<int> first_;     // the first cluster of each cell of the grid, or after it
-  std::vector<std::size_t> start_{0};
-  std::vector<int> members_;  // of the pool, by clusters
-  // Of clusters.
-  Columns3 centre_, centre_reference_;
-  Column radius_, size_, spread_, skin_, rotation_[9];
-  double largest_skin_ = 0;
-  // In the order of members_.
-  Columns3 place_, reference_;
+  Wholes clumps_, clusters_;
+  std::vector<int> first_clump_{0};    // of each cell of the grid, or after it
+  std::vector<int> first_cluster_{0};  // of each clump
+  std::vector<std::size_t> start_{0};  // of each cluster's members
+  std::vector<int> members_;           // of the pool, by clusters
+  Columns3 place_, reference_;         // theirs
 };
 
-void Clusters::add(const Pool& pool, int cell) {
+Clusters::Clusters(const Pool& pool, int block)
+    : grid_(CellGrid::of_width(places_of(pool, block), cell_width(pool, block))) {
+  for (int c = 0; c < grid_.cells(); ++c) {
+    if (!grid_.members(c).empty()) add_clump(pool, c);
+    first_clump_.push_back(clumps_.count());
+  }
+  for (Columns3* columns : {&place_, &reference_}) columns->close();
+  for (Wholes* wholes : {&clumps_, &clusters_}) wholes->close();
+}
+
+// The points of a cell. Its clusters are the octants about their centre.
+void Clusters::add_clump(const Pool& pool, int cell) {
   const std::span<const int> of_cell = grid_.members(cell);
-  Whole whole{Vector::Zero(), Vector::Zero(), 0, 0, 0, 0, Tensor::Identity()};
+  Vector centre = Vector::Zero();
+  for (const int n : of_cell) centre += place(pool.members[in_block_[n]]) / static_cast<double>(of_cell.size());
+  std::array<std::vector<int>, 8> octants;
   for (const int n : of_cell) {
-    const Candidate& member = pool.members[in_block_[n]];
-    const Vector X = reference(member), y = place(member);
-    whole.reference += X / static_cast<double>(of_cell.size());
-    whole.place += y / static_cast<double>(of_cell.size());
-    whole.skin = std::max(whole.skin, member.skin);
-    members_.push_back(in_block_[n]);
-    place_.add(y), reference_.add(X);
+    const Vector apart = place(pool.members[in_block_[n]]) - centre;
+    octants[(apart[0] > 0) + 2 * (apart[1] > 0) + 4 * (apart[2] > 0)].push_back(in_block_[n]);
+  }
+  const std::size_t begin = members_.size();
+  for (const std::vector<int>& octant : octants) {
+    if (octant.empty()) continue;
+    for (const int m : octant) {
+      members_.push_back(m);
+      place_.add(place(pool.members[m])), reference_.add(reference(pool.members[m]));
+    }
+    clusters_.add(whole(pool, start_.back(), members_.size()));
+    start_.push_back(members_.size());
+  }
+  clumps_.add(whole(pool, begin, members_.size()));
+  first_cluster_.push_back(clusters_.count());
+}
+
+// Of members_[begin] … members_[end − 1].
+Whole Clusters::whole(const Pool& pool, std::size_t begin, std::size_t end) const {
+  Whole whole{Vector::Zero(), Vector::Zero(), 0, 0, 0, 0, Tensor::Identity()};
+  const double share = 1 / static_cast<double>(end - begin);
+  for (std::size_t m = begin; m < end; ++m) {
+    whole.reference += share * reference_[m];
+    whole.place += share * place_[m];
+    whole.skin = std::max(whole.skin, pool.members[members_[m]].skin);
   }
   const auto over_members = [&](const auto& visit) {
-    for (std::size_t m = start_.back(); m < members_.size(); ++m) {
+    for (std::size_t m = begin; m < end; ++m) {
       visit(Vector(reference_[m] - whole.reference), Vector(place_[m] - whole.place));
     }
   };
@@ -163,65 +264,25 @@ void Clusters::add(const Pool& pool, int cell) {
     whole.rotation = fitted_rotation(moment);
     set_spread();
   }
-  start_.push_back(members_.size());
-  add_whole(whole);
+  return whole;
 }
-
-void Clusters::add_whole(const Whole& whole) {
-  centre_.add(whole.place), centre_reference_.add(whole.reference);
-  radius_.add(whole.radius), size_.add(whole.size), spread_.add(whole.spread), skin_.add(whole.skin);
-  for (int n = 0; n < 9; ++n) rotation_[n].add(whole.rotation.data()[n]);
-  largest_skin_ = std::max(largest_skin_, whole.skin);
-}
-
-// Calls visit(i) for the lanes below zero of those that stand for i = begin … end − 1.
-template <class Visit>
-void visit_below_zero(const Lanes& values, int begin, int end, const Visit& visit) {
-  const unsigned there = (1u << std::min(width, end - begin)) - 1;
-  for (unsigned left = small::lanes_below_zero(values) & there; left != 0; left &= left - 1) {
-    visit(begin + std::countr_zero(left));
-  }
-}
-
-Lanes squared_length(const Lanes* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
 template <class Visit>
-void Clusters::visit_clusters_near(const Whole& one, double radius, double horizon, const Visit& visit) const {
-  const double slack = round_off * radius;
-  // What rules a cluster out is not negative.
-  const auto ruled_out = [&](int c) -> Lanes {
-    Lanes apart[3];
-    for (int k = 0; k < 3; ++k) apart[k] = centre_.c[k].at(c) - one.place[k];
-    const Lanes skins = skin_.at(c) + one.skin, reach = radius + slack + skins + radius_.at(c) + one.radius;
-    const Lanes far = squared_length(apart) - reach * reach;
-    if (horizon == 0 || !small::lanes_below_zero(far)) return far;
-    Lanes xi[3], way[3], turn2 = Lanes::Zero();
-    for (int k = 0; k < 3; ++k) {
-      xi[k] = centre_reference_.c[k].at(c) - one.reference[k];
-      way[k] = one.rotation(0, k) * apart[0] + one.rotation(1, k) * apart[1] + one.rotation(2, k) * apart[2] - xi[k];
-    }
-    for (int n = 0; n < 9; ++n) turn2 += (rotation_[n].at(c) - one.rotation.data()[n]).square();
-    const Lanes size = size_.at(c), sizes = size + one.size, spreads = spread_.at(c) + one.spread;
-    const Lanes then = squared_length(xi).sqrt(), now = squared_length(apart).sqrt();
-    const Lanes all_bonded = horizon - (then + sizes);
-    const Lanes lengths = then + now - 2 * sizes;
-    const Lanes by_place = 2 * sizes * squared_length(way).sqrt() / lengths.max(1e-3 * horizon);
-    const Lanes nearer = now - then - by_place - size * turn2.sqrt() - spreads - skins;
-    const Lanes calm = (nearer + ((1 - reference_share) * horizon - slack)).min(lengths - 0.5 * horizon);
-    return far.max(all_bonded).max(calm);
-  };
-  const Vector around = Vector::Constant(radius + slack + one.skin + largest_skin_ + one.radius);
+void Clusters::visit_clumps_near(const Whole& one, const Reach& reach, const Visit& visit) const {
+  const Vector around = Vector::Constant(reach.radius + reach.slack() + one.skin + clumps_.largest_skin() + one.radius);
   grid_.visit_rows(Box(one.place - around, one.place + around), [&](int begin, int end) {
-    for (int c = first_[begin]; c < first_[end]; c += width) visit_below_zero(ruled_out(c), c, first_[end], visit);
+    for (int n = first_clump_[begin]; n < first_clump_[end]; n += width) {
+      visit_below_zero(clumps_.ruled_out(n, one, reach), n, first_clump_[end], visit);
+    }
   });
 }
 
 template <class Visit>
-void Clusters::visit_members_near(const Candidate& point, int c, double radius, double horizon,
-                                  const Visit& visit) const {
+void Clusters::visit_members_near(const Candidate& point, int c, const Reach& reach, const Visit& visit) const {
   // The square of where a pair would touch, both skins added: of r_c, and of a share of |ξ| in the form a |ξ|² + b, for
   // |ξ| ≤ (|ξ|²/δ + δ)/2.
-  const double skins = point.skin + skin_[c] + round_off * radius, most = (radius + skins) * (radius + skins);
+  const auto [radius, horizon] = reach;
+  const double skins = point.skin + clusters_.skin(c) + reach.slack(), most = (radius + skins) * (radius + skins);
   const double a = reference_share * (reference_share + (horizon > 0 ? skins / horizon : 0));
   const double b = skins * (reference_share * horizon + skins);
   const int end = static_cast<int>(start_[c + 1]);
@@ -238,22 +299,33 @@ void Clusters::visit_members_near(const Candidate& point, int c, double radius, 
   }
 }
 
-void add_pairs(const Pool& pool, const Criterion& may_touch, double horizon, const Clusters& some,
+// The pairs of owned members of a cluster with members of others.
+void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach, std::span<const int> members,
+               const Clusters& others, const std::vector<int>& near, IndexPairs& pairs) {
+  for (const int m : members) {
+    if (m >= static_cast<int>(pool.owned)) continue;
+    const Candidate& member = pool.members[m];
+    for (const int cluster : near) {
+      others.visit_members_near(member, cluster, reach, [&](int other) {
+        if (other != m && may_touch(member, pool.members[other])) pairs.emplace_back(m, other);
+      });
+    }
+  }
+}
+
+void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach, const Clusters& some,
                const Clusters& others, IndexPairs& pairs) {
-  std::vector<int> near;
-  const auto is_owned = [&pool](int m) { return m < static_cast<int>(pool.owned); };
-  for (int c = 0; c < some.count(); ++c) {
-    if (std::none_of(some.members(c).begin(), some.members(c).end(), is_owned)) continue;
-    near.clear();
-    others.visit_clusters_near(some.whole(c), may_touch.radius, horizon, [&near](int other) { near.push_back(other); });
-    for (const int m : some.members(c)) {
-      if (!is_owned(m)) continue;
-      const Candidate& member = pool.members[m];
-      for (const int cluster : near) {
-        others.visit_members_near(member, cluster, may_touch.radius, horizon, [&](int other) {
-          if (other != m && may_touch(member, pool.members[other])) pairs.emplace_back(m, other);
-        });
+  std::vector<int> clumps, near;
+  for (int n = 0; n < some.clumps(); ++n) {
+    clumps.clear();
+    others.visit_clumps_near(some.clump(n), reach, [&](int clump) { clumps.push_back(clump); });
+    const auto [begin, end] = some.clusters(n);
+    for (int c = begin; !clumps.empty() && c < end; ++c) {
+      near.clear();
+      for (const int clump : clumps) {
+        others.visit_clusters_near(some.cluster(c), clump, reach, [&](int cluster) { near.push_back(cluster); });
       }
+      add_pairs(pool, may_touch, reach, some.members(c), others, near, pairs);
     }
   }
 }
@@ -266,15 +338,15 @@ IndexPairs pairs_in(const Pool& pool, const Criterion& may_touch) {
   const Parties& parties = may_touch.parties;
   double horizon = std::numeric_limits<double>::infinity();
   for (const Candidate& member : pool.members) horizon = std::min(horizon, member.current[3]);
-  if (!parties.one_body) horizon = 0;
+  const Reach reach{may_touch.radius, parties.one_body ? horizon : 0};
   const Clusters first(pool, parties.first);
   if (parties.self()) {
-    add_pairs(pool, may_touch, horizon, first, first, pairs);
+    add_pairs(pool, may_touch, reach, first, first, pairs);
     return pairs;
   }
   const Clusters second(pool, parties.second);
-  add_pairs(pool, may_touch, horizon, first, second, pairs);
-  add_pairs(pool, may_touch, horizon, second, first, pairs);
+  add_pairs(pool, may_touch, reach, first, second, pairs);
+  add_pairs(pool, may_touch, reach, second, first, pairs);
   return pairs;
 }
 

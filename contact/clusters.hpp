@@ -1,7 +1,7 @@
 // Inside contact: which members of a pool may touch each other, found by clusters of them.
 //
-// A cluster is what a cubic cell of some eight points holds now. Two clusters are asked as wholes first, as many at a
-// time as a register holds, whether they are
+// A clump is what a cubic cell of some 64 points holds now, and its clusters are the octants about its centre. Two
+// clumps are asked as wholes first, then their clusters, as many at a time as a register holds, whether they are
 //   far      no two of their points within r_c and their skins,
 //   bonded   all within the smallest horizon of each other in the reference state (within a body), or
 //   calm     no two that are not bonded closer by so much of a horizon as a touch takes, less their skins (the same),

@@ -3,16 +3,16 @@
 #include <algorithm>
 
 #include "base/timing.hpp"
-#include "contact/skins.hpp"
 
 namespace strut::contact {
 
 namespace {
 
-// The skins of a pair together, in units of the smaller horizon. Points that are not bonded start at least a horizon
-// apart, and a pair touches at 0.9 of its distance at the most: with less than a tenth, no pair of undeformed material
-// is in a list but those of fast points, and what is left of the tenth is the strain at which others get there.
-constexpr double skin_share = 0.06;
+// The usual skins of a pair together, in units of the smaller horizon. Points that are not bonded start at least a
+// horizon apart, and a pair touches at 0.9 of its distance at the most: with less than a tenth, no pair of undeformed
+// material is in a list but those of fast points, and what is left of the tenth is the strain at which others get
+// there.
+constexpr double skin_share = 0.08;
 
 // A search is due this many steps before a skin is used up, since the motion of the next step is a forecast.
 constexpr double forecast = 2;
@@ -49,6 +49,7 @@ void Contact::search(const Crowd& crowd, double dt, Meeting& meeting) {
   for (const int i : parties.points) meeting.places.push_back(crowd.domain.current(i));
   meeting.skins = skins_by_speed(crowd, parties, meeting.mean_velocity, meeting.skin, dt);
   meeting.pairs = find_pairs(crowd, parties, meeting.model, meeting.skins);
+  meeting.frame = frame_of(crowd, parties, meeting.pairs);
   meeting.searched = true;
   meeting.used = 0;
   meeting.tally = {};
@@ -62,8 +63,9 @@ void Contact::look(const Crowd& crowd, double dt, Meeting& meeting) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
   meeting.due = false;
-  meeting.mean_velocity = mean_velocity(crowd, meeting.parties);
-  if (meeting.searched) meeting.used = part_used(crowd, meeting.parties, meeting.places, meeting.skins);
+  if (!meeting.searched) meeting.frame = frame_of(crowd, meeting.parties, meeting.pairs);
+  meeting.mean_velocity = mean_velocity(crowd, meeting.parties, meeting.frame);
+  if (meeting.searched) meeting.used = part_used(crowd, meeting.parties, meeting.frame, meeting.places, meeting.skins);
   if (!meeting.searched || meeting.used > most_used) search(crowd, dt, meeting);
 }
 

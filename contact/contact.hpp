@@ -8,6 +8,7 @@
 #include "base/archive.hpp"
 #include "contact/forces.hpp"
 #include "contact/search.hpp"
+#include "contact/skins.hpp"
 
 namespace strut::contact {
 
@@ -65,8 +66,9 @@ class Contact {
   struct Meeting {
     Model model;
     Parties parties;
-    double skin = 0;  // m: the smallest of a point
+    double skin = 0;  // m: the usual one of a point
     // As of the last search.
+    Frame frame = {};
     std::vector<Vector> places = {};  // of parties.points, m
     Skins skins = {};
     Pairs pairs = {};

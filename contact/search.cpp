@@ -82,32 +82,41 @@ Pool pool_of(const Crowd& crowd, const Parties& parties, const std::vector<int>&
   return pool;
 }
 
-// Partners of the pool's owned members, as places in the pool, ordered by id.
+// Of each of some members, places in the pool.
 struct Lists {
-  std::vector<std::size_t> start{0};
-  std::vector<int> partners;
+  std::vector<std::size_t> start;
+  std::vector<int> members;
 
-  void close() { start.push_back(partners.size()); }  // the list of one more member is complete
-  auto of(std::size_t k) const { return std::span(partners).subspan(start[k], start[k + 1] - start[k]); }
+  auto of(std::size_t k) const { return std::span(members).subspan(start[k], start[k + 1] - start[k]); }
 };
 
-// Pairs of the same member are put side by side first: sorting all at once would take several times as long.
-Lists lists_of(const Pool& pool, const IndexPairs& pairs) {
-  std::vector<std::size_t> ends(pool.owned + 1, 0);
-  for (const auto& pair : pairs) ++ends[pair.first + 1];
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  std::vector<std::pair<std::int64_t, int>> all(pairs.size());  // ids and members
-  std::vector<std::size_t> next(ends.begin(), ends.end() - 1);
-  for (const auto& [k, other] : pairs) all[next[k]++] = {pool.members[other].id, other};
-  Lists lists;
-  for (std::size_t k = 0; k < pool.owned; ++k) {
-    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(ends[k]),
-               end = all.begin() + static_cast<std::ptrdiff_t>(ends[k + 1]);
-    std::sort(begin, end);
-    for (auto at = begin; at != end; ++at) lists.partners.push_back(at->second);
-    lists.close();
-  }
+// Lists of `count` members that are filled in the order of for_each(visit), which calls visit(k, member of its list).
+template <class ForEach>
+Lists lists_from(std::size_t count, const ForEach& for_each) {
+  Lists lists{std::vector<std::size_t>(count + 1, 0), {}};
+  for_each([&](int k, int) { ++lists.start[k + 1]; });
+  std::partial_sum(lists.start.begin(), lists.start.end(), lists.start.begin());
+  lists.members.resize(lists.start.back());
+  std::vector<std::size_t> next(lists.start.begin(), lists.start.end() - 1);
+  for_each([&](int k, int member) { lists.members[next[k]++] = member; });
   return lists;
+}
+
+// Partners of the pool's owned members, ordered by id: all partners are gone through in this order.
+Lists lists_of(const Pool& pool, const IndexPairs& pairs) {
+  const Lists owned = lists_from(pool.members.size(), [&](const auto& visit) {
+    for (const auto& [k, partner] : pairs) visit(partner, k);
+  });
+  std::vector<int> partners;
+  for (std::size_t m = 0; m < pool.members.size(); ++m) {
+    if (!owned.of(m).empty()) partners.push_back(static_cast<int>(m));
+  }
+  std::ranges::sort(partners, {}, [&](int m) { return pool.members[m].id; });
+  return lists_from(pool.owned, [&](const auto& visit) {
+    for (const int partner : partners) {
+      for (const int k : owned.of(partner)) visit(k, partner);
+    }
+  });
 }
 
 // The members of the pool that are in a pair: owned ones, then the others by id.
@@ -117,7 +126,7 @@ std::vector<int> paired_members(const Pool& pool, const Lists& lists) {
     if (!lists.of(k).empty()) members.push_back(static_cast<int>(k));
   }
   std::vector<bool> seen(pool.members.size());
-  for (const int partner : lists.partners) {
+  for (const int partner : lists.members) {
     if (partner >= static_cast<int>(pool.owned) && !seen[partner]) others.push_back(partner);
     seen[partner] = true;
   }
@@ -140,7 +149,7 @@ Pairs pairs_of(const Pool& pool, const Lists& lists, bool one_body, const Commun
     pairs.owned.push_back(static_cast<int>(member.owned));
     pairs.start.push_back(pairs.start.back() + lists.of(m).size());
   }
-  for (const int partner : lists.partners) pairs.partners.push_back(local[partner]);
+  for (const int partner : lists.members) pairs.partners.push_back(local[partner]);
   const auto first_other = pairs.ids.begin() + static_cast<std::ptrdiff_t>(pairs.owned.size());
   const std::vector<std::int64_t> owned(pairs.ids.begin(), first_other), others(first_other, pairs.ids.end());
   if (communicator.sum(static_cast<std::int64_t>(others.size())) > 0) {

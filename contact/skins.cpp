@@ -9,26 +9,25 @@ namespace strut::contact {
 
 namespace {
 
-// The fastest points, so many of all at the most, get a wider skin, up to so many times as wide: wider ones have more
-// partners.
-constexpr double share_of_fast = 0.005, widest = 4;
+// The fastest points, so many of all at the most, are faster than usual. Skins are so many times the usual one: wider
+// ones have more partners, and slow points may become faster.
+constexpr double share_of_fast = 0.005, narrowest = 0.4, widest = 4;
 
 // Searches this many steps apart cost little; no skin is made wider than that takes.
 constexpr double steps_between = 32;
 
-// A mean is that of one point in so many: any motion that is the same on all ranks will do.
-constexpr std::size_t sampling = 16;
+constexpr std::size_t sampling = 16;  // of the points of a frame
 
 // Collective. Of vectors that `of` gives for indices of parties.points.
 template <class Of>
-Vector mean(const Crowd& crowd, const Parties& parties, const Of& of) {
+Vector mean(const Communicator& communicator, const Frame& frame, const Of& of) {
   double sums[4] = {};
-  for (std::size_t k = 0; k < parties.points.size(); k += sampling) {
+  for (const int k : frame) {
     const Vector v = of(k);
     for (int c = 0; c < 3; ++c) sums[c] += v[c];
     ++sums[3];
   }
-  crowd.domain.communicator.sum(sums);
+  communicator.sum(sums);
   return Vector(sums[0], sums[1], sums[2]) / std::max(1.0, sums[3]);
 }
 
@@ -56,21 +55,32 @@ double usual_speed(const std::vector<double>& speeds, const Communicator& commun
 
 }  // namespace
 
-Vector mean_velocity(const Crowd& crowd, const Parties& parties) {
-  return mean(crowd, parties, [&](std::size_t k) { return crowd.velocities[parties.points[k]]; });
+Frame frame_of(const Crowd& crowd, const Parties& parties, const Pairs& pairs) {
+  const bool any = crowd.domain.communicator.max(pairs.empty() ? 0.0 : 1.0) > 0;
+  const std::vector<int>& points = any ? pairs.owned : parties.points;
+  Frame frame;
+  for (std::size_t n = 0; n < points.size(); n += sampling) {
+    const auto place = std::ranges::lower_bound(parties.points, points[n]);
+    frame.push_back(static_cast<int>(place - parties.points.begin()));
+  }
+  return frame;
 }
 
-Skins skins_by_speed(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, double smallest,
-                     double dt) {
+Vector mean_velocity(const Crowd& crowd, const Parties& parties, const Frame& frame) {
+  return mean(crowd.domain.communicator, frame, [&](int k) { return crowd.velocities[parties.points[k]]; });
+}
+
+Skins skins_by_speed(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, double usual, double dt) {
   std::vector<double> speeds;
   speeds.reserve(parties.points.size());
   for (const int i : parties.points) speeds.push_back((crowd.velocities[i] - mean_velocity).norm());
-  const double usual = std::max(usual_speed(speeds, crowd.domain.communicator),
-                                dt > 0 ? smallest / (steps_between * dt) : std::numeric_limits<double>::infinity());
+  const double speed = std::max(usual_speed(speeds, crowd.domain.communicator),
+                                dt > 0 ? usual / (steps_between * dt) : std::numeric_limits<double>::infinity());
   Skins skins;
-  double largest[] = {smallest};
+  double largest[] = {usual};
   for (const double v : speeds) {
-    skins.of.push_back(static_cast<float>((v > usual ? std::min(v / usual, widest) : 1) * smallest));
+    const double part = dt > 0 ? std::min(std::max(narrowest, v / speed), widest) : 1;  // of NaN the narrowest
+    skins.of.push_back(static_cast<float>(part * usual));
     largest[0] = std::max<double>(largest[0], skins.of.back());
   }
   crowd.domain.communicator.max(largest);
@@ -87,9 +97,10 @@ double largest_use(const Crowd& crowd, const Parties& parties, const Vector& mea
   return std::sqrt(most);
 }
 
-double part_used(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Skins& skins) {
+double part_used(const Crowd& crowd, const Parties& parties, const Frame& frame, std::span<const Vector> places,
+                 const Skins& skins) {
   const auto way = [&](std::size_t k) -> Vector { return crowd.domain.current(parties.points[k]) - places[k]; };
-  const Vector together = mean(crowd, parties, way);
+  const Vector together = mean(crowd.domain.communicator, frame, way);
   double most[] = {0};
   for (std::size_t k = 0; k < places.size(); ++k) {
     most[0] = std::max(most[0], (way(k) - together).norm() / skins.of[k]);

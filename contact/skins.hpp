@@ -5,19 +5,26 @@
 
 namespace strut::contact {
 
-// Collective. The mean of the velocities of the parties' points, m/s.
-Vector mean_velocity(const Crowd& crowd, const Parties& parties);
+// What moves with the mean of some points uses up no skin. These points, as indices of parties.points.
+using Frame = std::vector<int>;
 
-// Collective. Skins for points that go on as they do: `smallest` (m) for nearly all of them, more in proportion to
-// their speed beside the mean for the few that are faster, so that these do not decide when the next search is due.
-// `dt`: of a step, s; 0 if that is not known, and all skins are the smallest.
-Skins skins_by_speed(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, double smallest,
-                     double dt);
+// Collective. Points that have partners: the skins of those that are near each other should be small. While nobody has
+// one, all points. Of either one in so many: any motion that is the same on all ranks will do.
+Frame frame_of(const Crowd& crowd, const Parties& parties, const Pairs& pairs);
+
+// Collective. Of the frame, m/s.
+Vector mean_velocity(const Crowd& crowd, const Parties& parties, const Frame& frame);
+
+// Collective. Skins for points that go on as they do, in proportion to their speed beside the frame: `usual` (m) for a
+// speed that few exceed, so that these do not decide when the next search is due, and within limits.
+// `dt`: of a step, s; 0 if that is not known, and all skins are the usual one.
+Skins skins_by_speed(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, double usual, double dt);
 
 // The largest part of its skin that a point of this rank uses in a second, 1/s.
 double largest_use(const Crowd& crowd, const Parties& parties, const Vector& mean_velocity, const Skins& skins);
 
-// Collective. The largest part of its skin that any point has used on its way from `places`, beside the mean way.
-double part_used(const Crowd& crowd, const Parties& parties, std::span<const Vector> places, const Skins& skins);
+// Collective. The largest part of its skin that any point has used on its way from `places`, beside the frame's.
+double part_used(const Crowd& crowd, const Parties& parties, const Frame& frame, std::span<const Vector> places,
+                 const Skins& skins);
 
 }  // namespace strut::contact

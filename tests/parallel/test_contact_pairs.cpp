@@ -206,15 +206,17 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
   for (int i = 0; i < 3; ++i) now.velocities[i] *= 8;  // one of each block
   Part moved = part_of(now, world);
   const Parties parties = moved.parties(a, b);
-  const Vector mean = mean_velocity(moved.crowd(), parties);
+  const Frame frame = frame_of(moved.crowd(), parties, {});
+  const Vector mean = mean_velocity(moved.crowd(), parties, frame);
   Skins skins = skins_by_speed(moved.crowd(), parties, mean, 2 * skin, 1);
   EXPECT_GT(skins.largest, 1.1 * 2 * skin) << "none is faster";
+  EXPECT_LT(std::ranges::min(skins.of), 0.9 * 2 * skin) << "none is slower";
   const auto found = partners_in(find_pairs(moved.crowd(), parties, model, skins));
   const double t = 0.99 / world.max(largest_use(moved.crowd(), parties, mean, skins));
   for (int i = 0; i < count; ++i) now.places[i] += t * now.velocities[i];
   const std::vector<Vector> before = moved.places(parties);
   moved = part_of(now, world);
-  EXPECT_NEAR(part_used(moved.crowd(), parties, before, skins), 0.99, 1e-9);
+  EXPECT_NEAR(part_used(moved.crowd(), parties, frame, before, skins), 0.99, 1e-9);
   std::int64_t gained = 0;
   for (const auto& [id, partners] : partners_of(now, moved, a, b, 0)) {
     for (const Id partner : partners) {
@@ -225,6 +227,20 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
     }
   }
   EXPECT_GT(world.sum(gained), 4) << "nothing new has come to touch";
+}
+
+// What has partners uses up no skin by moving together, whatever the others do.
+TEST_P(ContactOfBlocks, TheFrameIsThatOfPointsWithPartners) {
+  const auto [a, b] = GetParam();
+  const Parties parties = part.parties(a, b);
+  const Pairs found = part.pairs(a, b);
+  const Vector together(3, -1, 2);
+  std::vector<Vector> velocities(part.velocities.size(), Vector(-5, 5, 5));
+  for (const int i : found.owned) velocities[i] = together;
+  const Crowd moving{part.domain, velocities, part.densities};
+  EXPECT_TRUE(mean_velocity(moving, parties, frame_of(moving, parties, found)).isApprox(together));
+  const Vector of_all = mean_velocity(part.crowd(), parties, frame_of(part.crowd(), parties, {}));
+  EXPECT_LT(of_all.norm(), 0.2) << "speeds are up to a half, and any";
 }
 
 TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {

@@ -1,6 +1,7 @@
 // Whole runs in which bodies meet.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "bodies.hpp"
@@ -42,6 +43,18 @@ Vector momentum(Simulation& run, int block) {
   }
   body.domain.communicator.sum(std::span(sum.data(), 3));
   return sum;
+}
+
+// The longest cut of the two would be between them, and all of the contact with one rank.
+TEST(Contact, EveryRankHasAShareOfBodiesThatMeet) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 8, 8, 8, h) + cubes(2, {0, 0, 8.5 * h}, 8, 8, 6, h));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e12");
+  parts.times = key("Final Time", "1e-7");
+  Simulation run(folder, parts);
+  const std::vector<int>& blocks = run.body().domain.cloud.blocks;
+  EXPECT_GT(std::ranges::count(blocks, 0), 100);
+  EXPECT_GT(std::ranges::count(blocks, 1), 100);
 }
 
 // Two bars with a common face, of different spacings: at rest nothing moves, as there is no pressure; a blow on the one
