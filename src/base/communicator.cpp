@@ -88,24 +88,6 @@ std::int64_t Communicator::sum(std::int64_t value) const {
   return value;
 }
 
-double Communicator::reproducible_sum(std::span<const double> terms) const {
-  double largest = 0;
-  bool finite = true;
-  for (const double term : terms) {
-    largest = std::max(largest, std::abs(term));
-    finite = finite && std::isfinite(term);
-  }
-  largest = max(finite ? largest : std::numeric_limits<double>::infinity());
-  if (largest == 0 || !std::isfinite(largest)) return largest;
-  const std::int64_t count = sum(static_cast<std::int64_t>(terms.size()));
-  const int unit = std::ilogb(largest) + 1 + std::ilogb(static_cast<double>(count)) + 1 - 62;
-  // By 2^−unit in two factors, for one may be out of range: much faster than std::ldexp.
-  const double one = std::ldexp(1.0, -unit / 2), other = std::ldexp(1.0, -unit - (-unit / 2));
-  std::int64_t total = 0;
-  for (const double term : terms) total += std::llrint(term * one * other);
-  return std::ldexp(static_cast<double>(sum(total)), unit);
-}
-
 std::int64_t Communicator::offset(std::int64_t value) const {
   std::int64_t before = 0;
   MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, implementation_->raw);

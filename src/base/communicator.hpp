@@ -45,10 +45,6 @@ class Communicator {
   double min(double value) const;
   std::int64_t sum(std::int64_t value) const;
 
-  // The sum of the terms of all ranks, the same to the last bit however they are spread over ranks: they are added as
-  // integers, in units of the largest one's 2⁻⁶² times their number. Not finite if a term is not.
-  double reproducible_sum(std::span<const double> terms) const;
-
   // The exclusive prefix sum of `value` over ranks: what the ranks before this one hold.
   std::int64_t offset(std::int64_t value) const;
 

@@ -12,7 +12,7 @@
 namespace strut::io::restart {
 
 // Of the layout below: raise it with every change of what the file holds.
-constexpr int version = 2;
+constexpr int version = 3;
 constexpr const char* mark = "strut_restart";
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }

@@ -57,33 +57,36 @@ Displacements places_in(const LatticeFamilies& lattice, const std::vector<Site>&
 }
 
 // K = Σ ω V ξ⊗ξ is what moments are in the undeformed state.
-void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K) {
+void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetric& inverse) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   MaterialPoint& point = body.points[block.points[k]];
-  point.shape_inverse = symmetric_part(K.inverse());
+  inverse = symmetric_part(K.inverse());
   if (block.is_ordinary()) {
     block.ordinary[k].weighted_volume = K.trace();
   } else {
-    point.stabilization = block.material.stabilization * modulus / (K.trace() / 3);
-    point.mean_stabilization = block.material.mean_stabilization * modulus / (K.trace() / 3);
+    const BlockMaterial& m = block.material;
+    point.stabilization = (m.stabilization + m.mean_stabilization) * modulus / (K.trace() / 3);
   }
 }
 
-void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, const Displacements& places) {
+void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, const Displacements& places,
+                std::vector<Symmetric>& inverses) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];
       const auto K = moments(group, places, weight);
-      for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l));
+      for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l), inverses[group.i[l]]);
     });
   });
 }
 
+// On a lattice K⁻¹ takes the gradient of displacements, and what its round-off leaves is as small beside strains.
 void set_shapes(Body& body) {
+  std::vector<Symmetric> inverses(body.owned(), Symmetric::Zero());
   for (MaterialBlock& block : body.blocks) {
     if (block.lattice >= 0) continue;
     for (const Part part : {Part::interior, Part::boundary}) {
-      set_shapes(body, block, Groups(body, block, part), {body.domain.sites.data()});
+      set_shapes(body, block, Groups(body, block, part), {body.domain.sites.data()}, inverses);
     }
   }
   for (const LatticeFamilies& lattice : body.domain.families.lattices) {
@@ -92,10 +95,19 @@ void set_shapes(Body& body) {
     const Displacements places = places_in(lattice, body.domain.sites);
     sums.moments(places, [&](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
-        if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), places);
+        if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), places, inverses);
       }
     });
   }
+  const auto sizes = [](const Symmetric& inverse) {
+    Repeated<Symmetric>::Sizes sizes;
+    sizes.fill(trace(inverse));
+    return sizes;
+  };
+  const auto on_lattice = [&body](std::size_t i) {
+    return body.domain.families.lattice(static_cast<int>(i)) != nullptr;
+  };
+  body.shape_inverse = {std::move(inverses), sizes, on_lattice};
 }
 
 void set_what_blocks_feel(Body& body) {
@@ -128,13 +140,14 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .blocks = std::move(blocks),
             .force_states = {},
             .points = {},
+            .shape_inverse = {},
             .density = {},
             .velocity = {},
             .previous_velocity = {},
             .force_density = {},
-            .stabilization_work = {},
             .halvings = {},
             .residual = {},
+            .mean_work = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
   body.force_states = zero_states(body.domain.sites.size(), materials);
@@ -143,8 +156,8 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.velocity.assign(owned, Vector::Zero());
   body.previous_velocity.assign(owned, Vector::Zero());
   body.force_density.assign(owned, Vector::Zero());
-  body.stabilization_work.assign(owned, 0);
   body.residual.assign(owned, 0);
+  if (!body.force_states.gradients.empty()) body.mean_work.assign(owned, 0);
   for (MaterialBlock& block : body.blocks) {
     if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
     if (block.material.viscosity.any()) block.viscous.resize(block.points.size());
@@ -166,7 +179,7 @@ std::size_t seen_bytes(const Body& body) {
 // What an owned point has besides.
 std::size_t own_bytes(const MaterialBlock& block) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
-  constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 3 * sizeof(double) + sizeof(int);
+  constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
   return mechanics + cloud + state * sizeof(double) + (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) +
          (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
@@ -175,7 +188,8 @@ std::size_t own_bytes(const MaterialBlock& block) {
 }  // namespace
 
 double footprint(const Body& body) {
-  double bytes = body.domain.families.bytes() + static_cast<double>(seen_bytes(body) * body.domain.sites.size());
+  double bytes = body.shape_inverse.bytes() + body.domain.families.bytes() +
+                 static_cast<double>(seen_bytes(body) * body.domain.sites.size());
   for (const MaterialBlock& block : body.blocks) bytes += static_cast<double>(own_bytes(block) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   return bytes;

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/repeated.hpp"
 #include "base/rotation.hpp"
 #include "base/tensors.hpp"
 #include "materials/laws.hpp"
@@ -53,9 +54,7 @@ struct MaterialPoint {
   Tensor deformation_gradient = Tensor::Identity();  // F
   Rotation rotation;                                 // R
   Symmetric stress = Symmetric::Zero();              // unrotated Cauchy stress, Pa
-  Symmetric shape_inverse = Symmetric::Zero();       // K⁻¹, 1/m⁵
-  double stabilization = 0;                          // C, Pa/m⁵
-  double mean_stabilization = 0;                     // C̄, Pa/m⁵
+  double stabilization = 0;                          // C, or C̄ where that is by the mean gradient, Pa/m⁵
 };
 
 // What an ordinary point has besides.
@@ -84,7 +83,7 @@ struct BlockMaterial {
   materials::AnyLaw law;
   double stabilization = 0;  // in units of (λ + 2μ)/(tr K/3); 0: none. Ordinary bonds need none, and have none
   Formulation formulation = Formulation::correspondence;
-  double mean_stabilization = 0;  // by the mean gradient of both ends; unit as above
+  double mean_stabilization = 0;  // by the mean gradient of both ends, instead; unit as above
   Viscosity viscosity = {};       // by correspondence
 };
 
@@ -125,6 +124,7 @@ struct MaterialBlock {
   }
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
+  bool has_mean_gradient() const { return material.mean_stabilization > 0; }
 };
 
 class LatticeSums;
@@ -141,15 +141,17 @@ struct Body {
 
   // Owned points.
   std::vector<MaterialPoint> points;
-  std::vector<double> density;             // kg/m³
-  std::vector<Vector> velocity;            // at mid-step, m/s
-  std::vector<Vector> previous_velocity;   // at the mid-step before, m/s
-  std::vector<Vector> force_density;       // N/m³ of reference volume
-  std::vector<double> stabilization_work;  // energy of the stabilisation, J/m³; current after a step with views
+  Repeated<Symmetric> shape_inverse;      // K⁻¹, 1/m⁵
+  std::vector<double> density;            // kg/m³
+  std::vector<Vector> velocity;           // at mid-step, m/s
+  std::vector<Vector> previous_velocity;  // at the mid-step before, m/s
+  std::vector<Vector> force_density;      // N/m³ of reference volume
   // Where some points are stepped alone (subcycles.hpp), ghosts too: how often the step of a point's stress is halved.
   // Empty: no point's.
   std::vector<std::uint8_t> halvings;
-  std::vector<double> residual;  // Σ ω V |η − F ξ|², m⁵, by correspondence; current after a step with views
+  // Current after a step with views:
+  std::vector<double> residual;   // Σ ω V |η − F ξ|², m⁵, by correspondence
+  std::vector<double> mean_work;  // energy of the stabilisation by the mean gradient, J/m³; empty where no block has it
 
   // Workspaces of the sums over the families on lattices, as domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
@@ -157,6 +159,11 @@ struct Body {
   int owned() const { return domain.owned; }
   // The step of a point's stress as a part of the one that is halved `order` times.
   double share(int i, int order = 0) const { return halvings.empty() ? 1 : power_of_two(order - halvings[i]); }
+  // Energy of the stabilisation, J/m³, as current as the residual: ½ C times it, or that by the mean gradient.
+  double stabilization_work(int i) const {
+    return has_mean_gradient(i) ? mean_work[i] : 0.5 * points[i].stabilization * residual[i];
+  }
+  bool has_mean_gradient(int i) const { return blocks[domain.cloud.blocks[i]].has_mean_gradient(); }
   double mass(int i) const { return density[i] * domain.volume(i); }
   Vector current(int i) const { return domain.current(i); }
   Vector displacement(int i) const { return current(i) - domain.reference(i); }

@@ -1,5 +1,7 @@
 #include "mechanics/keep.hpp"
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 
 namespace strut {
@@ -42,9 +44,10 @@ void keep_points(Archive& archive, Body& body) {
   archive.field("stress", 6, [&](std::size_t i, int c) -> double& { return points[i].stress.data()[c]; });
   // A failed point has none left.
   archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
-  archive.field("mean_stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].mean_stabilization; });
-  keep_numbers(archive, "stabilization_work", body.stabilization_work);
   keep_numbers(archive, "residual", body.residual);
+  const auto has_mean_gradient = [](const MaterialBlock& block) { return block.has_mean_gradient(); };
+  if (std::any_of(body.blocks.begin(), body.blocks.end(), has_mean_gradient))
+    keep_numbers(archive, "mean_work", body.mean_work);
 }
 
 void keep_block(Archive& archive, const Body& body, std::size_t number, MaterialBlock& block) {

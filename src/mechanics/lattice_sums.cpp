@@ -63,8 +63,7 @@ inline void for_each_bit(const std::uint64_t* words, int count, const Visit& vis
 
 }  // namespace
 
-LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice)
-    : lattice_(&lattice), constants_(body.owned(), Constants::Zero()) {
+LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice) : lattice_(&lattice) {
   make_rows(body.influence);
   mark_places();
   has_springs_ = std::any_of(body.blocks.begin(), body.blocks.end(),
@@ -118,6 +117,7 @@ void LatticeSums::mark_places() {
 
 // With V in the place of V u or V |u|², moments and squares are what is looked for.
 void LatticeSums::set_constants(const Body& body) {
+  std::vector<Constants> constants(body.owned(), Constants::Zero());
   const Displacements u{body.domain.sites.data()};
   const auto volume = [&](const Cells& cells, const Put& put) { put(0, u.of(cells.of(u.sites)).volume); };
   const auto each_owned = [&](const Chunk& chunk, const auto& set) {
@@ -129,18 +129,23 @@ void LatticeSums::set_constants(const Body& body) {
   with_constant(lattice_->reach(), [&](auto reach) {
     sweep<MomentSweep<reach>>(volume, [&](const Chunk& chunk) {
       each_owned(chunk, [&](int i) {
-        for (int c = 0; c < 3; ++c) constants_[i][c] = chunk.at(i)[3 * c * pencil_width];
+        for (int c = 0; c < 3; ++c) constants[i][c] = chunk.at(i)[3 * c * pencil_width];
       });
     });
     sweep<SquareSweep<reach>>(
-        volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants_[i][3] = *chunk.at(i); }); });
+        volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants[i][3] = *chunk.at(i); }); });
   });
+  const double length = lattice_->frame().horizon;
+  const auto sizes = [length](const Constants& c) {
+    const double first = c[3] * length;
+    return c[3] > 0 ? Repeated<Constants>::Sizes{first, first, first, c[3]} : Repeated<Constants>::Sizes{1, 1, 1, 1};
+  };
+  constants_ = {std::move(constants), sizes, [](std::size_t) { return true; }};
 }
 
 double LatticeSums::bytes() const {
   const std::size_t rows = row_begins_.size() * sizeof(int) + 2 * filled_.size() * sizeof(std::uint64_t);
-  return static_cast<double>(rows + sizeof(Pencil) * (row_.size() + ring_.room.size()) +
-                             sizeof(Constants) * constants_.size()) +
+  return static_cast<double>(rows + sizeof(Pencil) * (row_.size() + ring_.room.size())) + constants_.bytes() +
          sums_.bytes() + sources_.bytes();
 }
 
@@ -445,11 +450,12 @@ void LatticeSums::squares(const Displacements& u, const Take& take) {
 
 // Σ ω V |u_j − u_i|² − H : (F − I), H = (F − I) K being the moments; the first sum is Σ ω V |u_j|² − 2 u_i·q + W
 // |u_i|².
-double LatticeSums::Chunk::squared_residual(int i, const Displacements& u, const MaterialPoint& point) const {
+double LatticeSums::Chunk::squared_residual(int i, const Displacements& u, const Tensor& F,
+                                            const Symmetric& shape_inverse) const {
   const Vector ui = u(i).head<3>().matrix();
   const double squares = *at(i) - 2 * ui.dot(vector(i, 1)) + all->constants_[i][3] * ui.squaredNorm();
-  const Tensor gradient = point.deformation_gradient - Tensor::Identity();
-  const Tensor shape = to_tensor(point.shape_inverse).inverse();
+  const Tensor gradient = F - Tensor::Identity();
+  const Tensor shape = to_tensor(shape_inverse).inverse();
   return std::max(0.0, squares - (gradient * shape).cwiseProduct(gradient).sum());
 }
 

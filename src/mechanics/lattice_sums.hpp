@@ -83,8 +83,8 @@ class LatticeSums {
     small::Tensor3<small::Lanes> residual_moments(const Indices& i) const;  // M
     small::Vector3<small::Lanes> forces(const Indices& i, const Displacements& u,
                                         const std::vector<ForceState>& states) const;  // N/m³
-    double squared_residual(int i, const Displacements& u,
-                            const MaterialPoint& point) const;  // Σ ω V |y_j − y_i − F ξ|²
+    // Σ ω V |y_j − y_i − F ξ|²
+    double squared_residual(int i, const Displacements& u, const Tensor& F, const Symmetric& shape_inverse) const;
 
    private:
     friend class LatticeSums;
@@ -209,7 +209,7 @@ class LatticeSums {
   std::vector<std::uint64_t> filled_, owned_;
   int words_ = 0;                     // of these bits a row
   std::vector<int> row_begins_;       // the first slot of each row of the grid, and of the next ones if it has none
-  std::vector<Constants> constants_;  // of owned points
+  Repeated<Constants> constants_;  // of owned points
   bool has_springs_ = false;
 
   // Workspaces of a sweep.

@@ -95,25 +95,25 @@ Lanes residual_energies(const Body& body, const Group& group, const Site* places
 
 // The stabilisation by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
 // is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `u`: of y, or of
-// the field that stands in its place for a tangent. `energy`: of each point, added to; none if empty.
+// the field that stands in its place for a tangent. `energy`: of each point; none if empty.
 void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part part, ForceStates& states,
                   std::vector<Vector>& result, std::span<double> energy) {
   const auto add = [&](const Group& group, auto weight) {
     const bonds::Residual<Lanes> sums = residuals(group, u.sites, states.gradients, weight);
     for (int l = 0; l < group.count; ++l) {
       const int i = group.i[l];
-      take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
+      take_residual(states.tensors[i], at(sums.moment, l), body.shape_inverse[i]);
       result[i] = at(sums.force, l);
     }
     if (energy.empty()) return;
     const Lanes energies = residual_energies(body, group, u.sites, states.gradients, weight);
-    for (int l = 0; l < group.count; ++l) energy[group.i[l]] += energies[l];
+    for (int l = 0; l < group.count; ++l) energy[group.i[l]] = energies[l];
   };
   over_blocks(
       body, bodies, part,
       [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.residuals(u, states.gradients, take); },
       [&](const MaterialBlock& block, const Groups& groups) {
-        if (!(block.material.mean_stabilization > 0)) return;
+        if (!block.has_mean_gradient()) return;
         over_groups(body, groups, [&](const Group& group, auto weight) { add(group, weight); });
       });
 }
@@ -141,7 +141,7 @@ struct ForceSum {
     };
     over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const Groups& groups) {
       if (!block.feels_correspondence) return;
-      const bool is_begun = block.material.mean_stabilization > 0;
+      const bool is_begun = block.has_mean_gradient();
       over_groups(body, groups, [&](const Group& group, auto weight) {
         add(group, forces(group, u, states.tensors, with_springs, weight), is_begun);
       });
@@ -186,21 +186,20 @@ void add_up(Halo& halo, const ForceSum<ExtensionOf>& sum, const Timed& timed) {
 }
 
 // The force state of the tangent at one point, for δF: δP = J C:sym(δF F⁻¹) F⁻ᵀ. A point that is stepped alone by a
-// `share` of the step is as stiff to it as one of share² the stiffness is to the whole.
-ForceState tangent_state(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF, double share) {
+// `share` of the step is as stiff to it as one of share² the stiffness is to the whole. C: of its springs.
+ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
+                         const materials::Moduli& moduli, const Tensor& dF, double share) {
   const Tensor inverse_F = point.deformation_gradient.inverse();
   const double J = point.deformation_gradient.determinant();
   const Symmetric D = symmetric_part(dF * inverse_F);
   const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
-  const Tensor A =
-      J * to_tensor(stress) * inverse_F.transpose() * to_tensor(point.shape_inverse) - point.stabilization * dF;
-  return bonds::packed(share * share * A, share * share * point.stabilization);
+  const Tensor A = J * to_tensor(stress) * inverse_F.transpose() * to_tensor(shape_inverse) - C * dF;
+  return bonds::packed(share * share * A, share * share * C);
 }
 
 // The same with ∂P/∂F as it is.
-ForceState tangent_state(const MaterialPoint& point, const PointTangent& tangent, const Tensor& dF) {
-  const Tensor A = tangent.times(dF) * to_tensor(point.shape_inverse) - point.stabilization * dF;
-  return bonds::packed(A, point.stabilization);
+ForceState tangent_state(const Symmetric& shape_inverse, double C, const PointTangent& tangent, const Tensor& dF) {
+  return bonds::packed(tangent.times(dF) * to_tensor(shape_inverse) - C * dF, C);
 }
 
 // δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.
@@ -219,13 +218,12 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
                        const std::vector<PointTangent>* tangents, ForceStates& result) {
   const int i = block.points[k];
   const MaterialPoint& point = body.points[i];
-  const Tensor dF = moment * to_tensor(point.shape_inverse);
-  const double share = body.share(i);
-  result.tensors[i] =
-      tangents ? tangent_state(point, (*tangents)[i], dF) : tangent_state(point, block.moduli(k), dF, share);
-  if (block.material.mean_stabilization > 0) {
-    result.gradients[i] = bonds::packed(dF, point.mean_stabilization, share * share);
-  }
+  const Symmetric& shape_inverse = body.shape_inverse[i];
+  const Tensor dF = moment * to_tensor(shape_inverse);
+  const double share = body.share(i), C = block.has_mean_gradient() ? 0 : point.stabilization;
+  result.tensors[i] = tangents ? tangent_state(shape_inverse, C, (*tangents)[i], dF)
+                               : tangent_state(point, shape_inverse, C, block.moduli(k), dF, share);
+  if (block.has_mean_gradient()) result.gradients[i] = bonds::packed(dF, point.stabilization, share * share);
 }
 
 void set_tangent_states(const Body& body, const Displacements& field, const std::vector<PointTangent>* tangents,
@@ -294,7 +292,7 @@ void sum_forces(Body& body, bool with_views) {
   if (all_undisturbed(body)) return;
   const Displacements u{body.domain.sites.data()};
   if (!body.force_states.gradients.empty()) {
-    const std::span<double> energy = with_views ? std::span(body.stabilization_work) : std::span<double>();
+    const std::span<double> energy = with_views ? std::span(body.mean_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
       const Timed timed(stabilizing);
       add_residual(body, Bodies::disturbed, u, part, body.force_states, body.force_density, energy);
@@ -328,7 +326,7 @@ double pace(const Body& body, const MaterialBlock& block, int k) {
   const Tensor& F = point.deformation_gradient;
   const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
   const double modulus = block.moduli(k).longitudinal();
-  return std::sqrt(modulus / body.density[i] * body.domain.volume(i) * trace(point.shape_inverse) / 3 * steepness);
+  return std::sqrt(modulus / body.density[i] * body.domain.volume(i) * trace(body.shape_inverse[i]) / 3 * steepness);
 }
 
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
@@ -380,7 +378,7 @@ Energies stored_energies(const Body& body) {
       std::visit([&](const auto& law) { add_energies(body, block, law, sum); }, block.material.law);
     }
   }
-  sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work[i] * body.domain.volume(i); });
+  sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
   double values[] = {sum.elastic, sum.dissipated, sum.stabilization};
   body.domain.communicator.sum(values);
   return {values[0], values[1], values[2]};

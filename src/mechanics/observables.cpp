@@ -43,7 +43,7 @@ Symmetric cauchy(const Body& body, int i) {
   return symmetric_part(R * to_tensor(p.stress) * R.transpose());
 }
 
-double weighted_volume(const Body& body, int i) { return to_tensor(body.points[i].shape_inverse).inverse().trace(); }
+double weighted_volume(const Body& body, int i) { return to_tensor(body.shape_inverse[i]).inverse().trace(); }
 
 // Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
 Observable dilatation() {

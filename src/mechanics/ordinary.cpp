@@ -53,7 +53,7 @@ void set_views(Body& body, MaterialBlock& block, Weight weight, const Groups& gr
       OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
       ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);
       MaterialPoint& point = body.points[group.i[l]];
-      point.deformation_gradient = at(N, l) * to_tensor(point.shape_inverse);
+      point.deformation_gradient = at(N, l) * to_tensor(body.shape_inverse[group.i[l]]);
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);
       point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient);

@@ -63,6 +63,12 @@ LaneSymmetric symmetrics(const Members& g, Symmetric MaterialPoint::*field) {
   return s;
 }
 
+LaneSymmetric shape_inverses(const Members& g, const Body& body) {
+  LaneSymmetric s;
+  for (int c = 0; c < 6; ++c) s[c] = lanes_of([&](int l) { return body.shape_inverse[g.i[l]][c]; });
+  return s;
+}
+
 // The same numbers as laws take them.
 materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
   materials::SymmetricOf<small::RawLanes> result;
@@ -183,7 +189,7 @@ struct Update {
   // A failed point goes on as a mass. F and R stay as they were.
   void store_failed(const Members& g, int l) const {
     MaterialPoint& point = *g.points[l];
-    point.stabilization = point.mean_stabilization = 0;
+    point.stabilization = 0;
     drop_forces(g, l);
   }
 
@@ -191,7 +197,7 @@ struct Update {
     const MaterialPoint& point = *g.points[l];
     const int i = g.i[l];
     body.force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
-    if (block.material.mean_stabilization > 0) {
+    if (block.has_mean_gradient()) {
       body.force_states.gradients[i] = bonds::packed(point.deformation_gradient, 0, body.share(i, pass.order));
     }
   }
@@ -210,9 +216,10 @@ struct Update {
     point.rotation = Rotation(at(polar.rotation, l));
     point.deformation_gradient = at(F, l);
     const double share = body.share(g.i[l], pass.order);
-    body.force_states.tensors[g.i[l]] = bonds::packed(at(A, l), share * point.stabilization);
-    if (block.material.mean_stabilization > 0) {
-      body.force_states.gradients[g.i[l]] = bonds::packed(point.deformation_gradient, point.mean_stabilization, share);
+    const double C = point.stabilization;
+    body.force_states.tensors[g.i[l]] = bonds::packed(at(A, l), block.has_mean_gradient() ? 0 : share * C);
+    if (block.has_mean_gradient()) {
+      body.force_states.gradients[g.i[l]] = bonds::packed(point.deformation_gradient, C, share);
     }
   }
 
@@ -236,7 +243,7 @@ struct Update {
   // The largest pace² of the points of a group.
   double advance(const Group& group) const {
     const Members g(group, body, pass.order == 0);
-    const LaneSymmetric shape_inverse = symmetrics(g, &MaterialPoint::shape_inverse);
+    const LaneSymmetric shape_inverse = shape_inverses(g, body);
     const LaneTensor F = deformation_gradient(g, shape_inverse);
     const Lanes J = small::determinant(F);
     const Polar<Lanes> polar = polar_of(g, F);
@@ -253,7 +260,8 @@ struct Update {
     } else {
       stress = symmetrics(g, &MaterialPoint::stress);
     }
-    const Lanes C = lanes_of([&](int l) { return g.points[l]->stabilization; });
+    const Lanes C =
+        block.has_mean_gradient() ? Lanes(Lanes::Zero()) : lanes_of([&](int l) { return g.points[l]->stabilization; });
     for (int c = 0; c < 3; ++c) stress[c] -= viscous;
     const LaneTensor A = force_states(stress, C, polar, inverse_stretch, F, shape_inverse, J, share);
     const Lanes volume = lanes_of([&](int l) { return body.domain.volume(g.i[l]); });
@@ -319,7 +327,8 @@ Lanes squared_residuals(const Body& body, const Group& group, Weight weight) {
   Lanes result = Lanes::Zero();
   for (int l = 0; l < group.count; ++l) {
     const int i = group.i[l];
-    result[l] = group.chunk->squared_residual(i, {body.domain.sites.data()}, body.points[i]);
+    result[l] = group.chunk->squared_residual(i, {body.domain.sites.data()}, body.points[i].deformation_gradient,
+                                              body.shape_inverse[i]);
   }
   return result;
 }
@@ -331,11 +340,7 @@ void view_residuals(Body& body, const Groups& groups) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];
       const Lanes squares = squared_residuals(body, group, weight);
-      for (int l = 0; l < group.count; ++l) {
-        const int i = group.i[l];
-        body.residual[i] = squares[l];
-        body.stabilization_work[i] = 0.5 * body.points[i].stabilization * squares[l];
-      }
+      for (int l = 0; l < group.count; ++l) body.residual[group.i[l]] = squares[l];
     });
   });
 }

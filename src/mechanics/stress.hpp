@@ -37,13 +37,12 @@ struct StressPass {
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups, StepReport& report);
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, const Groups& groups, StepReport& report);
 
-// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F, and the energy of Silling's stabilisation, ½ C times it;
-// on a lattice from its squares.
+// Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F; on a lattice from its squares.
 void view_residuals(Body& body, const Groups& groups);
 
 // What a residual of the mean gradient takes from A by way of F: ½ M K⁻¹.
-inline void take_residual(ForceState& state, const Tensor& moment, const MaterialPoint& point) {
-  const Tensor share = 0.5 * moment * to_tensor(point.shape_inverse);
+inline void take_residual(ForceState& state, const Tensor& moment, const Symmetric& shape_inverse) {
+  const Tensor share = 0.5 * moment * to_tensor(shape_inverse);
   for (int c = 0; c < 3; ++c) state.column[c].head<3>() -= share.col(c).array();
 }
 

@@ -174,7 +174,7 @@ void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
     if (share == old_share) return;
     const double mean = 0.5 * (old_share + share);
     for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
-    if (body.points[i].mean_stabilization > 0) body.force_states.gradients[i].column[1][3] = mean;
+    if (body.has_mean_gradient(i)) body.force_states.gradients[i].column[1][3] = mean;
   });
 }
 
@@ -316,7 +316,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
           const Vector& moment = now.first_moments[static_cast<std::size_t>(b) * Bundle::width + l];
           for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
           sum += own.column[0][3] * own_stretch(body, own, i, weight);
-          if (body.points[i].mean_stabilization > 0) sum += body.force_density[i];
+          if (body.has_mean_gradient(i)) sum += body.force_density[i];
         }
         body.force_density[i] = sum;
       }
@@ -337,8 +337,8 @@ void Subcycles::add_residuals(Body& body, Order& now, int order) const {
       const auto sums = bonds::residual(family, body.domain.sites.data(), states.gradients.data(), weight);
       for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
         const int i = family.bundle.points[l];
-        if (body.halvings[i] < order || !(body.points[i].mean_stabilization > 0) || is_undisturbed(body, i)) continue;
-        take_residual(states.tensors[i], at(sums.moment, l), body.points[i]);
+        if (body.halvings[i] < order || !body.has_mean_gradient(i) || is_undisturbed(body, i)) continue;
+        take_residual(states.tensors[i], at(sums.moment, l), body.shape_inverse[i]);
         body.force_density[i] = at(sums.force, l);
       }
     });

@@ -127,8 +127,8 @@ double cost_of_stencil(double rows, double pencils) { return 35 + (280 + 8 * row
 // every 64th point.
 bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, const Communicator& communicator) {
   double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbours
-  for (const int i : lattice.members()) {
-    if (i >= owned) continue;
+  for (int i = 0; i < owned; ++i) {
+    if (lattice.cell(i) < 0) continue;
     counts[0] += 1;
     counts[1] += lattice.begins_run(i) ? 1 : 0;
     if (pool.ids[i] % 64 != 0) continue;
@@ -310,8 +310,8 @@ std::size_t Families::bonds() const {
     for (std::size_t n = 0; n < bundle.near.size(); ++n) count += std::popcount(bundle.whose[n]);
   }
   for (const LatticeFamilies& stencil : lattices) {
-    for (const int i : stencil.members()) {
-      if (i < static_cast<int>(lattice_of.size())) count += stencil.family_size(i);
+    for (std::size_t i = 0; i < lattice_of.size(); ++i) {
+      if (stencil.cell(static_cast<int>(i)) >= 0) count += stencil.family_size(static_cast<int>(i));
     }
   }
   return count;

@@ -130,21 +130,21 @@ struct LatticeFamilies::Box {
 };
 
 LatticeFamilies::LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions,
-                                 std::vector<int> members, int owned)
-    : frame_(frame), members_(std::move(members)), cell_(positions.size(), -1) {
+                                 const std::vector<int>& members, int owned)
+    : frame_(frame), cell_(positions.size(), -1) {
   std::vector<Eigen::Array3i> cells;
-  cells.reserve(members_.size());
+  cells.reserve(members.size());
   Eigen::Array3i low = Eigen::Array3i::Constant(std::numeric_limits<int>::max() / 2), high = -low;
-  for (const int i : members_) {
+  for (const int i : members) {
     cells.push_back(frame.cell_of(positions[i]));
     low = low.min(cells.back()), high = high.max(cells.back());
   }
-  if (members_.empty()) low = high = Eigen::Array3i::Zero();
+  if (members.empty()) low = high = Eigen::Array3i::Zero();
   const Eigen::Array3i margin(2, cells_within(frame, 1), cells_within(frame, 2));
   low[0] /= width, high[0] /= width;
   const Box box{low - margin, high - low + 2 * margin + 1};
   make_rows(box);
-  make_slots(box, cells, owned);
+  make_slots(box, members, cells, owned);
 }
 
 void LatticeFamilies::make_rows(const Box& box) {
@@ -161,7 +161,8 @@ void LatticeFamilies::make_rows(const Box& box) {
   }
 }
 
-void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3i>& cells, int owned) {
+void LatticeFamilies::make_slots(const Box& box, const std::vector<int>& members,
+                                 const std::vector<Eigen::Array3i>& cells, int owned) {
   grid_.assign(static_cast<std::size_t>(box.shape.cast<double>().prod()), 0);
   for (const Eigen::Array3i& cell : cells) {
     const int place = box.place(cell), x = cell[0] % width;
@@ -180,8 +181,8 @@ void LatticeFamilies::make_slots(const Box& box, const std::vector<Eigen::Array3
   points_.assign(static_cast<std::size_t>(slots()) * width, -1);
   filled_.assign(slots(), 0);
   owned_.assign(slots(), 0);
-  for (std::size_t m = 0; m < members_.size(); ++m) {
-    const int i = members_[m], slot = grid_[box.place(cells[m])];
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const int i = members[m], slot = grid_[box.place(cells[m])];
     cell_[i] = slot * width + cells[m][0] % width;
     points_[cell_[i]] = i;
     filled_[slot] |= 1u << cells[m][0] % width;
@@ -214,7 +215,7 @@ bool LatticeFamilies::spans_space(int i) const {
 }
 
 double LatticeFamilies::bytes() const {
-  const std::size_t numbers = members_.size() + grid_.size() + places_.size() + points_.size() + cell_.size();
+  const std::size_t numbers = grid_.size() + places_.size() + points_.size() + cell_.size();
   return static_cast<double>(sizeof(int) * numbers + owned_.size() + filled_.size());
 }
 

@@ -47,7 +47,8 @@ class LatticeFamilies {
   };
 
   // The points of one body: `members` are their local indices, owned (below `owned`) and ghosts.
-  LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions, std::vector<int> members, int owned);
+  LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions, const std::vector<int>& members,
+                  int owned);
 
   // Calls visit(j) over the family of point i.
   template <class Visit>
@@ -68,7 +69,6 @@ class LatticeFamilies {
   bool spans_space(int i) const;
 
   const LatticeFrame& frame() const { return frame_; }
-  const std::vector<int>& members() const { return members_; }
   const std::vector<Row>& rows() const { return rows_; }
   int reach() const { return reach_; }              // of the longest row
   int rows_across() const { return rows_across_; }  // the span of its rows along y
@@ -99,10 +99,9 @@ class LatticeFamilies {
 
   struct Box;
   void make_rows(const Box& box);
-  void make_slots(const Box& box, const std::vector<Eigen::Array3i>& cells, int owned);
+  void make_slots(const Box& box, const std::vector<int>& members, const std::vector<Eigen::Array3i>& cells, int owned);
 
   LatticeFrame frame_;
-  std::vector<int> members_;
   std::vector<Row> rows_;
   std::vector<int> grid_;             // slots
   std::vector<int> places_;           // of slots, in the grid

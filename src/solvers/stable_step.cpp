@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/reproducible_sum.hpp"
 #include "base/timing.hpp"
 
 namespace strut {
@@ -19,9 +20,8 @@ constexpr double smallest_rest = 1e-5;
 // that come in pairs, among which round-off chooses, would tip the estimate, and the step and the run with it.
 template <class Other>
 double inner(const Body& body, const Field& a, const Other& b) {
-  std::vector<double> terms(body.owned());
-  for (int i = 0; i < body.owned(); ++i) terms[i] = body.mass(i) * a[i].dot(b[i].template cast<double>());
-  return body.domain.communicator.reproducible_sum(terms);
+  return reproducible_sum(body.domain.communicator, body.owned(),
+                          [&](int i) { return body.mass(i) * a[i].dot(b[i].template cast<double>()); });
 }
 
 // A fixed pseudo-random direction that depends on the point's id alone, not on who owns it (SplitMix64).
@@ -36,22 +36,19 @@ Vector noise(std::int64_t id) {
   return v;
 }
 
-Field start_field(const Body& body, const StoredField* mode) {
-  Field field(body.owned());
+void set_noise(const Body& body, Field& field) {
   for (int i = 0; i < body.owned(); ++i) field[i] = noise(body.domain.cloud.ids[i]);
-  if (!mode) return field;
-  // Mostly the old mode; enough noise to find a new one that has overtaken it.
-  const double scale = 0.1 / std::sqrt(inner(body, field, field));
-  for (int i = 0; i < body.owned(); ++i)
-    field[i] = (*mode)[i].cast<double>() + scale * field[i];  // a mode is of length 1
-  return field;
 }
 
-Field widened(const StoredField& field) {
-  Field result;
-  result.reserve(field.size());
-  for (const Eigen::Vector3f& v : field) result.push_back(v.cast<double>());
-  return result;
+// Mostly the mode found before; enough noise to find a new one that has overtaken it.
+void add_noise(const Body& body, const StoredField& mode, Field& field) {
+  set_noise(body, field);
+  const double scale = 0.1 / std::sqrt(inner(body, field, field));
+  for (int i = 0; i < body.owned(); ++i) field[i] = mode[i].cast<double>() + scale * field[i];  // a mode is of length 1
+}
+
+void widen(const StoredField& stored, Field& field) {
+  for (std::size_t i = 0; i < stored.size(); ++i) field[i] = stored[i].cast<double>();
 }
 
 // Sites that hold a field in the place of y: the body's own, which get their places back in the end, unless bonds along
@@ -94,8 +91,8 @@ StoredField stored(const Field& field, double scale) {
   return result;
 }
 
-// From a start in `image`.
-Lanczos iterate(Body& body, Field image, int iterations) {
+// From a start in `image`, which is spoiled.
+Lanczos iterate(Body& body, Field& image, int iterations) {
   Directions directions(body);
   Lanczos lanczos;
   double length = std::sqrt(inner(body, image, image));
@@ -129,9 +126,9 @@ StoredField combine(const std::vector<StoredField>& basis, const Eigen::VectorXd
 
 }  // namespace
 
-// Of the basis and the mode; of an image and the terms of a product; of places, or sites where these are needed.
+// Of the basis; of places, or sites where these are needed.
 double StableStep::bytes(const Body& body) {
-  const double fields = (basis_size + 1.0) * sizeof(Eigen::Vector3f) + sizeof(Vector) + sizeof(double);
+  const double fields = basis_size * sizeof(Eigen::Vector3f);
   const double seen = body.force_states.scalars.empty() ? sizeof(Vector) : sizeof(Site);
   return fields * body.owned() + seen * static_cast<double>(body.domain.sites.size());
 }
@@ -145,10 +142,13 @@ void StableStep::keep(Archive& archive, const Body& body) {
 double StableStep::estimate(Body& body) {
   static Teuchos::Time& timer = phase("Stable step");
   const Timed timed(timer);
+  Field& image = body.previous_velocity;
+  found_ ? add_noise(body, mode_, image) : set_noise(body, image);
   double bound = 0;
   for (int cycle = 0; cycle < most_cycles; ++cycle) {
-    const Lanczos lanczos =
-        iterate(body, cycle == 0 ? start_field(body, found_ ? &mode_ : nullptr) : widened(mode_), basis_size);
+    if (cycle > 0) widen(mode_, image);
+    mode_ = StoredField();  // makes room for the basis
+    const Lanczos lanczos = iterate(body, image, basis_size);
     const int n = static_cast<int>(lanczos.diagonal.size());
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
     const Eigen::Map<const Eigen::VectorXd> diagonal(lanczos.diagonal.data(), n), beside(lanczos.beside.data(), n - 1);

@@ -91,7 +91,7 @@ TEST(Nodes, DeformationGradientOfAnAffineMotionIsExact) {
     double error = 0, work = 0;
     for (int i = 0; i < body.owned(); ++i) {
       error = std::max(error, (body.points[i].deformation_gradient - F).norm());
-      work = std::max(work, std::abs(body.stabilization_work[i]));
+      work = std::max(work, std::abs(body.stabilization_work(i)));
     }
     // The condition of K is below 100 at a corner: two digits of the sixteen.
     EXPECT_LT(folder.world.max(error), 1e-13);

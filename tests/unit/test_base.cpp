@@ -7,6 +7,8 @@
 #include "base/communicator.hpp"
 #include "base/errors.hpp"
 #include "base/function.hpp"
+#include "base/repeated.hpp"
+#include "base/reproducible_sum.hpp"
 #include "base/tensors.hpp"
 #include "base/timing.hpp"
 
@@ -96,11 +98,30 @@ TEST(Communicator, ReproducibleSumDoesNotKnowOfRanks) {
   }
   std::reverse(mine.begin(), mine.end());
   if (world.rank() > 0) all.clear();
-  EXPECT_EQ(world.reproducible_sum(mine), world.reproducible_sum(all));
-  EXPECT_NEAR(world.reproducible_sum(mine), expected, 1e-12 * 1e6);
-  EXPECT_EQ(world.reproducible_sum(std::vector<double>(3, 0)), 0);
+  const auto sum = [&world](const std::vector<double>& terms) {
+    return reproducible_sum(world, static_cast<int>(terms.size()), [&terms](int k) { return terms[k]; });
+  };
+  EXPECT_EQ(sum(mine), sum(all));
+  EXPECT_NEAR(sum(mine), expected, 1e-12 * 1e6);
+  EXPECT_EQ(sum({0, 0, 0}), 0);
   if (world.rank() == 0) mine.push_back(std::nan(""));
-  EXPECT_FALSE(std::isfinite(world.reproducible_sum(mine)));
+  EXPECT_FALSE(std::isfinite(sum(mine)));
+}
+
+// Two kinds of values, each in many places with its round-off; one that may not share; and values that are all
+// different.
+TEST(Repeated, KeepsAlikeValuesOnce) {
+  const auto sizes = [](const Vector& v) { return Repeated<Vector>::Sizes{v.norm(), v.norm(), v.norm()}; };
+  std::vector<Vector> all;
+  for (int i = 0; i < 100; ++i) all.push_back(Vector(1 + i % 2, 1e-3, 0) * 1e-30 * (1 + 1e-15 * (i % 7)));
+  const Repeated<Vector> few(all, sizes, [](std::size_t i) { return i != 50; });
+  EXPECT_LE(few.bytes(), 6 * sizeof(Vector) + 100 * sizeof(int)) << "some may lie where rounding parts them";
+  for (int i = 0; i < 100; ++i) EXPECT_LT((few[i] - all[i]).norm(), 1e-12 * all[i].norm());
+  EXPECT_EQ(few[50], all[50]);
+  for (int i = 0; i < 100; ++i) all[i] *= std::ldexp(1, i / 2);  // alike but for their size
+  const Repeated<Vector> different(all, sizes, [](std::size_t) { return true; });
+  EXPECT_EQ(different.bytes(), 100 * sizeof(Vector)) << "places would be more";
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(different[i], all[i]);
 }
 
 TEST(Function, NumberExpressionStatement) {

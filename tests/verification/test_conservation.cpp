@@ -10,7 +10,7 @@ namespace {
 
 BlockMaterial copper(bool plastic) {
   const materials::Elastic e = std::get<materials::Elastic>(elastic(110e9, 0.296));
-  if (!plastic) return {8960, e, 0.02, Formulation::correspondence, 0.05};
+  if (!plastic) return {8960, e, 0.02};
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
   return {8960, materials::J2{e.bulk, e.shear, flow}, 0, Formulation::correspondence, 0.05};
 }
