@@ -22,7 +22,7 @@ constexpr int width = small::lane_count;
 // What is asked of wholes and in registers must not rule out a pair by round-off.
 constexpr double round_off = 1e-9;
 
-// A cluster whose points are this near to where they were, in units of its size, is not asked how it has turned.
+// A whole whose points are this near to where they were, in units of its size, is not asked how it has turned.
 constexpr double hardly_turned = 2e-3;
 
 // Numbers that are read some at a time, from any place.
@@ -163,6 +163,11 @@ class Clusters {
   std::pair<int, int> clusters(int clump) const { return {first_cluster_[clump], first_cluster_[clump + 1]}; }
   Whole cluster(int c) const { return clusters_[c]; }
   std::span<const int> members(int c) const { return {members_.data() + start_[c], members_.data() + start_[c + 1]}; }
+
+  std::span<const int> members_of_clump(int n) const {
+    const auto [begin, end] = clusters(n);
+    return {members_.data() + start_[begin], members_.data() + start_[end]};
+  }
 
   // Calls visit for the clumps that are not ruled out as wholes beside `one`; for the clusters of one of them; for the
   // members of a cluster that are not ruled out beside a point.
@@ -316,7 +321,9 @@ void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach,
 void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach, const Clusters& some,
                const Clusters& others, IndexPairs& pairs) {
   std::vector<int> clumps, near;
+  const auto is_owned = [&pool](int m) { return m < static_cast<int>(pool.owned); };
   for (int n = 0; n < some.clumps(); ++n) {
+    if (std::ranges::none_of(some.members_of_clump(n), is_owned)) continue;
     clumps.clear();
     others.visit_clumps_near(some.clump(n), reach, [&](int clump) { clumps.push_back(clump); });
     const auto [begin, end] = some.clusters(n);

@@ -16,7 +16,10 @@ constexpr double share_of_fast = 0.005, narrowest = 0.4, widest = 4;
 // Searches this many steps apart cost little; no skin is made wider than that takes.
 constexpr double steps_between = 32;
 
-constexpr std::size_t sampling = 16;  // of the points of a frame
+// A frame is of those who have partners where these are so many of all, not a spur that flies off; otherwise one in
+// `sampling` of all.
+constexpr double fewest = 0.01;
+constexpr std::size_t sampling = 16;
 
 // Collective. Of vectors that `of` gives for indices of parties.points.
 template <class Of>
@@ -56,11 +59,15 @@ double usual_speed(const std::vector<double>& speeds, const Communicator& commun
 }  // namespace
 
 Frame frame_of(const Crowd& crowd, const Parties& parties, const Pairs& pairs) {
-  const bool any = crowd.domain.communicator.max(pairs.empty() ? 0.0 : 1.0) > 0;
-  const std::vector<int>& points = any ? pairs.owned : parties.points;
+  double counts[] = {static_cast<double>(pairs.owned.size()), static_cast<double>(parties.points.size())};
+  crowd.domain.communicator.sum(counts);
   Frame frame;
-  for (std::size_t n = 0; n < points.size(); n += sampling) {
-    const auto place = std::ranges::lower_bound(parties.points, points[n]);
+  if (counts[0] < fewest * counts[1]) {
+    for (std::size_t k = 0; k < parties.points.size(); k += sampling) frame.push_back(static_cast<int>(k));
+    return frame;
+  }
+  for (const int i : pairs.owned) {
+    const auto place = std::ranges::lower_bound(parties.points, i);
     frame.push_back(static_cast<int>(place - parties.points.begin()));
   }
   return frame;

@@ -8,8 +8,8 @@ namespace strut::contact {
 // What moves with the mean of some points uses up no skin. These points, as indices of parties.points.
 using Frame = std::vector<int>;
 
-// Collective. Points that have partners: the skins of those that are near each other should be small. While nobody has
-// one, all points. Of either one in so many: any motion that is the same on all ranks will do.
+// Collective. Points that have partners: the skins of those that are near each other should be small. While these are
+// very few, some of all: any motion that is the same on all ranks will do.
 Frame frame_of(const Crowd& crowd, const Parties& parties, const Pairs& pairs);
 
 // Collective. Of the frame, m/s.

@@ -1,32 +1,34 @@
-// A value for each point, where those of many are alike but for round-off: these are kept once.
+// A value for each point, where those of many are the same: these are kept once.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <vector>
 
 namespace strut {
 
-// T: of so many doubles from data() on.
+// To a multiple of the power of two that is 2⁻ᵇⁱᵗˢ of a size above zero, or less: what differs by round-off alone
+// becomes the same, or one of two.
+inline double rounded(double value, double size, int bits) {
+  const double unit = std::ldexp(1.0, std::ilogb(size) - bits);
+  return std::rint(value / unit) * unit;
+}
+
+// T: of so many doubles from data() on. Values are the same where they are to the last bit.
 template <class T>
 class Repeated {
  public:
-  static constexpr int size = T::SizeAtCompileTime;
-  using Sizes = std::array<double, size>;  // of each number of a value, how large it may be
-
   Repeated() = default;
-  // sizes_of(value), above zero: numbers that are the same but for 2⁻⁴⁰ of these count as alike. may_share(i): of point
-  // i.
-  template <class SizesOf, class MayShare>
-  Repeated(std::vector<T> all, const SizesOf& sizes_of, const MayShare& may_share) {
-    std::map<Rounded, int> known;
+  explicit Repeated(std::vector<T> all) {
+    std::map<Bits, int> known;
     which_.reserve(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const T& value : all) {
       const int next = static_cast<int>(values_.size());
-      const int place = may_share(i) ? known.emplace(rounded(all[i], sizes_of(all[i])), next).first->second : next;
-      if (place == next) values_.push_back(all[i]);
+      const int place = known.emplace(bits_of(value), next).first->second;
+      if (place == next) values_.push_back(value);
       which_.push_back(place);
     }
     if (4 * values_.size() < 3 * all.size()) {
@@ -41,16 +43,11 @@ class Repeated {
   double bytes() const { return static_cast<double>(values_.size() * sizeof(T) + which_.size() * sizeof(int)); }
 
  private:
-  // Each number as so many times a power of two, and which.
-  using Rounded = std::array<std::int64_t, 2 * size>;
-  static Rounded rounded(const T& value, const Sizes& sizes) {
-    Rounded result;
-    for (int k = 0; k < size; ++k) {
-      const int unit = std::ilogb(sizes[k]) - 40;
-      result[2 * k] = std::llrint(std::ldexp(value.data()[k], -unit));
-      result[2 * k + 1] = unit;
-    }
-    return result;
+  using Bits = std::array<std::uint64_t, T::SizeAtCompileTime>;
+  static Bits bits_of(const T& value) {
+    Bits bits;
+    std::memcpy(bits.data(), value.data(), sizeof bits);
+    return bits;
   }
 
   std::vector<T> values_;

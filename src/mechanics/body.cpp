@@ -61,6 +61,11 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   MaterialPoint& point = body.points[block.points[k]];
   inverse = symmetric_part(K.inverse());
+  if (block.lattice >= 0) {
+    // Of alike families the same. It takes the gradient of displacements there, so this is as small beside strains.
+    const double size = trace(inverse);
+    for (int c = 0; c < 6; ++c) inverse[c] = rounded(inverse[c], size, 44);
+  }
   if (block.is_ordinary()) {
     block.ordinary[k].weighted_volume = K.trace();
   } else {
@@ -80,7 +85,6 @@ void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, const Di
   });
 }
 
-// On a lattice K⁻¹ takes the gradient of displacements, and what its round-off leaves is as small beside strains.
 void set_shapes(Body& body) {
   std::vector<Symmetric> inverses(body.owned(), Symmetric::Zero());
   for (MaterialBlock& block : body.blocks) {
@@ -99,15 +103,7 @@ void set_shapes(Body& body) {
       }
     });
   }
-  const auto sizes = [](const Symmetric& inverse) {
-    Repeated<Symmetric>::Sizes sizes;
-    sizes.fill(trace(inverse));
-    return sizes;
-  };
-  const auto on_lattice = [&body](std::size_t i) {
-    return body.domain.families.lattice(static_cast<int>(i)) != nullptr;
-  };
-  body.shape_inverse = {std::move(inverses), sizes, on_lattice};
+  body.shape_inverse = Repeated<Symmetric>(std::move(inverses));
 }
 
 void set_what_blocks_feel(Body& body) {
@@ -150,6 +146,9 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .mean_work = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
+  for (const BlockMaterial& m : materials) {
+    if (m.stabilization > 0 && m.mean_stabilization > 0) throw std::logic_error("a block has one stabilisation");
+  }
   body.force_states = zero_states(body.domain.sites.size(), materials);
   body.points.resize(owned);
   for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);
@@ -177,11 +176,12 @@ std::size_t seen_bytes(const Body& body) {
 }
 
 // What an owned point has besides.
-std::size_t own_bytes(const MaterialBlock& block) {
+std::size_t own_bytes(const MaterialBlock& block, bool has_mean_work) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
   constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
-  return mechanics + cloud + state * sizeof(double) + (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) +
+  return mechanics + cloud + state * sizeof(double) + (has_mean_work ? sizeof(double) : 0) +
+         (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) +
          (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
 }
 
@@ -190,7 +190,8 @@ std::size_t own_bytes(const MaterialBlock& block) {
 double footprint(const Body& body) {
   double bytes = body.shape_inverse.bytes() + body.domain.families.bytes() +
                  static_cast<double>(seen_bytes(body) * body.domain.sites.size());
-  for (const MaterialBlock& block : body.blocks) bytes += static_cast<double>(own_bytes(block) * block.points.size());
+  for (const MaterialBlock& block : body.blocks)
+    bytes += static_cast<double>(own_bytes(block, !body.mean_work.empty()) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   return bytes;
 }

@@ -135,12 +135,13 @@ void LatticeSums::set_constants(const Body& body) {
     sweep<SquareSweep<reach>>(
         volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants[i][3] = *chunk.at(i); }); });
   });
+  // As round-off of their sums, and of alike families the same.
   const double length = lattice_->frame().horizon;
-  const auto sizes = [length](const Constants& c) {
-    const double first = c[3] * length;
-    return c[3] > 0 ? Repeated<Constants>::Sizes{first, first, first, c[3]} : Repeated<Constants>::Sizes{1, 1, 1, 1};
-  };
-  constants_ = {std::move(constants), sizes, [](std::size_t) { return true; }};
+  for (Constants& c : constants) {
+    if (!(c[3] > 0)) continue;
+    for (int k = 0; k < 4; ++k) c[k] = rounded(c[k], k < 3 ? c[3] * length : c[3], 48);
+  }
+  constants_ = Repeated<Constants>(std::move(constants));
 }
 
 double LatticeSums::bytes() const {

@@ -161,6 +161,7 @@ double StableStep::estimate(Body& body) {
     bound = value + residual;
     if (!(residual > accuracy * value)) break;
   }
+  body.previous_velocity = body.velocity;
   return bound > 0 ? 2 / std::sqrt(bound) : std::numeric_limits<double>::infinity();
 }
 

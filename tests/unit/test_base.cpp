@@ -108,18 +108,22 @@ TEST(Communicator, ReproducibleSumDoesNotKnowOfRanks) {
   EXPECT_FALSE(std::isfinite(sum(mine)));
 }
 
-// Two kinds of values, each in many places with its round-off; one that may not share; and values that are all
-// different.
-TEST(Repeated, KeepsAlikeValuesOnce) {
-  const auto sizes = [](const Vector& v) { return Repeated<Vector>::Sizes{v.norm(), v.norm(), v.norm()}; };
+// Two kinds of values, each in many places with its round-off; and values that are all different.
+TEST(Repeated, KeepsTheSameValuesOnce) {
   std::vector<Vector> all;
-  for (int i = 0; i < 100; ++i) all.push_back(Vector(1 + i % 2, 1e-3, 0) * 1e-30 * (1 + 1e-15 * (i % 7)));
-  const Repeated<Vector> few(all, sizes, [](std::size_t i) { return i != 50; });
-  EXPECT_LE(few.bytes(), 6 * sizeof(Vector) + 100 * sizeof(int)) << "some may lie where rounding parts them";
-  for (int i = 0; i < 100; ++i) EXPECT_LT((few[i] - all[i]).norm(), 1e-12 * all[i].norm());
-  EXPECT_EQ(few[50], all[50]);
-  for (int i = 0; i < 100; ++i) all[i] *= std::ldexp(1, i / 2);  // alike but for their size
-  const Repeated<Vector> different(all, sizes, [](std::size_t) { return true; });
+  for (int i = 0; i < 100; ++i) {
+    all.push_back(Vector(1 + i % 2, 1e-3, 0) * 1e-30 * (1 + 1e-15 * (i % 7)));
+    for (int c = 0; c < 3; ++c) {
+      const double value = rounded(all[i][c], 1e-30, 44);
+      EXPECT_LE(std::abs(value - all[i][c]), std::ldexp(1e-30, -44));
+      all[i][c] = value;
+    }
+  }
+  const Repeated<Vector> few(all);
+  EXPECT_LE(few.bytes(), 8 * sizeof(Vector) + 100 * sizeof(int)) << "some may lie where rounding parts them";
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(few[i], all[i]);
+  for (int i = 0; i < 100; ++i) all[i][1] = i;
+  const Repeated<Vector> different(all);
   EXPECT_EQ(different.bytes(), 100 * sizeof(Vector)) << "places would be more";
   for (int i = 0; i < 100; ++i) EXPECT_EQ(different[i], all[i]);
 }
