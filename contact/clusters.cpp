@@ -308,7 +308,7 @@ void Clusters::visit_members_near(const Candidate& point, int c, const Reach& re
 void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach, std::span<const int> members,
                const Clusters& others, const std::vector<int>& near, IndexPairs& pairs) {
   for (const int m : members) {
-    if (m >= static_cast<int>(pool.owned)) continue;
+    if (!pool.owns(m)) continue;
     const Candidate& member = pool.members[m];
     for (const int cluster : near) {
       others.visit_members_near(member, cluster, reach, [&](int other) {
@@ -321,9 +321,8 @@ void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach,
 void add_pairs(const Pool& pool, const Criterion& may_touch, const Reach& reach, const Clusters& some,
                const Clusters& others, IndexPairs& pairs) {
   std::vector<int> clumps, near;
-  const auto is_owned = [&pool](int m) { return m < static_cast<int>(pool.owned); };
   for (int n = 0; n < some.clumps(); ++n) {
-    if (std::ranges::none_of(some.members_of_clump(n), is_owned)) continue;
+    if (std::ranges::none_of(some.members_of_clump(n), [&pool](int m) { return pool.owns(m); })) continue;
     clumps.clear();
     others.visit_clumps_near(some.clump(n), reach, [&](int clump) { clumps.push_back(clump); });
     const auto [begin, end] = some.clusters(n);

@@ -22,6 +22,8 @@ inline Vector reference(const Candidate& c) { return {c.reference[0], c.referenc
 struct Pool {
   std::vector<Candidate> members;
   std::size_t owned = 0;
+
+  bool owns(int m) const { return m < static_cast<int>(owned); }
 };
 
 // Whether two members may touch before both have used up their skins.

@@ -127,7 +127,7 @@ std::vector<int> paired_members(const Pool& pool, const Lists& lists) {
   }
   std::vector<bool> seen(pool.members.size());
   for (const int partner : lists.members) {
-    if (partner >= static_cast<int>(pool.owned) && !seen[partner]) others.push_back(partner);
+    if (!pool.owns(partner) && !seen[partner]) others.push_back(partner);
     seen[partner] = true;
   }
   std::ranges::sort(others, {}, [&](int m) { return pool.members[m].id; });
@@ -145,7 +145,7 @@ Pairs pairs_of(const Pool& pool, const Lists& lists, bool one_body, const Commun
     pairs.sites.push_back(site(member));
     pairs.masses.push_back(member.mass);
     pairs.ids.push_back(member.id);
-    if (m >= static_cast<int>(pool.owned)) continue;
+    if (!pool.owns(m)) continue;
     pairs.owned.push_back(static_cast<int>(member.owned));
     pairs.start.push_back(pairs.start.back() + lists.of(m).size());
   }
