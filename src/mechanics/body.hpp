@@ -1,6 +1,7 @@
 // All that mechanics knows of the points of one rank: the dictionary of fields.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -125,6 +126,9 @@ struct MaterialBlock {
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
   bool has_mean_gradient() const { return material.mean_stabilization > 0; }
+  bool has_springs() const { return material.stabilization > 0; }
+  // C of the springs of one of its points, which has none where it is stabilised by the mean gradient.
+  double springs_of(const MaterialPoint& point) const { return has_mean_gradient() ? 0 : point.stabilization; }
 };
 
 class LatticeSums;
@@ -164,6 +168,9 @@ struct Body {
     return has_mean_gradient(i) ? mean_work[i] : 0.5 * points[i].stabilization * residual[i];
   }
   bool has_mean_gradient(int i) const { return blocks[domain.cloud.blocks[i]].has_mean_gradient(); }
+  bool has_springs() const {
+    return std::any_of(blocks.begin(), blocks.end(), [](const MaterialBlock& b) { return b.has_springs(); });
+  }
   double mass(int i) const { return density[i] * domain.volume(i); }
   Vector current(int i) const { return domain.current(i); }
   Vector displacement(int i) const { return current(i) - domain.reference(i); }

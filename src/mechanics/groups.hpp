@@ -26,6 +26,9 @@ struct Group {
   // Where their sums come from, one of both.
   std::optional<Bundle> bundle;
   const LatticeSums::Chunk* chunk;
+  bool side_by_side;  // in a pencil
+
+  Abreast abreast() const { return {i, side_by_side}; }
 };
 
 // Some points of a block, with lists of their own.
@@ -83,15 +86,15 @@ class Groups {
   }
   // Of places that follow upon each other; of the g-th so many of some.
   Group of_run(int begin, int count, std::optional<Bundle> bundle) const {
-    return group(count, bundle, [begin](int l) { return begin + l; });
+    return group(count, bundle, chunk_ != nullptr, [begin](int l) { return begin + l; });
   }
   Group of_places(const std::vector<int>& places, int g, std::optional<Bundle> bundle) const {
     const int begin = g * Group::width, left = static_cast<int>(places.size()) - begin;
-    return group(std::min(left, Group::width), bundle, [&](int l) { return places[begin + l]; });
+    return group(std::min(left, Group::width), bundle, false, [&](int l) { return places[begin + l]; });
   }
   template <class PlaceOf>
-  Group group(int count, std::optional<Bundle> bundle, const PlaceOf& place_of) const {
-    Group group{{}, {}, count, bundle, chunk_};
+  Group group(int count, std::optional<Bundle> bundle, bool side_by_side, const PlaceOf& place_of) const {
+    Group group{{}, {}, count, bundle, chunk_, side_by_side};
     for (int l = 0; l < Group::width; ++l) {
       group.k[l] = place_of(std::min(l, count - 1));
       group.i[l] = (*points_)[group.k[l]];
@@ -110,11 +113,13 @@ class Groups {
 
 // ---- Sums over the families of a group, of places y or of a field in their stead -----------------------------------
 
-// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity.
+// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity,
+// and what springs of the points pull, Σ ω V_j (v_j − v_i), is put in `stretches` for the sum of forces.
 template <class Weight>
-small::Tensor3<small::Lanes> moments(const Group& group, const Displacements& u, Weight weight) {
+small::Tensor3<small::Lanes> moments(const Group& group, const Displacements& u, Weight weight,
+                                     std::vector<Vector>* stretches = nullptr) {
   if (group.bundle) return bonds::gather(bonds::OfBundle{*group.bundle}, u.sites, weight);
-  return group.chunk->moments(group.i, u);
+  return group.chunk->moments(group.abreast(), u, stretches);
 }
 
 // The mean gradient's residual.
@@ -122,10 +127,10 @@ template <class Weight>
 bonds::Residual<small::Lanes> residuals(const Group& group, const Site* places,
                                         const std::vector<ForceState>& gradients, Weight weight) {
   if (group.bundle) return bonds::residual(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
-  return {group.chunk->residual_forces(group.i), group.chunk->residual_moments(group.i)};
+  return {group.chunk->residual_forces(group.abreast()), group.chunk->residual_moments(group.abreast())};
 }
 
-// with_springs: whether any point of the scene has C.
+// with_springs: whether any point of the scene has C. In a chunk of a lattice without C_i times the stretch.
 template <class Weight>
 small::Vector3<small::Lanes> forces(const Group& group, const Displacements& u, const std::vector<ForceState>& states,
                                     bool with_springs, Weight weight) {
@@ -135,7 +140,7 @@ small::Vector3<small::Lanes> forces(const Group& group, const Displacements& u, 
     return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
                         : bonds::force<false>(family, u.sites, states.data(), own, weight);
   }
-  return group.chunk->forces(group.i, u, states);
+  return group.chunk->forces(group.abreast(), u, states);
 }
 
 }  // namespace strut

@@ -66,8 +66,7 @@ inline void for_each_bit(const std::uint64_t* words, int count, const Visit& vis
 LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice) : lattice_(&lattice) {
   make_rows(body.influence);
   mark_places();
-  has_springs_ = std::any_of(body.blocks.begin(), body.blocks.end(),
-                             [](const MaterialBlock& block) { return block.material.stabilization > 0; });
+  has_springs_ = body.has_springs();
   near_.resize(above_.size());
   targets_.resize(words_);
   nothing_.assign(residual_inputs, Pencil{});
@@ -115,7 +114,7 @@ void LatticeSums::mark_places() {
   }
 }
 
-// With V in the place of V u or V |u|², moments and squares are what is looked for.
+// With V in the place of V u, moments are what is looked for.
 void LatticeSums::set_constants(const Body& body) {
   std::vector<Constants> constants(body.owned(), Constants::Zero());
   const Displacements u{body.domain.sites.data()};
@@ -127,13 +126,11 @@ void LatticeSums::set_constants(const Body& body) {
     }
   };
   with_constant(lattice_->reach(), [&](auto reach) {
-    sweep<MomentSweep<reach>>(volume, [&](const Chunk& chunk) {
+    sweep<MomentSweep<reach, true>>(volume, [&](const Chunk& chunk) {
       each_owned(chunk, [&](int i) {
-        for (int c = 0; c < 3; ++c) constants[i][c] = chunk.at(i)[3 * c * pencil_width];
+        for (int c = 0; c < 4; ++c) constants[i][c] = chunk.at(i)[3 * c * pencil_width];
       });
     });
-    sweep<SquareSweep<reach>>(
-        volume, [&](const Chunk& chunk) { each_owned(chunk, [&](int i) { constants[i][3] = *chunk.at(i); }); });
   });
   // As round-off of their sums, and of alike families the same.
   const double length = lattice_->frame().horizon;
@@ -162,18 +159,15 @@ std::pair<int, int> LatticeSums::Chunk::part_of(const std::vector<int>& points, 
 // The sums of some points.
 struct LatticeSums::Chunk::OfGroup {
   const Chunk& chunk;
-  const Indices& i;
-  std::array<const double*, small::lane_count> at;
-  bool together;  // side by side in one pencil
+  const Abreast& points;
+  std::array<const double*, small::lane_count> at;  // the first alone, of points side by side
 
-  OfGroup(const Chunk& c, const Indices& points) : chunk(c), i(points), together(true) {
-    for (int l = 0; l < small::lane_count; ++l) {
-      at[l] = chunk.at(i[l]);
-      together = together && at[l] == at[0] + l;
-    }
+  OfGroup(const Chunk& c, const Abreast& some) : chunk(c), points(some) {
+    const int apart = points.side_by_side ? 1 : small::lane_count;
+    for (int l = 0; l < apart; ++l) at[l] = chunk.at(points.i[l]);
   }
   Lanes column(int c) const {
-    if (together) return Eigen::Map<const Lanes>(at[0] + c * pencil_width);
+    if (points.side_by_side) return Eigen::Map<const Lanes>(at[0] + c * pencil_width);
     return small::lanes_of([&](int l) { return at[l][c * pencil_width]; });
   }
   LaneVector vector(int c) const { return {{column(c), column(c + 1), column(c + 2)}}; }
@@ -183,12 +177,14 @@ struct LatticeSums::Chunk::OfGroup {
     return t;
   }
   std::array<Lanes, 4> constants() const {
-    return small::numbers_of<4>([&](int l) { return chunk.all->constants_[i[l]].data(); });
+    return small::numbers_of<4>([&](int l) { return chunk.all->constants_[points.i[l]].data(); });
   }
 };
 
-LaneVector LatticeSums::Chunk::residual_forces(const Indices& i) const { return OfGroup(*this, i).vector(9); }
-LaneTensor LatticeSums::Chunk::residual_moments(const Indices& i) const { return OfGroup(*this, i).tensor(0); }
+LaneVector LatticeSums::Chunk::residual_forces(const Abreast& points) const { return OfGroup(*this, points).vector(9); }
+LaneTensor LatticeSums::Chunk::residual_moments(const Abreast& points) const {
+  return OfGroup(*this, points).tensor(0);
+}
 
 // ---- Strips --------------------------------------------------------------------------------------------------------
 
@@ -370,9 +366,10 @@ Pairs<reach> pairs_of(const Pencil* here, int column) {
 
 // ---- Moments -------------------------------------------------------------------------------------------------------
 
-template <int reach>
+template <int reach, bool with_springs>
 struct LatticeSums::MomentSweep {
-  static constexpr int inputs = 3, columns = 6, outputs = 9;  // V u; Σ ω V u, Σ ω dx V u; H with u_i taken out
+  // V u; Σ ω V u, Σ ω dx V u; H with u_i taken out, and with springs q = Σ ω V u
+  static constexpr int inputs = 3, columns = 6, outputs = with_springs ? 12 : 9;
   Pencil sum[3] = {}, along_x[3] = {}, along_y[3] = {};
 
   static void row_sums(const std::vector<Kind>& kinds, const Pencil* here, Pencil* to) {
@@ -396,6 +393,7 @@ struct LatticeSums::MomentSweep {
       to[c] += along_x[c];
       to[3 + c] += along_y[c];
       to[6 + c] += z * sum[c];
+      if constexpr (with_springs) to[9 + c] += sum[c];
     }
   }
 };
@@ -405,17 +403,29 @@ void LatticeSums::moments(const Displacements& u, const Take& take) {
     const auto [ui, V] = u.of(cells.of(u.sites));
     for (int c = 0; c < 3; ++c) put(c, V * ui.c[c]);
   };
-  with_constant(lattice_->reach(), [&](auto reach) { sweep<MomentSweep<reach>>(fill, take); });
+  with_constant(lattice_->reach(), [&](auto reach) {
+    has_springs_ ? sweep<MomentSweep<reach, true>>(fill, take) : sweep<MomentSweep<reach, false>>(fill, take);
+  });
 }
 
-LaneTensor LatticeSums::Chunk::moments(const Indices& i, const Displacements& u) const {
-  const OfGroup group(*this, i);
+// The stretch is S + q − W u_i over the family and the point itself, of a field without S.
+LaneTensor LatticeSums::Chunk::moments(const Abreast& points, const Displacements& u,
+                                       std::vector<Vector>* stretches) const {
+  const Indices& i = points.i;
+  const OfGroup group(*this, points);
   const LaneVector ui = u.of(records(u.sites, i)).u;
   const auto S = group.constants();
   LaneTensor H = group.tensor(0);
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) H.c[r][c] -= ui.c[r] * S[c];
   }
+  if (!stretches || !all->has_springs_) return H;
+  LaneVector stretch = group.vector(9);
+  for (int r = 0; r < 3; ++r) {
+    stretch.c[r] -= S[3] * ui.c[r];
+    if (!u.is_field) stretch.c[r] += S[r];
+  }
+  for (int l = 0; l < small::lane_count; ++l) (*stretches)[i[l]] = small::at(stretch, l);
   return H;
 }
 
@@ -464,12 +474,10 @@ double LatticeSums::Chunk::squared_residual(int i, const Displacements& u, const
 
 template <int reach, bool with_springs>
 struct LatticeSums::ForceSweep {
-  // V A, and with springs V C u, V C and V u
-  static constexpr int inputs = with_springs ? 16 : 9;
-  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z; Σ ω V C; q = Σ ω V u
-  static constexpr int columns = with_springs ? 13 : 9;
-  static constexpr int outputs = with_springs ? 7 : 3;  // Σ ω V (A ξ + C u); Σ ω V C; q
-  Pencil sum[3] = {}, along_z[3] = {}, springs[4] = {};
+  static constexpr int inputs = with_springs ? 13 : 9;   // V A, and with springs V C u and V C
+  static constexpr int columns = with_springs ? 10 : 9;  // Σ ω V (dx A_x + C u), Σ ω V A_y, Σ ω V A_z; Σ ω V C
+  static constexpr int outputs = with_springs ? 4 : 3;   // Σ ω V (A ξ + C u); Σ ω V C
+  Pencil sum[3] = {}, along_z[3] = {}, stiffness = {};
 
   static void row_sums(const std::vector<Kind>& kinds, const Pencil* here, Pencil* to) {
     const auto pairs = [&](int column) { return pairs_of<reach, inputs>(here, column); };
@@ -487,10 +495,8 @@ struct LatticeSums::ForceSweep {
       }
     }
     if constexpr (with_springs) {
-      for (int c = 0; c < 4; ++c) {
-        const Pairs<reach> spring = pairs(12 + c);
-        for (std::size_t k = 0; k < kinds.size(); ++k) to[k * columns + 9 + c] = spring.sum(kinds[k]);
-      }
+      const Pairs<reach> spring = pairs(12);
+      for (std::size_t k = 0; k < kinds.size(); ++k) to[k * columns + 9] = spring.sum(kinds[k]);
     }
   }
   void add(const Pencil* row, double y) {
@@ -498,20 +504,16 @@ struct LatticeSums::ForceSweep {
       sum[c] += row[c] + y * row[3 + c];
       along_z[c] += row[6 + c];
     }
-    if constexpr (with_springs) {
-      for (int c = 0; c < 4; ++c) springs[c] += row[9 + c];
-    }
+    if constexpr (with_springs) stiffness += row[9];
   }
   void hand(Pencil* to, double z) const {
     for (int c = 0; c < 3; ++c) to[c] += sum[c] + z * along_z[c];
-    if constexpr (with_springs) {
-      for (int c = 0; c < 4; ++c) to[3 + c] += springs[c];
-    }
+    if constexpr (with_springs) to[3] += stiffness;
   }
 };
 
-// f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S + C_i (S + q − W u_i) − u_i Σ ω V_j C_j, where S = Σ ω V_j ξ, W = Σ ω
-// V_j, q = Σ ω V_j u_j, over the family and the point itself; of a field without C_j ξ and C_i S.
+// f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S − u_i Σ ω V_j C_j, over the family and the point itself; of a field
+// without C_j ξ.
 void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take) {
   const auto fill = [&](const Cells& cells, const Put& put) {
     const auto [ui, V] = u.of(cells.of(u.sites));
@@ -523,7 +525,7 @@ void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& 
       }
     }
     if (!has_springs_) return;
-    for (int c = 0; c < 3; ++c) put(9 + c, V * C * ui.c[c]), put(13 + c, V * ui.c[c]);
+    for (int c = 0; c < 3; ++c) put(9 + c, V * C * ui.c[c]);
     put(12, V * C);
   };
   with_constant(lattice_->reach(), [&](auto reach) {
@@ -531,21 +533,20 @@ void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& 
   });
 }
 
-LaneVector LatticeSums::Chunk::forces(const Indices& i, const Displacements& u,
+LaneVector LatticeSums::Chunk::forces(const Abreast& points, const Displacements& u,
                                       const std::vector<ForceState>& states) const {
-  const OfGroup group(*this, i);
+  const Indices& i = points.i;
+  const OfGroup group(*this, points);
   const auto S = group.constants();
-  const auto A = small::numbers_of<12>(records(states.data(), i));
   LaneVector f = group.vector(0);
-  for (int r = 0; r < 3; ++r) f.c[r] += A[r] * S[0] + A[4 + r] * S[1] + A[8 + r] * S[2];
+  if ((S[0] != 0 || S[1] != 0 || S[2] != 0).any()) {  // not in the interior
+    const auto A = small::numbers_of<12>(records(states.data(), i));
+    for (int r = 0; r < 3; ++r) f.c[r] += A[r] * S[0] + A[4 + r] * S[1] + A[8 + r] * S[2];
+  }
   if (!all->has_springs_) return f;
   const LaneVector ui = u.of(records(u.sites, i)).u;
-  const LaneVector q = group.vector(4);
   const Lanes stiffness = group.column(3);
-  for (int r = 0; r < 3; ++r) {
-    const Lanes stretch = q.c[r] - S[3] * ui.c[r];
-    f.c[r] += A[3] * (u.is_field ? stretch : Lanes(stretch + S[r])) - stiffness * ui.c[r];
-  }
+  for (int r = 0; r < 3; ++r) f.c[r] -= stiffness * ui.c[r];
   return f;
 }
 

@@ -1,8 +1,9 @@
 // The sums over the families of points on a lattice (points/lattice.hpp), eight points at a time, without a list of
 // bonds:
 //   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                                      (F = I + H K⁻¹)
+//              Σ ω V_j (y_j − y_i), the stretch of a point's own springs
 //   residuals  Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ                         (the mean gradient's, as in bonds.hpp)
-//   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + (C_i + C_j)(y_j − y_i)]
+//   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + C_j (y_j − y_i)], to which C_i times the stretch is added
 // They are those of bonds.hpp in another order of additions.
 //
 // Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis. A
@@ -34,6 +35,12 @@ inline void fetch_ahead(const Record* records, int i) {
   const char* first = reinterpret_cast<const char*>(records + i + ahead);
   for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
 }
+
+// Some points, one a lane, and whether they stand side by side in one pencil, as their sums then do.
+struct Abreast {
+  Indices i;
+  bool side_by_side = false;
+};
 
 // What is summed: u = y − X of sites, or a field that stands in the place of y, less `origin`.
 struct Displacements {
@@ -78,10 +85,12 @@ class LatticeSums {
     }
 
     // After the sweep that is named alike: of some points.
-    small::Tensor3<small::Lanes> moments(const Indices& i, const Displacements& u) const;  // H
-    small::Vector3<small::Lanes> residual_forces(const Indices& i) const;
-    small::Tensor3<small::Lanes> residual_moments(const Indices& i) const;  // M
-    small::Vector3<small::Lanes> forces(const Indices& i, const Displacements& u,
+    // H; `stretches`: of all points, those of springs are put there, if the scene has any
+    small::Tensor3<small::Lanes> moments(const Abreast& points, const Displacements& u,
+                                         std::vector<Vector>* stretches) const;
+    small::Vector3<small::Lanes> residual_forces(const Abreast& points) const;
+    small::Tensor3<small::Lanes> residual_moments(const Abreast& points) const;  // M
+    small::Vector3<small::Lanes> forces(const Abreast& points, const Displacements& u,
                                         const std::vector<ForceState>& states) const;  // N/m³
     // Σ ω V |y_j − y_i − F ξ|²
     double squared_residual(int i, const Displacements& u, const Tensor& F, const Symmetric& shape_inverse) const;
@@ -129,7 +138,7 @@ class LatticeSums {
     double weight[pencil_width + 1] = {}, first[pencil_width + 1] = {};
     bool operator==(const Kind&) const = default;
   };
-  // Of a point, over its family and itself: Σ ω V ξ, and in the fourth lane Σ ω V.
+  // Of a point, over its family and itself: S = Σ ω V ξ, and in the fourth lane W = Σ ω V.
   using Constants = Eigen::Array4d;
   // The rows y0 … y1 − 1 of all planes.
   struct Strip {
@@ -164,7 +173,7 @@ class LatticeSums {
     Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
   };
   struct Residuals;
-  template <int reach>
+  template <int reach, bool with_springs>
   struct MomentSweep;
   template <int reach>
   struct SquareSweep;

@@ -118,13 +118,9 @@ void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part 
       });
 }
 
-bool any_springs(const Body& body) {
-  return std::any_of(body.blocks.begin(), body.blocks.end(),
-                     [](const MaterialBlock& b) { return b.material.stabilization > 0; });
-}
-
 // The force on every point, summed over the formulations that its block feels. `u`: of y, or of the field that stands
-// in its place for a tangent; `extension_of`: a family, of a bond between ordinary points.
+// in its place for a tangent; `extension_of`: a family, of a bond between ordinary points; `result`: on lattices with
+// the stretches that the moments of u have left there.
 template <class ExtensionOf>
 struct ForceSum {
   const Body& body;
@@ -135,15 +131,17 @@ struct ForceSum {
   std::vector<Vector>& result;
 
   void correspondence(Part part) const {
-    const bool with_springs = any_springs(body);
+    const bool with_springs = body.has_springs();
     const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) {
       sums.forces(u, states.tensors, take);
     };
     over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const Groups& groups) {
       if (!block.feels_correspondence) return;
-      const bool is_begun = block.has_mean_gradient();
+      const Begun begun = block.has_mean_gradient()            ? Begun::sum
+                          : with_springs && block.lattice >= 0 ? Begun::stretch
+                                                               : Begun::nothing;
       over_groups(body, groups, [&](const Group& group, auto weight) {
-        add(group, forces(group, u, states.tensors, with_springs, weight), is_begun);
+        add(group, forces(group, u, states.tensors, with_springs, weight), begun);
       });
     });
   }
@@ -156,16 +154,23 @@ struct ForceSum {
         add(group,
             bonds::ordinary_force(family, body.domain.sites.data(), states.scalars.data(), weight,
                                   extension_of(family)),
-            block.feels_correspondence);
+            block.feels_correspondence ? Begun::sum : Begun::nothing);
       });
     }
   }
 
  private:
-  void add(const Group& group, const small::Vector3<Lanes>& force, bool is_begun) const {
+  enum class Begun { nothing, sum, stretch };  // what `result` holds so far
+
+  void add(const Group& group, const small::Vector3<Lanes>& force, Begun begun) const {
     for (int l = 0; l < group.count; ++l) {
-      Vector& sum = result[group.i[l]];
-      sum = is_begun ? Vector(sum + at(force, l)) : at(force, l);
+      const int i = group.i[l];
+      Vector& sum = result[i];
+      if (begun == Begun::nothing) {
+        sum = at(force, l);
+      } else {
+        sum = at(force, l) + (begun == Begun::sum ? 1 : states.tensors[i].column[0][3]) * sum;
+      }
     }
   }
 };
@@ -220,17 +225,17 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
   const MaterialPoint& point = body.points[i];
   const Symmetric& shape_inverse = body.shape_inverse[i];
   const Tensor dF = moment * to_tensor(shape_inverse);
-  const double share = body.share(i), C = block.has_mean_gradient() ? 0 : point.stabilization;
+  const double share = body.share(i), C = block.springs_of(point);
   result.tensors[i] = tangents ? tangent_state(shape_inverse, C, (*tangents)[i], dF)
                                : tangent_state(point, shape_inverse, C, block.moduli(k), dF, share);
   if (block.has_mean_gradient()) result.gradients[i] = bonds::packed(dF, point.stabilization, share * share);
 }
 
 void set_tangent_states(const Body& body, const Displacements& field, const std::vector<PointTangent>* tangents,
-                        Part part, ForceStates& result) {
+                        Part part, ForceStates& result, std::vector<Vector>& stretches) {
   const auto set = [&](const MaterialBlock& block, const Group& group, auto weight) {
     if (block.is_ordinary()) return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
-    const auto dN = moments(group, field, weight);
+    const auto dN = moments(group, field, weight, &stretches);
     for (int l = 0; l < group.count; ++l) set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
   };
   over_blocks(
@@ -332,7 +337,7 @@ double pace(const Body& body, const MaterialBlock& block, int k) {
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
                    const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result) {
   const Displacements field{directions.data(), true};
-  const auto set_states = [&](Part part) { set_tangent_states(body, field, tangents, part, scratch); };
+  const auto set_states = [&](Part part) { set_tangent_states(body, field, tangents, part, scratch, result); };
   behind_exchange(
       halo, places(directions), site_stride, 3, [&] { set_states(Part::interior); },
       [&] { set_states(Part::boundary); });

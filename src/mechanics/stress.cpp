@@ -211,21 +211,20 @@ struct Update {
     return modulus / (3 * block.material.density);
   }
 
-  void store_point(const Members& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A) const {
+  void store_point(const Members& g, int l, const Polar<Lanes>& polar, const LaneTensor& F, const LaneTensor& A,
+                   double C, double share) const {
     MaterialPoint& point = *g.points[l];
     point.rotation = Rotation(at(polar.rotation, l));
     point.deformation_gradient = at(F, l);
-    const double share = body.share(g.i[l], pass.order);
-    const double C = point.stabilization;
-    body.force_states.tensors[g.i[l]] = bonds::packed(at(A, l), block.has_mean_gradient() ? 0 : share * C);
+    body.force_states.tensors[g.i[l]] = bonds::packed(at(A, l), share * C);
     if (block.has_mean_gradient()) {
-      body.force_states.gradients[g.i[l]] = bonds::packed(point.deformation_gradient, C, share);
+      body.force_states.gradients[g.i[l]] = bonds::packed(point.deformation_gradient, point.stabilization, share);
     }
   }
 
   // F of the points of a group.
   LaneTensor deformation_gradient(const Members& g, const LaneSymmetric& shape_inverse) const {
-    const LaneTensor N = moments(g, {body.domain.sites.data()}, weight);
+    const LaneTensor N = moments(g, {body.domain.sites.data()}, weight, &body.force_density);
     LaneTensor F = small::product(N, small::full(shape_inverse));
     if (!g.bundle) {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
@@ -260,8 +259,7 @@ struct Update {
     } else {
       stress = symmetrics(g, &MaterialPoint::stress);
     }
-    const Lanes C =
-        block.has_mean_gradient() ? Lanes(Lanes::Zero()) : lanes_of([&](int l) { return g.points[l]->stabilization; });
+    const Lanes C = lanes_of([&](int l) { return block.springs_of(*g.points[l]); });
     for (int c = 0; c < 3; ++c) stress[c] -= viscous;
     const LaneTensor A = force_states(stress, C, polar, inverse_stretch, F, shape_inverse, J, share);
     const Lanes volume = lanes_of([&](int l) { return body.domain.volume(g.i[l]); });
@@ -278,7 +276,7 @@ struct Update {
         drop_forces(g, l);
         continue;
       }
-      store_point(g, l, polar, F, A);
+      store_point(g, l, polar, F, A, C[l], share[l]);
       fastest = std::max(fastest, pace2[l]);
     }
     return fastest;
