@@ -6,17 +6,19 @@
 //   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + C_j (y_j − y_i)], to which C_i times the stretch is added
 // They are those of bonds.hpp in another order of additions.
 //
-// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis. A
-// pencil of eight cells adds up its own row, Σ ω V u and Σ ω dx V u, once for each kind of row that the stencil has
-// (along x); a plane adds up these, and dy times these, for each |dz| (along y); and hands that, and dz times that, to
-// the planes above and below (along z). Of the 122 bonds of a point at three spacings 25 additions are left. Forces
-// alike. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by bond.
+// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis for
+// pencils of eight cells (lattice_gather.cpp). A column of cells adds up Σ ω V u and Σ ω dz V u, once for each kind of
+// column that the stencil has (along z); those at one |dx| are added up, and dy times these (along y); and what lies dx
+// cells aside, and dx times that (along x). Of the 122 bonds of a point at three spacings 25 additions are left. Forces
+// go the other way round, along x, y and z (lattice_scatter.cpp): there it is what a point gives that is wide, and its
+// sum is narrow. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by bond.
 //
 // The lattice is gone through in strips of rows, and these plane by plane; what a plane of a strip has added up is
 // handed out as soon as it is complete. So only the planes that a stencil reaches are kept, in the cache, and nothing a
-// point. A sum has the order of the planes, so that results are the same on any number of ranks.
+// point. A sum has the order of the cells, so that results are the same on any number of ranks.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -127,12 +129,19 @@ class LatticeSums {
   double bytes() const;
 
  private:
+  static constexpr int residual_inputs = 15;  // of a point: F − I, u, C̄, V and the share of the step
+
   // A row of the stencil.
   struct Row {
     double y, z;  // m
     int dy, dz, offset, kind;
   };
-  // Rows of the same weights: ω and ω dx, at dx = 0 … reach cells.
+  // A column of the stencil, along z.
+  struct Column {
+    double y;  // m
+    int dy, kind;
+  };
+  // Rows or columns of the same weights: ω and ω times the way, 0 … reach cells along them.
   struct Kind {
     int reach = 0;
     double weight[pencil_width + 1] = {}, first[pencil_width + 1] = {};
@@ -150,37 +159,47 @@ class LatticeSums {
     int offset;
     double y;
   };
-  // Some columns for the slots of a strip in the planes that a stencil reaches.
+  // The sums of the columns of a kind in a row, from x = 0; where any are; how far the row is, m.
+  struct ColumnOfSums {
+    const Pencil* sums;
+    const std::uint64_t* filled;
+    double y;
+  };
+  // Some numbers of each point for the slots of a strip, of as many planes as are kept.
   class Planes {
    public:
-    void open(const LatticeSums& all, int z, int y0, int y1, int columns);  // all zero
-    int begin(int z) const { return begins_[z % begins_.size()]; }
-    int end(int z) const { return ends_[z % begins_.size()]; }
+    void keep(int planes);
+    void open(const LatticeSums& all, int z, int y0, int y1, int columns);  // whatever is in it
+    void clear(int z) { std::fill(of(z, begin(z)), of(z, end(z)), Pencil{}); }
+    int begin(int z) const { return begins_[z % count_]; }
+    int end(int z) const { return ends_[z % count_]; }
     Pencil* of(int z, int slot) {
-      return room_[z % begins_.size()].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
+      return room_[z % count_].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
     }
     double bytes() const;
 
    private:
-    int columns_ = 0;
+    int columns_ = 0, count_ = 1;
     std::vector<std::vector<Pencil>> room_;
     std::vector<int> begins_, ends_;  // slots
   };
-  // The row sums of the rows of a plane that a stencil reaches from the row at hand.
+  // The sums along x or z at the places of the rows that a stencil reaches in a plane.
   struct Ring {
     int rows = 1, columns = 0;  // of a place
     std::vector<Pencil> room;
     Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
   };
   struct Residuals;
-  template <int reach, bool with_springs>
-  struct MomentSweep;
   template <int reach>
   struct SquareSweep;
   template <int reach, bool with_springs>
   struct ForceSweep;
 
   void make_rows(Influence influence);
+  void make_columns(Influence influence);
+  static int place_in(std::vector<Kind>& kinds, const Kind& kind);
+  template <class Weight>
+  Kind kind_of(int reach, double spacing, const Eigen::Array2d& aside, Weight weight) const;
   void mark_places();
   void set_constants(const Body& body);
   int far_z() const { return static_cast<int>(above_.size()) - 1; }
@@ -189,8 +208,28 @@ class LatticeSums {
   const std::uint64_t* row_of(const std::vector<std::uint64_t>& bits, int z, int y) const {
     return &bits[(static_cast<std::size_t>(z) * lattice_->shape()[1] + y) * words_];
   }
-  std::vector<Strip> strips(int columns) const;
+  std::vector<Strip> strips(int pencils) const;
+  template <class Fill>
+  void pack(int slot, const Fill& fill, Pencil* to) const;
+  void take_plane(int z, int columns, const Take& take);
 
+  // Gathered.
+  template <class Fill, class Gather>
+  void gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take);
+  template <bool with_springs, class Fill>
+  void gather_moments(const Fill& fill, const Take& take);
+  template <int reach>
+  void sum_columns(int z, int y);
+  void sum_across(int x, Pencil* to) const;
+  template <bool with_springs>
+  void gather_row(int z, int y);
+  void gather_residuals(int slot, int z);
+  const Pencil* source_at(int place, int z) {
+    const int slot = lattice_->slot_at(place);
+    return slot == 0 ? nothing_.data() : sources_.of(z, slot);
+  }
+
+  // Handed over.
   template <class Sweep, class Fill>
   void sweep(const Fill& fill, const Take& take);
   template <class Sweep, class Fill>
@@ -201,19 +240,13 @@ class LatticeSums {
   void hand_over_row(int z, int y);
   template <class Sweep>
   void hand_over(int place, int z, int dz, int first);
-  template <class Fill>
-  void pack(int slot, const Fill& fill, Pencil* to) const;
-  void take_plane(int z, int columns, const Take& take);
-  void gather_residuals(int slot, int z);
-  const Pencil* source_at(int place, int z) {
-    const int slot = lattice_->slot_at(place);
-    return slot == 0 ? nothing_.data() : sources_.of(z, slot);
-  }
 
   const LatticeFamilies* lattice_;
   std::vector<Row> rows_;
-  std::vector<std::vector<Row>> above_;  // rows by dz = 0, 1, …; those below are alike
-  std::vector<Kind> kinds_;
+  std::vector<std::vector<Row>> above_;       // rows by dz = 0, 1, …; those below are alike
+  std::vector<Kind> kinds_;                   // of rows
+  std::vector<std::vector<Column>> columns_;  // by |dx| = 0, 1, …
+  std::vector<Kind> column_kinds_;
   // A bit for each place of the grid: whether there is a slot; one with points of this rank's own.
   std::vector<std::uint64_t> filled_, owned_;
   int words_ = 0;                  // of these bits a row
@@ -222,12 +255,17 @@ class LatticeSums {
   bool has_springs_ = false;
 
   // Workspaces of a sweep.
-  std::vector<Pencil> row_;  // what is summed, of all places of a row; zero between rows
   Ring ring_;
   Planes sums_, sources_;
-  std::vector<std::vector<RowOfSums>> near_;  // by |dz|
-  std::vector<std::uint64_t> targets_;
   std::vector<Pencil> nothing_;
+  // That gathers: by |dx|; whether there are columns at the places of the rows of the ring; their sums at four places.
+  std::vector<std::vector<ColumnOfSums>> columns_near_;
+  std::vector<std::uint64_t> near_columns_;
+  std::vector<Pencil> across_;
+  // That hands over: what is summed, of all places of a row, zero between rows; by |dz|; places that take something.
+  std::vector<Pencil> row_;
+  std::vector<std::vector<RowOfSums>> near_;
+  std::vector<std::uint64_t> targets_;
 };
 
 }  // namespace strut
