@@ -182,6 +182,19 @@ inline Tensor3<ScalarOf<Family>> gather(const Family& family, const Site* sites,
   return Tensor3<T>(N);  // a copy: kept in registers while it is added up
 }
 
+// Σ ω V_j (y_j − y_i).
+template <class Family, class Weight>
+inline Vector3<ScalarOf<Family>> stretch(const Family& family, const Site* sites, Weight weight) {
+  using T = ScalarOf<Family>;
+  const Vector3<T> y = own_place(family, sites, &Site::current);
+  Vector3<T> sum = zero_vector<T>();
+  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>&, const auto&) {
+    const Vector3<T> eta = apart(sites[j].current, y);
+    for (int c = 0; c < 3; ++c) sum.c[c] += w * eta.c[c];
+  });
+  return Vector3<T>(sum);  // a copy: kept in registers while it is added up
+}
+
 // A and C, or F, C̄ and the share of the step, of the points.
 template <class T>
 struct OwnState {

@@ -183,14 +183,15 @@ void exchange_states(Halo& halo, std::vector<ForceState>& states) {
   halo.exchange(states.data()->column[0].data(), width, width);
 }
 
-// Σ ω V (y_j − y_i) over the family, where its springs need it.
-template <class Weight>
-Vector own_stretch(const Body& body, const ForceState& state, int i, Weight weight) {
-  Vector sum = Vector::Zero();
-  if (state.column[0][3] == 0) return sum;
-  bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
-              [&](int j, double w, const auto&, double) { sum += w * (body.current(j) - body.current(i)); });
-  return sum;
+// What the springs of the points pull, Σ ω V (y_j − y_i), put in force_density until the forces are summed up.
+void keep_stretches(Body& body, const Groups& groups) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const Group group = groups[g];
+      const auto stretch = bonds::stretch(bonds::OfBundle{*group.bundle}, body.domain.sites.data(), weight);
+      for (int l = 0; l < group.count; ++l) body.force_density[group.i[l]] = small::at(stretch, l);
+    });
+  });
 }
 
 // Global ids of owned points and ghosts.
@@ -294,9 +295,11 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
   StepReport report;
   now.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (!body.blocks[b].undisturbed && !now.stressed[b].places.empty()) {
-      advance_stress(body, body.blocks[b], {dt, order}, Groups(body.blocks[b], now.stressed[b]), report);
-    }
+    MaterialBlock& block = body.blocks[b];
+    if (block.undisturbed || now.stressed[b].places.empty()) continue;
+    const Groups groups(block, now.stressed[b]);
+    advance_stress(body, block, {dt, order}, groups, report);
+    if (block.has_springs()) keep_stretches(body, groups);
   }
   add_residuals(body, now, order);
   std::vector<ForceState>& states = body.force_states.tensors;
@@ -315,8 +318,8 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
           const ForceState& own = states[i];
           const Vector& moment = now.first_moments[static_cast<std::size_t>(b) * Bundle::width + l];
           for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
-          sum += own.column[0][3] * own_stretch(body, own, i, weight);
           if (body.has_mean_gradient(i)) sum += body.force_density[i];
+          if (own.column[0][3] > 0) sum += own.column[0][3] * body.force_density[i];
         }
         body.force_density[i] = sum;
       }
