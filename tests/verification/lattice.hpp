@@ -19,6 +19,7 @@ struct LatticeSpec {
   Influence influence = Influence::one;
   BlockMaterial material;
   FamilyKind families = FamilyKind::fastest;
+  std::function<bool(const Eigen::Array3i& cell)> is_filled;  // none: all cells are
 };
 
 inline materials::AnyLaw elastic(double young, double poisson) {
@@ -36,6 +37,7 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
     for (int j = 0; j < spec.cells[1]; ++j) {
       for (int i = 0; i < spec.cells[0]; ++i) {
         const double dx = shift(engine), dy = shift(engine), dz = shift(engine);
+        if (spec.is_filled && !spec.is_filled({i, j, k})) continue;
         cloud.ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
         cloud.element_ids.push_back(cloud.ids.back() + 1);
         cloud.positions.push_back(spec.spacing * Vector(i + 0.5 + dx, j + 0.5 + dy, k + 0.5 + dz));
