@@ -49,14 +49,6 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   return states;
 }
 
-// The places in a lattice as a field, from its origin: its moments are the shape tensors.
-Displacements places_in(const LatticeFamilies& lattice, const std::vector<Site>& sites) {
-  Eigen::Array4d origin = Eigen::Array4d::Zero();
-  origin.head<3>() = lattice.frame().origin.array();
-  return {sites.data(), true, origin};
-}
-
-// K = Σ ω V ξ⊗ξ is what moments are in the undeformed state.
 void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetric& inverse) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   MaterialPoint& point = body.points[block.points[k]];
@@ -74,12 +66,11 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   }
 }
 
-void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, const Displacements& places,
-                std::vector<Symmetric>& inverses) {
+void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, std::vector<Symmetric>& inverses) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];
-      const auto K = moments(group, places, weight);
+      const auto K = shapes(group, body.domain.sites.data(), weight);
       for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l), inverses[group.i[l]]);
     });
   });
@@ -90,16 +81,15 @@ void set_shapes(Body& body) {
   for (MaterialBlock& block : body.blocks) {
     if (block.lattice >= 0) continue;
     for (const Part part : {Part::interior, Part::boundary}) {
-      set_shapes(body, block, Groups(body, block, part), {body.domain.sites.data()}, inverses);
+      set_shapes(body, block, Groups(body, block, part), inverses);
     }
   }
   for (const LatticeFamilies& lattice : body.domain.families.lattices) {
     LatticeSums& sums = *body.lattice_sums.emplace_back(std::make_shared<LatticeSums>(body, lattice));
     const int number = static_cast<int>(body.lattice_sums.size()) - 1;
-    const Displacements places = places_in(lattice, body.domain.sites);
-    sums.moments(places, [&](const LatticeSums::Chunk& chunk) {
+    sums.shapes(body.domain.sites.data(), [&](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
-        if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), places, inverses);
+        if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), inverses);
       }
     });
   }

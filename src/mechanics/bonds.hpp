@@ -1,5 +1,6 @@
 // The sums over a family that correspondence peridynamics needs, and the choice of ω outside of them.
 //   gather:  N = Σ ω V_j (y_j − y_i) ⊗ ξ                                              (F = N K⁻¹)
+//   pull:    Σ ω V_j (y_j − y_i)
 //   force:   f_i = Σ ω V_j [ (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i) ],  ξ = X_j − X_i
 // and, between them, the one of the stabilisation by the mean gradient:
 //   residual: Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ,  z = (y_j − y_i) − ½ (F_i + F_j) ξ
@@ -182,9 +183,9 @@ inline Tensor3<ScalarOf<Family>> gather(const Family& family, const Site* sites,
   return Tensor3<T>(N);  // a copy: kept in registers while it is added up
 }
 
-// Σ ω V_j (y_j − y_i).
+// Σ ω V_j (y_j − y_i), the pull on a point of its own springs, less C_i.
 template <class Family, class Weight>
-inline Vector3<ScalarOf<Family>> stretch(const Family& family, const Site* sites, Weight weight) {
+inline Vector3<ScalarOf<Family>> pull(const Family& family, const Site* sites, Weight weight) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, sites, &Site::current);
   Vector3<T> sum = zero_vector<T>();

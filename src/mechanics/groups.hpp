@@ -113,13 +113,20 @@ class Groups {
 
 // ---- Sums over the families of a group, of places y or of a field in their stead -----------------------------------
 
+// K = Σ ω V_j ξ ⊗ ξ, of sites in the reference state.
+template <class Weight>
+small::Tensor3<small::Lanes> shapes(const Group& group, const Site* sites, Weight weight) {
+  if (group.bundle) return bonds::gather(bonds::OfBundle{*group.bundle}, sites, weight);
+  return group.chunk->shapes(group.abreast());
+}
+
 // Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity,
-// and what springs of the points pull, Σ ω V_j (v_j − v_i), is put in `stretches` for the sum of forces.
+// and the pull of springs, Σ ω V_j (v_j − v_i), is put in `pulls` for the sum of forces.
 template <class Weight>
 small::Tensor3<small::Lanes> moments(const Group& group, const Displacements& u, Weight weight,
-                                     std::vector<Vector>* stretches = nullptr) {
+                                     std::vector<Vector>* pulls = nullptr) {
   if (group.bundle) return bonds::gather(bonds::OfBundle{*group.bundle}, u.sites, weight);
-  return group.chunk->moments(group.abreast(), u, stretches);
+  return group.chunk->moments(group.abreast(), u, pulls);
 }
 
 // The mean gradient's residual.
@@ -130,7 +137,7 @@ bonds::Residual<small::Lanes> residuals(const Group& group, const Site* places,
   return {group.chunk->residual_forces(group.abreast()), group.chunk->residual_moments(group.abreast())};
 }
 
-// with_springs: whether any point of the scene has C. In a chunk of a lattice without C_i times the stretch.
+// with_springs: whether any point of the scene has C. In a chunk of a lattice without C_i times the pull.
 template <class Weight>
 small::Vector3<small::Lanes> forces(const Group& group, const Displacements& u, const std::vector<ForceState>& states,
                                     bool with_springs, Weight weight) {

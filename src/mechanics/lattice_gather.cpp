@@ -26,6 +26,62 @@ void LatticeSums::gather_planes(int inputs, int outputs, const Fill& fill, const
   }
 }
 
+// For gather_planes: pencil by pencil.
+auto LatticeSums::each_slot(void (LatticeSums::*gather)(int slot, int z)) {
+  return [this, gather](int z, const Strip&) {
+    for (int slot = sums_.begin(z); slot < sums_.end(z); ++slot) {
+      if (lattice_->is_owned(slot)) (this->*gather)(slot, z);
+    }
+  };
+}
+
+// ---- Shapes --------------------------------------------------------------------------------------------------------
+
+// Of eight points and one row of their stencils: Σ ω V, Σ ω dx V and Σ ω dx² V.
+struct LatticeSums::Shapes {
+  const std::array<const Pencil*, 3>& there;  // V of the row: before, here and after
+  const Kind& kind;
+  double spacing;  // along x, m
+  Pencil sum = kind.weight[0] * *there[1], first = {}, second = {};
+
+  template <int dx = 1>
+  void add() {
+    if constexpr (dx <= pencil_width) {
+      if (dx > kind.reach) return;
+      const Pencil right = shifted<dx>(*there[0], *there[1], *there[2]),
+                   left = shifted<-dx>(*there[0], *there[1], *there[2]);
+      sum += kind.weight[dx] * (right + left);
+      first += kind.first[dx] * (right - left);
+      second += (kind.first[dx] * dx * spacing) * (right + left);
+      add<dx + 1>();
+    }
+  }
+};
+
+void LatticeSums::gather_shape(int slot, int z) {
+  const int place = lattice_->place(slot);
+  Pencil K[9] = {};  // by columns
+  for (const Row& row : rows_) {
+    const int beside = place + row.offset, plane = z + row.dz;
+    const std::array<const Pencil*, 3> there{source_at(beside - 1, plane), source_at(beside, plane),
+                                             source_at(beside + 1, plane)};
+    Shapes sums{there, kinds_[row.kind], lattice_->frame().spacing[0]};
+    sums.add();
+    K[0] += sums.second, K[4] += (row.y * row.y) * sums.sum, K[8] += (row.z * row.z) * sums.sum;
+    K[1] += row.y * sums.first, K[2] += row.z * sums.first, K[5] += (row.y * row.z) * sums.sum;
+  }
+  K[3] = K[1], K[6] = K[2], K[7] = K[5];
+  std::copy_n(K, 9, sums_.of(z, slot));
+}
+
+void LatticeSums::shapes(const Site* sites, const Take& take) {
+  const Displacements places{sites};
+  const auto volume = [&](const Cells& cells, const Put& put) { put(0, places.of(cells.of(sites)).volume); };
+  gather_planes(1, 9, volume, each_slot(&LatticeSums::gather_shape), take);
+}
+
+LaneTensor LatticeSums::Chunk::shapes(const Abreast& points) const { return OfGroup(*this, points).tensor(0); }
+
 // ---- Moments -------------------------------------------------------------------------------------------------------
 
 namespace {
@@ -73,7 +129,7 @@ struct MomentsOfPencil {
 template <int reach>
 void LatticeSums::sum_columns(int z, int y) {
   const int places = lattice_->shape()[0], plane = places * lattice_->shape()[1];
-  std::uint64_t* const columns = &near_columns_[static_cast<std::size_t>(y % ring_.rows) * words_];
+  std::uint64_t* const columns = &column_bits_[static_cast<std::size_t>(y % ring_.rows) * words_];
   std::fill_n(columns, words_, 0);
   for (int dz = -far_z(); dz <= far_z(); ++dz) {
     const std::uint64_t* filled = row_of(filled_, z + dz, y);
@@ -129,7 +185,7 @@ void LatticeSums::gather_row(int z, int y) {
     for (const Column& column : columns_[dx]) {
       const int beside = y + column.dy;
       columns_near_[dx].push_back({ring_.row(beside, places) + of_a_column * column.kind,
-                                   &near_columns_[static_cast<std::size_t>(beside % ring_.rows) * words_], column.y});
+                                   &column_bits_[static_cast<std::size_t>(beside % ring_.rows) * words_], column.y});
     }
   }
   const auto across = [&](int x) { return &across_[(x % 4) * of_columns * columns_.size()]; };
@@ -145,9 +201,8 @@ void LatticeSums::gather_row(int z, int y) {
 // `fill`: V u of points.
 template <bool with_springs, class Fill>
 void LatticeSums::gather_moments(const Fill& fill, const Take& take) {
-  ring_.rows = lattice_->rows_across(), ring_.columns = static_cast<int>(column_kinds_.size()) * of_a_column;
-  ring_.room.resize(static_cast<std::size_t>(ring_.rows) * lattice_->shape()[0] * ring_.columns);
-  near_columns_.resize(static_cast<std::size_t>(ring_.rows) * words_);
+  ring_.open(lattice_->rows_across(), static_cast<int>(column_kinds_.size()) * of_a_column, lattice_->shape()[0]);
+  column_bits_.resize(static_cast<std::size_t>(ring_.rows) * words_);
   across_.resize(4 * of_columns * columns_.size());
   const auto gather = [&](auto reach, int z, const Strip& strip) {
     int next = strip.y0 - far_y();  // row whose columns are to be summed
@@ -173,9 +228,9 @@ void LatticeSums::moments(const Displacements& u, const Take& take) {
   has_springs_ ? gather_moments<true>(fill, take) : gather_moments<false>(fill, take);
 }
 
-// The stretch is S + q − W u_i over the family and the point itself, of a field without S.
+// The pull is S + q − W u_i over the family and the point itself, of a field without S.
 LaneTensor LatticeSums::Chunk::moments(const Abreast& points, const Displacements& u,
-                                       std::vector<Vector>* stretches) const {
+                                       std::vector<Vector>* pulls) const {
   const Indices& i = points.i;
   const OfGroup group(*this, points);
   const LaneVector ui = u.of(records(u.sites, i)).u;
@@ -184,13 +239,13 @@ LaneTensor LatticeSums::Chunk::moments(const Abreast& points, const Displacement
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) H.c[r][c] -= ui.c[r] * S[c];
   }
-  if (!stretches || !all->has_springs_) return H;
-  LaneVector stretch = group.vector(9);
+  if (!pulls || !all->has_springs_) return H;
+  LaneVector pull = group.vector(9);
   for (int r = 0; r < 3; ++r) {
-    stretch.c[r] -= S[3] * ui.c[r];
-    if (!u.is_field) stretch.c[r] += S[r];
+    pull.c[r] -= S[3] * ui.c[r];
+    if (!u.is_field) pull.c[r] += S[r];
   }
-  for (int l = 0; l < small::lane_count; ++l) (*stretches)[i[l]] = small::at(stretch, l);
+  for (int l = 0; l < small::lane_count; ++l) (*pulls)[i[l]] = small::at(pull, l);
   return H;
 }
 
@@ -241,12 +296,7 @@ void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState
     }
     put(12, F[3]), put(13, V), put(14, F[7]);
   };
-  const auto gather = [this](int z, const Strip&) {
-    for (int slot = sums_.begin(z); slot < sums_.end(z); ++slot) {
-      if (lattice_->is_owned(slot)) gather_residuals(slot, z);
-    }
-  };
-  gather_planes(residual_inputs, residual_outputs, fill, gather, take);
+  gather_planes(residual_inputs, residual_outputs, fill, each_slot(&LatticeSums::gather_residuals), take);
 }
 
 // The bonds of eight points with one row of their stencils.

@@ -15,8 +15,7 @@ void LatticeSums::sweep(const Fill& fill, const Take& take) {
   const Eigen::Array3i& shape = lattice_->shape();
   const int planes = shape[2], far = far_z();
   row_.assign(static_cast<std::size_t>(shape[0]) * Sweep::inputs, Pencil{});
-  ring_.rows = lattice_->rows_across(), ring_.columns = static_cast<int>(kinds_.size()) * Sweep::columns;
-  ring_.room.resize(static_cast<std::size_t>(ring_.rows) * shape[0] * ring_.columns);
+  ring_.open(lattice_->rows_across(), static_cast<int>(kinds_.size()) * Sweep::columns, shape[0]);
   sums_.keep(2 * far + 1);
   for (const Strip& strip : strips((2 * far + 1) * Sweep::outputs)) {
     for (int z = 0; z < planes; ++z) {

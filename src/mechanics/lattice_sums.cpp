@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "mechanics/lattice_sweep.hpp"
 
@@ -9,6 +10,7 @@ namespace strut {
 
 LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice) : lattice_(&lattice) {
   make_rows(body.influence);
+  if (far_y() == 0 || far_z() == 0) throw std::logic_error("a stencil spans space");
   make_columns(body.influence);
   mark_places();
   has_springs_ = body.has_springs();

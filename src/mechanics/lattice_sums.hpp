@@ -1,17 +1,19 @@
 // The sums over the families of points on a lattice (points/lattice.hpp), eight points at a time, without a list of
 // bonds:
+//   shapes     K = Σ ω V_j ξ ⊗ ξ                                                (once)
 //   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                                      (F = I + H K⁻¹)
-//              Σ ω V_j (y_j − y_i), the stretch of a point's own springs
+//              Σ ω V_j (y_j − y_i), the pull on a point of its own springs, less C_i
 //   residuals  Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ                         (the mean gradient's, as in bonds.hpp)
-//   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + C_j (y_j − y_i)], to which C_i times the stretch is added
+//   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + C_j (y_j − y_i)], to which C_i times the pull is added
 // They are those of bonds.hpp in another order of additions.
 //
-// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis for
-// pencils of eight cells (lattice_gather.cpp). A column of cells adds up Σ ω V u and Σ ω dz V u, once for each kind of
-// column that the stencil has (along z); those at one |dx| are added up, and dy times these (along y); and what lies dx
-// cells aside, and dx times that (along x). Of the 122 bonds of a point at three spacings 25 additions are left. Forces
-// go the other way round, along x, y and z (lattice_scatter.cpp): there it is what a point gives that is wide, and its
-// sum is narrow. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by bond.
+// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis
+// for pencils of eight cells (lattice_gather.cpp). A column of cells adds up Σ ω V u and Σ ω dz V u, once for each kind
+// of column that the stencil has (along z); those at one |dx| are added up, and dy times these (along y); and what lies
+// dx cells aside, and dx times that (along x). Of the 122 bonds of a point at three spacings 25 additions are left.
+// Forces go the other way round, along x, y and z (lattice_scatter.cpp): there it is what a point gives that is wide,
+// and its sum is narrow. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by
+// bond; and so do shapes, which as moments of places would lose digits far from the origin.
 //
 // The lattice is gone through in strips of rows, and these plane by plane; what a plane of a strip has added up is
 // handed out as soon as it is complete. So only the planes that a stencil reaches are kept, in the cache, and nothing a
@@ -44,14 +46,13 @@ struct Abreast {
   bool side_by_side = false;
 };
 
-// What is summed: u = y − X of sites, or a field that stands in the place of y, less `origin`.
+// What is summed: u = y − X of sites, or a field that stands in the place of y.
 struct Displacements {
   const Site* sites;
   bool is_field = false;
-  Eigen::Array4d origin = Eigen::Array4d::Zero();
 
   Eigen::Array4d operator()(int i) const {
-    return is_field ? Eigen::Array4d(sites[i].current - origin) : Eigen::Array4d(sites[i].current - sites[i].reference);
+    return is_field ? sites[i].current : Eigen::Array4d(sites[i].current - sites[i].reference);
   }
   // Of the sites that begin at(lane), and their volumes.
   struct OfLanes {
@@ -63,7 +64,7 @@ struct Displacements {
     const auto site = small::numbers_of<8>(at);  // X, V, y, δ
     OfLanes result{{}, site[3]};
     for (int c = 0; c < 3; ++c) {
-      result.u.c[c] = is_field ? small::Lanes(site[4 + c] - origin[c]) : small::Lanes(site[4 + c] - site[c]);
+      result.u.c[c] = is_field ? site[4 + c] : small::Lanes(site[4 + c] - site[c]);
     }
     return result;
   }
@@ -87,13 +88,14 @@ class LatticeSums {
     }
 
     // After the sweep that is named alike: of some points.
-    // H; `stretches`: of all points, those of springs are put there, if the scene has any
+    small::Tensor3<small::Lanes> shapes(const Abreast& points) const;  // K
+    // H; `pulls`: of all points, those of springs are put there, if the scene has any
     small::Tensor3<small::Lanes> moments(const Abreast& points, const Displacements& u,
-                                         std::vector<Vector>* stretches) const;
+                                         std::vector<Vector>* pulls) const;
     small::Vector3<small::Lanes> residual_forces(const Abreast& points) const;
     small::Tensor3<small::Lanes> residual_moments(const Abreast& points) const;  // M
     small::Vector3<small::Lanes> forces(const Abreast& points, const Displacements& u,
-                                        const std::vector<ForceState>& states) const;  // N/m³
+                                        const std::vector<ForceState>& states) const;  // N/m³, less the pull
     // Σ ω V |y_j − y_i − F ξ|²
     double squared_residual(int i, const Displacements& u, const Tensor& F, const Symmetric& shape_inverse) const;
 
@@ -120,6 +122,7 @@ class LatticeSums {
 
   // Each hands the sums of all owned points to `take`, some at a time, from fields that are current in ghosts too and
   // stay as they are meanwhile.
+  void shapes(const Site* sites, const Take& take);
   void moments(const Displacements& u, const Take& take);
   void squares(const Displacements& u, const Take& take);
   // `gradients`: F, or δF of a field, and C̄.
@@ -187,8 +190,13 @@ class LatticeSums {
   struct Ring {
     int rows = 1, columns = 0;  // of a place
     std::vector<Pencil> room;
+    void open(int across, int of_a_place, int places) {
+      rows = across, columns = of_a_place;
+      room.resize(std::max(room.size(), static_cast<std::size_t>(rows) * places * columns));
+    }
     Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
   };
+  struct Shapes;
   struct Residuals;
   template <int reach>
   struct SquareSweep;
@@ -216,6 +224,7 @@ class LatticeSums {
   // Gathered.
   template <class Fill, class Gather>
   void gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take);
+  auto each_slot(void (LatticeSums::*gather)(int slot, int z));
   template <bool with_springs, class Fill>
   void gather_moments(const Fill& fill, const Take& take);
   template <int reach>
@@ -223,6 +232,7 @@ class LatticeSums {
   void sum_across(int x, Pencil* to) const;
   template <bool with_springs>
   void gather_row(int z, int y);
+  void gather_shape(int slot, int z);
   void gather_residuals(int slot, int z);
   const Pencil* source_at(int place, int z) {
     const int slot = lattice_->slot_at(place);
@@ -260,7 +270,7 @@ class LatticeSums {
   std::vector<Pencil> nothing_;
   // That gathers: by |dx|; whether there are columns at the places of the rows of the ring; their sums at four places.
   std::vector<std::vector<ColumnOfSums>> columns_near_;
-  std::vector<std::uint64_t> near_columns_;
+  std::vector<std::uint64_t> column_bits_;
   std::vector<Pencil> across_;
   // That hands over: what is summed, of all places of a row, zero between rows; by |dz|; places that take something.
   std::vector<Pencil> row_;

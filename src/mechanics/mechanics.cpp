@@ -120,7 +120,7 @@ void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part 
 
 // The force on every point, summed over the formulations that its block feels. `u`: of y, or of the field that stands
 // in its place for a tangent; `extension_of`: a family, of a bond between ordinary points; `result`: on lattices with
-// the stretches that the moments of u have left there.
+// the pulls that the moments of u have left there.
 template <class ExtensionOf>
 struct ForceSum {
   const Body& body;
@@ -138,7 +138,7 @@ struct ForceSum {
     over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const Groups& groups) {
       if (!block.feels_correspondence) return;
       const Begun begun = block.has_mean_gradient()            ? Begun::sum
-                          : with_springs && block.lattice >= 0 ? Begun::stretch
+                          : with_springs && block.lattice >= 0 ? Begun::pull
                                                                : Begun::nothing;
       over_groups(body, groups, [&](const Group& group, auto weight) {
         add(group, forces(group, u, states.tensors, with_springs, weight), begun);
@@ -160,7 +160,7 @@ struct ForceSum {
   }
 
  private:
-  enum class Begun { nothing, sum, stretch };  // what `result` holds so far
+  enum class Begun { nothing, sum, pull };  // what `result` holds so far
 
   void add(const Group& group, const small::Vector3<Lanes>& force, Begun begun) const {
     for (int l = 0; l < group.count; ++l) {
@@ -232,10 +232,10 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
 }
 
 void set_tangent_states(const Body& body, const Displacements& field, const std::vector<PointTangent>* tangents,
-                        Part part, ForceStates& result, std::vector<Vector>& stretches) {
+                        Part part, ForceStates& result, std::vector<Vector>& pulls) {
   const auto set = [&](const MaterialBlock& block, const Group& group, auto weight) {
     if (block.is_ordinary()) return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
-    const auto dN = moments(group, field, weight, &stretches);
+    const auto dN = moments(group, field, weight, &pulls);
     for (int l = 0; l < group.count; ++l) set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
   };
   over_blocks(

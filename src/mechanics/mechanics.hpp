@@ -31,10 +31,11 @@ struct StepReport {
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
 // dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_views`: also what forces
 // do not need but a look at the body does, the energy of the stabilisation, and F, R and stress of ordinary points,
-// which are a view of their families only.
+// which are a view of their families only. force_density is spoiled: on lattices it holds the pull of springs on their
+// own points until the one sum_forces that is to follow.
 StepReport advance_stress(Body& body, double dt, bool with_views);
 
-// Collective; after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is stepped
+// Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is stepped
 // alone, the part of its stress that acts at the end of a whole step.
 void sum_forces(Body& body, bool with_views);
 

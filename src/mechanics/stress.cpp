@@ -222,7 +222,7 @@ struct Update {
     }
   }
 
-  // F of the points of a group.
+  // F of the points of a group; on lattices the pull of their springs is put aside for the forces.
   LaneTensor deformation_gradient(const Members& g, const LaneSymmetric& shape_inverse) const {
     const LaneTensor N = moments(g, {body.domain.sites.data()}, weight, &body.force_density);
     LaneTensor F = small::product(N, small::full(shape_inverse));

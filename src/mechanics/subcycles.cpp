@@ -183,13 +183,13 @@ void exchange_states(Halo& halo, std::vector<ForceState>& states) {
   halo.exchange(states.data()->column[0].data(), width, width);
 }
 
-// What the springs of the points pull, Σ ω V (y_j − y_i), put in force_density until the forces are summed up.
-void keep_stretches(Body& body, const Groups& groups) {
+// The pull of the points' own springs, Σ ω V (y_j − y_i), put in force_density until the forces are summed up.
+void keep_pulls(Body& body, const Groups& groups) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const Group group = groups[g];
-      const auto stretch = bonds::stretch(bonds::OfBundle{*group.bundle}, body.domain.sites.data(), weight);
-      for (int l = 0; l < group.count; ++l) body.force_density[group.i[l]] = small::at(stretch, l);
+      const auto pull = bonds::pull(bonds::OfBundle{*group.bundle}, body.domain.sites.data(), weight);
+      for (int l = 0; l < group.count; ++l) body.force_density[group.i[l]] = small::at(pull, l);
     });
   });
 }
@@ -299,7 +299,7 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
     if (block.undisturbed || now.stressed[b].places.empty()) continue;
     const Groups groups(block, now.stressed[b]);
     advance_stress(body, block, {dt, order}, groups, report);
-    if (block.has_springs()) keep_stretches(body, groups);
+    if (block.has_springs()) keep_pulls(body, groups);
   }
   add_residuals(body, now, order);
   std::vector<ForceState>& states = body.force_states.tensors;

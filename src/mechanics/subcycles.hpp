@@ -2,7 +2,7 @@
 //
 // The stress of a point moves its family by impulses: of most points one a step Δt, of a stiff one one every Δt/2^h, to
 // which its stress follows the motion (impulse multiple time stepping, r-RESPA: Tuckerman, Berne & Martyna 1992). So
-// momenta are conserved as before. Stabilisation, contact and loads act once a step.
+// momenta are conserved as before. Contact and loads act once a step.
 #pragma once
 
 #include "base/archive.hpp"

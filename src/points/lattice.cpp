@@ -203,6 +203,7 @@ std::size_t LatticeFamilies::family_size(int i) const {
 }
 
 bool LatticeFamilies::spans_space(int i) const {
+  if (!(frame_.spacing.array() <= frame_.horizon).all()) return false;
   const int place = places_[cell_[i] / width], lane = cell_[i] % width;
   const auto beside = [&](int dx, int dy, int dz) {
     const int x = lane + dx, row = place + (dz * shape_[1] + dy) * shape_[0];
@@ -210,8 +211,7 @@ bool LatticeFamilies::spans_space(int i) const {
   };
   const int along_x = beside(-1, 0, 0) + beside(1, 0, 0), along_y = beside(0, -1, 0) + beside(0, 1, 0);
   const int along_z = beside(0, 0, -1) + beside(0, 0, 1);
-  const bool reached = (frame_.spacing.array() <= frame_.horizon).all();
-  return reached && along_x > 0 && along_y > 0 && along_z > 0 && along_x + along_y + along_z > 3;
+  return along_x > 0 && along_y > 0 && along_z > 0 && along_x + along_y + along_z > 3;
 }
 
 double LatticeFamilies::bytes() const {

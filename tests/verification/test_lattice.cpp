@@ -1,6 +1,7 @@
 // Families on a lattice as stencils: the same bonds, deformation gradients, forces and tangent as by lists.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
 #include "mechanics/groups.hpp"
@@ -15,6 +16,7 @@ struct Case {
   double silling, mean;
   double full;  // the part of the cells that holds a point
   Vector spacing{1e-3, 1e-3, 1e-3};
+  std::array<int, 3> cells{21, 12, 11};
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
@@ -29,8 +31,9 @@ PointCloud porous_cloud(const Case& c, const Communicator& world) {
   if (world.rank() != 0) return cloud;
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> part(0, 1);
-  for (int cell = 0; cell < 21 * 12 * 11; ++cell) {
-    const Vector at(cell % 21, cell / 21 % 12, cell / 252);
+  const auto [nx, ny, nz] = c.cells;
+  for (int cell = 0; cell < nx * ny * nz; ++cell) {
+    const Vector at(cell % nx, cell / nx % ny, cell / (nx * ny));
     const double shape = std::sin(0.7 * at[0]) + std::sin(0.9 * at[1] + 1) + std::sin(0.8 * at[2] + 2);
     if (shape < 3 - 6 * c.full) continue;
     cloud.ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
@@ -142,7 +145,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Case{1.75, Influence::one, 0, 0.01, 0.6}, Case{2.015, Influence::one, 0.02, 0, 1},
                     Case{3.015, Influence::one, 0.02, 0, 0.5}, Case{3.015, Influence::cubic_decay, 0, 0.01, 0.7},
                     Case{3.015, Influence::linear_decay, 0.05, 0.01, 0.5}, Case{6.015, Influence::one, 0.01, 0, 0.5},
-                    Case{3.3, Influence::linear_decay, 0.05, 0.01, 0.6, {1e-3, 1.3e-3, 0.7e-3}}));
+                    Case{3.3, Influence::linear_decay, 0.05, 0.01, 0.6, {1e-3, 1.3e-3, 0.7e-3}},
+                    // Two strips of rows of more than 64 pencils.
+                    Case{3.015, Influence::one, 0.02, 0.01, 0.7, {1e-3, 1e-3, 1e-3}, {560, 24, 6}}));
 
 // What a bundle adds up in the lane of a point is what the point's own family adds up, but for round-off.
 TEST(Bundles, LanesAreTheSumsOfTheirPoints) {
