@@ -26,16 +26,25 @@ void LatticeSums::gather_planes(int inputs, int outputs, const Fill& fill, const
   }
 }
 
-// For gather_planes: pencil by pencil.
-auto LatticeSums::each_slot(void (LatticeSums::*gather)(int slot, int z)) {
-  return [this, gather](int z, const Strip&) {
+// Pencil by pencil.
+template <class Fill>
+void LatticeSums::gather_pencils(int inputs, int outputs, const Fill& fill,
+                                 void (LatticeSums::*gather)(int slot, int z), const Take& take) {
+  const auto plane = [this, gather](int z, const Strip&) {
     for (int slot = sums_.begin(z); slot < sums_.end(z); ++slot) {
       if (lattice_->is_owned(slot)) (this->*gather)(slot, z);
     }
   };
+  gather_planes(inputs, outputs, fill, plane, take);
 }
 
-// ---- Shapes --------------------------------------------------------------------------------------------------------
+// ---- Shapes and constants ------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr int shape_outputs = 13;  // K by columns, S and W
+
+}  // namespace
 
 // Of eight points and one row of their stencils: Σ ω V, Σ ω dx V and Σ ω dx² V.
 struct LatticeSums::Shapes {
@@ -60,7 +69,7 @@ struct LatticeSums::Shapes {
 
 void LatticeSums::gather_shape(int slot, int z) {
   const int place = lattice_->place(slot);
-  Pencil K[9] = {};  // by columns
+  Pencil K[9] = {}, S[3] = {}, W = {};
   for (const Row& row : rows_) {
     const int beside = place + row.offset, plane = z + row.dz;
     const std::array<const Pencil*, 3> there{source_at(beside - 1, plane), source_at(beside, plane),
@@ -69,18 +78,39 @@ void LatticeSums::gather_shape(int slot, int z) {
     sums.add();
     K[0] += sums.second, K[4] += (row.y * row.y) * sums.sum, K[8] += (row.z * row.z) * sums.sum;
     K[1] += row.y * sums.first, K[2] += row.z * sums.first, K[5] += (row.y * row.z) * sums.sum;
+    S[0] += sums.first, S[1] += row.y * sums.sum, S[2] += row.z * sums.sum;
+    W += sums.sum;
   }
   K[3] = K[1], K[6] = K[2], K[7] = K[5];
-  std::copy_n(K, 9, sums_.of(z, slot));
+  Pencil* const to = sums_.of(z, slot);
+  std::copy_n(K, 9, to), std::copy_n(S, 3, to + 9), to[12] = W;
 }
 
 void LatticeSums::shapes(const Site* sites, const Take& take) {
   const Displacements places{sites};
   const auto volume = [&](const Cells& cells, const Put& put) { put(0, places.of(cells.of(sites)).volume); };
-  gather_planes(1, 9, volume, each_slot(&LatticeSums::gather_shape), take);
+  gather_pencils(1, shape_outputs, volume, &LatticeSums::gather_shape, take);
 }
 
 LaneTensor LatticeSums::Chunk::shapes(const Abreast& points) const { return OfGroup(*this, points).tensor(0); }
+
+void LatticeSums::set_constants(const Body& body) {
+  std::vector<Constants> constants(body.owned(), Constants::Zero());
+  shapes(body.domain.sites.data(), [&](const Chunk& chunk) {
+    for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
+      const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
+      if (i < 0 || i >= body.owned()) continue;
+      for (int c = 0; c < 4; ++c) constants[i][c] = chunk.at(i)[(9 + c) * pencil_width];
+    }
+  });
+  // As round-off of their sums, and of alike families the same.
+  const double length = lattice_->frame().horizon;
+  for (Constants& c : constants) {
+    if (!(c[3] > 0)) continue;
+    for (int k = 0; k < 4; ++k) c[k] = rounded(c[k], k < 3 ? c[3] * length : c[3], 48);
+  }
+  constants_ = Repeated<Constants>(std::move(constants));
+}
 
 // ---- Moments -------------------------------------------------------------------------------------------------------
 
@@ -249,35 +279,6 @@ LaneTensor LatticeSums::Chunk::moments(const Abreast& points, const Displacement
   return H;
 }
 
-// ---- Constants -----------------------------------------------------------------------------------------------------
-
-// With V in the place of V u, moments are what is looked for.
-void LatticeSums::set_constants(const Body& body) {
-  std::vector<Constants> constants(body.owned(), Constants::Zero());
-  const Displacements u{body.domain.sites.data()};
-  const auto volume = [&](const Cells& cells, const Put& put) {
-    put(0, u.of(cells.of(u.sites)).volume), put(1, Lanes::Zero()), put(2, Lanes::Zero());
-  };
-  const auto each_owned = [&](const Chunk& chunk, const auto& set) {
-    for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
-      const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
-      if (i >= 0 && i < body.owned()) set(i);
-    }
-  };
-  gather_moments<true>(volume, [&](const Chunk& chunk) {
-    each_owned(chunk, [&](int i) {
-      for (int c = 0; c < 4; ++c) constants[i][c] = chunk.at(i)[3 * c * pencil_width];
-    });
-  });
-  // As round-off of their sums, and of alike families the same.
-  const double length = lattice_->frame().horizon;
-  for (Constants& c : constants) {
-    if (!(c[3] > 0)) continue;
-    for (int k = 0; k < 4; ++k) c[k] = rounded(c[k], k < 3 ? c[3] * length : c[3], 48);
-  }
-  constants_ = Repeated<Constants>(std::move(constants));
-}
-
 // ---- Residuals -----------------------------------------------------------------------------------------------------
 
 namespace {
@@ -296,7 +297,7 @@ void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState
     }
     put(12, F[3]), put(13, V), put(14, F[7]);
   };
-  gather_planes(residual_inputs, residual_outputs, fill, each_slot(&LatticeSums::gather_residuals), take);
+  gather_pencils(residual_inputs, residual_outputs, fill, &LatticeSums::gather_residuals, take);
 }
 
 // The bonds of eight points with one row of their stencils.

@@ -224,7 +224,9 @@ class LatticeSums {
   // Gathered.
   template <class Fill, class Gather>
   void gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take);
-  auto each_slot(void (LatticeSums::*gather)(int slot, int z));
+  template <class Fill>
+  void gather_pencils(int inputs, int outputs, const Fill& fill, void (LatticeSums::*gather)(int slot, int z),
+                      const Take& take);
   template <bool with_springs, class Fill>
   void gather_moments(const Fill& fill, const Take& take);
   template <int reach>
