@@ -229,18 +229,19 @@ bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
   return xi.squaredNorm() <= horizon * horizon;
 }
 
-std::vector<double> bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
-                               const std::vector<double>& spacings, const Communicator& communicator) {
+BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
+                     const Communicator& communicator) {
   constexpr double pencils = 1.0 / 6;  // of a lattice a point: between a full block's eighth and a foam's fifth
   const std::vector<LatticeFrame> frames = lattice_frames(cloud, horizons_of(cloud, bonds), bonds, communicator);
-  std::vector<double> costs;
+  BondCosts costs;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     const double reach = spacings[b] > 0 ? bonds[b].horizon_at(spacings[b]) / spacings[b] : 0;
-    costs.push_back(cost_of_list(4.0 / 3 * std::numbers::pi * std::pow(reach, 3)));
+    const double list = cost_of_list(4.0 / 3 * std::numbers::pi * std::pow(reach, 3));
     const double stencil = cost_of_stencil(std::numbers::pi * reach * reach, pencils);
     const auto here = [&](const LatticeFrame& frame) { return frame.body == bonds[b].body; };
-    const bool on_lattice = std::any_of(frames.begin(), frames.end(), here);
-    if (on_lattice) costs[b] = std::min(costs[b], stencil);
+    const bool by_stencil = stencil < list && std::any_of(frames.begin(), frames.end(), here);
+    costs.of_block.push_back(by_stencil ? stencil : list);
+    costs.by_stencils = costs.by_stencils || by_stencil;
   }
   return costs;
 }
