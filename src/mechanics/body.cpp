@@ -85,13 +85,12 @@ void set_shapes(Body& body) {
     }
   }
   for (const LatticeFamilies& lattice : body.domain.families.lattices) {
-    LatticeSums& sums = *body.lattice_sums.emplace_back(std::make_shared<LatticeSums>(body, lattice));
-    const int number = static_cast<int>(body.lattice_sums.size()) - 1;
-    sums.shapes(body.domain.sites.data(), [&](const LatticeSums::Chunk& chunk) {
+    const auto set = [&, number = static_cast<int>(body.lattice_sums.size())](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
         if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), inverses);
       }
-    });
+    };
+    body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, set));
   }
   body.shape_inverse = Repeated<Symmetric>(std::move(inverses));
 }

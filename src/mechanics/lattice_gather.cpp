@@ -86,29 +86,27 @@ void LatticeSums::gather_shape(int slot, int z) {
   std::copy_n(K, 9, to), std::copy_n(S, 3, to + 9), to[12] = W;
 }
 
-void LatticeSums::shapes(const Site* sites, const Take& take) {
-  const Displacements places{sites};
-  const auto volume = [&](const Cells& cells, const Put& put) { put(0, places.of(cells.of(sites)).volume); };
-  gather_pencils(1, shape_outputs, volume, &LatticeSums::gather_shape, take);
-}
-
 LaneTensor LatticeSums::Chunk::shapes(const Abreast& points) const { return OfGroup(*this, points).tensor(0); }
 
-void LatticeSums::set_constants(const Body& body) {
+// The constants come with the shapes.
+void LatticeSums::gather_shapes(const Body& body, const Take& take) {
   std::vector<Constants> constants(body.owned(), Constants::Zero());
-  shapes(body.domain.sites.data(), [&](const Chunk& chunk) {
+  const double length = lattice_->frame().horizon;
+  const auto set = [&](int i, const double* sums) {
+    const auto constant = [sums](int c) { return sums[(9 + c) * pencil_width]; };
+    const double W = constant(3);
+    // As round-off of their sums, and of alike families the same.
+    for (int c = 0; c < 4; ++c) constants[i][c] = rounded(constant(c), c < 3 ? W * length : W, 48);
+  };
+  const Displacements places{body.domain.sites.data()};
+  const auto volume = [&](const Cells& cells, const Put& put) { put(0, places.of(cells.of(places.sites)).volume); };
+  gather_pencils(1, shape_outputs, volume, &LatticeSums::gather_shape, [&](const Chunk& chunk) {
     for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
       const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
-      if (i < 0 || i >= body.owned()) continue;
-      for (int c = 0; c < 4; ++c) constants[i][c] = chunk.at(i)[(9 + c) * pencil_width];
+      if (i >= 0 && i < body.owned()) set(i, chunk.at(i));
     }
+    take(chunk);
   });
-  // As round-off of their sums, and of alike families the same.
-  const double length = lattice_->frame().horizon;
-  for (Constants& c : constants) {
-    if (!(c[3] > 0)) continue;
-    for (int k = 0; k < 4; ++k) c[k] = rounded(c[k], k < 3 ? c[3] * length : c[3], 48);
-  }
   constants_ = Repeated<Constants>(std::move(constants));
 }
 
@@ -159,12 +157,8 @@ struct MomentsOfPencil {
 template <int reach>
 void LatticeSums::sum_columns(int z, int y) {
   const int places = lattice_->shape()[0], plane = places * lattice_->shape()[1];
-  std::uint64_t* const columns = &column_bits_[static_cast<std::size_t>(y % ring_.rows) * words_];
-  std::fill_n(columns, words_, 0);
-  for (int dz = -far_z(); dz <= far_z(); ++dz) {
-    const std::uint64_t* filled = row_of(filled_, z + dz, y);
-    for (int w = 0; w < words_; ++w) columns[w] |= filled[w];
-  }
+  std::uint64_t* const columns = column_bits(y);
+  set_bits_near(filled_, z, y, columns);
   const int row = z * plane + y * places;
   for_each_bit(columns, words_, [&](int x) {
     const Pencil* here = source_at(row + x, z);
@@ -214,8 +208,8 @@ void LatticeSums::gather_row(int z, int y) {
     columns_near_[dx].clear();
     for (const Column& column : columns_[dx]) {
       const int beside = y + column.dy;
-      columns_near_[dx].push_back({ring_.row(beside, places) + of_a_column * column.kind,
-                                   &column_bits_[static_cast<std::size_t>(beside % ring_.rows) * words_], column.y});
+      columns_near_[dx].push_back(
+          {ring_.row(beside, places) + of_a_column * column.kind, column_bits(beside), column.y});
     }
   }
   const auto across = [&](int x) { return &across_[(x % 4) * of_columns * columns_.size()]; };

@@ -66,11 +66,7 @@ void LatticeSums::hand_over_row(int z, int y) {
       near_[dz].push_back({ring_.row(y + r.dy, places) + Sweep::columns * r.kind, r.dy * places, r.y});
     }
   }
-  std::fill(targets_.begin(), targets_.end(), 0);
-  for (int dz = -far_z(); dz <= far_z(); ++dz) {
-    const std::uint64_t* owned = row_of(owned_, z + dz, y);
-    for (int w = 0; w < words_; ++w) targets_[w] |= owned[w];
-  }
+  set_bits_near(owned_, z, y, targets_.data());
   const int row = (z * lattice_->shape()[1] + y) * places;
   for_each_bit(targets_.data(), words_, [&](int x) {
     for (int dz = 0; dz <= far_z(); ++dz) hand_over<Sweep>(row + x, z, dz, x * ring_.columns);

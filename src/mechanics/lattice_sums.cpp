@@ -8,7 +8,7 @@
 
 namespace strut {
 
-LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice) : lattice_(&lattice) {
+LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take) : lattice_(&lattice) {
   make_rows(body.influence);
   if (far_y() == 0 || far_z() == 0) throw std::logic_error("a stencil spans space");
   make_columns(body.influence);
@@ -18,7 +18,7 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice) : lat
   columns_near_.resize(columns_.size());
   targets_.resize(words_);
   nothing_.assign(residual_inputs, Pencil{});
-  set_constants(body);
+  gather_shapes(body, take);
 }
 
 // The place of a kind among some, to which it is added.
@@ -91,6 +91,15 @@ void LatticeSums::mark_places() {
   row_begins_[0] = 1;
   for (std::size_t row = 1; row < row_begins_.size(); ++row) {
     row_begins_[row] = std::max(row_begins_[row], row_begins_[row - 1]);
+  }
+}
+
+// Of the bits of a row those that are set in any plane that a stencil reaches from plane z.
+void LatticeSums::set_bits_near(const std::vector<std::uint64_t>& bits, int z, int y, std::uint64_t* row) const {
+  std::fill_n(row, words_, 0);
+  for (int dz = -far_z(); dz <= far_z(); ++dz) {
+    const std::uint64_t* there = row_of(bits, z + dz, y);
+    for (int w = 0; w < words_; ++w) row[w] |= there[w];
   }
 }
 

@@ -72,9 +72,6 @@ struct Displacements {
 
 class LatticeSums {
  public:
-  // Keeps a pointer to the lattice.
-  LatticeSums(const Body& body, const LatticeFamilies& lattice);
-
   // The sums of a sweep over the points in the slots begin … end − 1. They last as long as a Take of them.
   class Chunk {
    public:
@@ -120,9 +117,11 @@ class LatticeSums {
   };
   using Take = std::function<void(const Chunk&)>;
 
+  // Keeps a pointer to the lattice, and hands the shapes of all owned points to `take`.
+  LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take);
+
   // Each hands the sums of all owned points to `take`, some at a time, from fields that are current in ghosts too and
   // stay as they are meanwhile.
-  void shapes(const Site* sites, const Take& take);
   void moments(const Displacements& u, const Take& take);
   void squares(const Displacements& u, const Take& take);
   // `gradients`: F, or δF of a field, and C̄.
@@ -209,13 +208,14 @@ class LatticeSums {
   template <class Weight>
   Kind kind_of(int reach, double spacing, const Eigen::Array2d& aside, Weight weight) const;
   void mark_places();
-  void set_constants(const Body& body);
+  void gather_shapes(const Body& body, const Take& take);
   int far_z() const { return static_cast<int>(above_.size()) - 1; }
   int far_y() const { return lattice_->rows_across() / 2; }
   int slots_before(int z, int y) const { return row_begins_[static_cast<std::size_t>(z) * lattice_->shape()[1] + y]; }
   const std::uint64_t* row_of(const std::vector<std::uint64_t>& bits, int z, int y) const {
     return &bits[(static_cast<std::size_t>(z) * lattice_->shape()[1] + y) * words_];
   }
+  void set_bits_near(const std::vector<std::uint64_t>& bits, int z, int y, std::uint64_t* row) const;
   std::vector<Strip> strips(int pencils) const;
   template <class Fill>
   void pack(int slot, const Fill& fill, Pencil* to) const;
@@ -236,6 +236,7 @@ class LatticeSums {
   void gather_row(int z, int y);
   void gather_shape(int slot, int z);
   void gather_residuals(int slot, int z);
+  std::uint64_t* column_bits(int y) { return &column_bits_[static_cast<std::size_t>(y % ring_.rows) * words_]; }
   const Pencil* source_at(int place, int z) {
     const int slot = lattice_->slot_at(place);
     return slot == 0 ? nothing_.data() : sources_.of(z, slot);
