@@ -1,6 +1,7 @@
 // Exodus II in and out: the one door behind which exodusII.h is used. Calls with a Communicator are collective.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -23,8 +24,9 @@ namespace strut::io {
 // node that a hex8 or tet4 element uses, in the block that comes first in the file; ids count the file's nodes from 0.
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
+// `with_cells`: also shapes and joints of the points (cloud.hpp).
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
-                       PointsAt at = PointsAt::elements);
+                       PointsAt at = PointsAt::elements, bool with_cells = false);
 
 // Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);
@@ -72,6 +74,18 @@ std::optional<double> last_time_of_result(const std::filesystem::path& file);
 // Of HEX8, TET4 and SPHERE; throws Error for other types.
 int nodes_per_element(const std::string& type);
 
+// The material in an element that is only partly filled, or that has taken over what is in a neighbour.
+struct PartialCell {
+  double volume = 0;                        // m³
+  Vector centroid = Vector::Zero();         // m
+  Symmetric moments = Symmetric::Zero();    // central second moments per volume, m² (xx yy zz xy yz zx)
+  Vector surface = Vector::Zero();          // ∫ n dA over the material's surface, n outward, m²
+};
+// The names of the attributes in the file, in the order of the members.
+inline constexpr std::array<const char*, 13> partial_cell_attributes{
+    "volume",    "centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz",
+    "moment_xy", "moment_yz",  "moment_zx",  "surface_x",  "surface_y", "surface_z"};
+
 // A mesh as a tool makes it, for tools/ and tests.
 struct Mesh {
   std::vector<Vector> nodes;
@@ -80,6 +94,8 @@ struct Mesh {
     std::string type;             // "HEX8", "TET4" or "SPHERE"
     std::vector<int> nodes;       // 0-based, element by element
     std::vector<double> volumes;  // spheres only
+    // Of HEX8, or none: elements that are only partly filled with material (attributes of these names, see io/README.md).
+    std::vector<PartialCell> cells;
 
     std::size_t elements() const { return nodes.empty() ? 0 : nodes.size() / nodes_per_element(type); }
   };

@@ -15,6 +15,13 @@ enum class PointsAt { elements, nodes };
 // "element" or "node", for messages.
 constexpr const char* word(PointsAt at) { return at == PointsAt::nodes ? "node" : "element"; }
 
+// The part of a body that a point stands for, by integrals over it: what a point's volume alone does not tell.
+struct CellShape {
+  Vector offset = Vector::Zero();         // from the point to the centroid, m
+  Symmetric moments = Symmetric::Zero();  // central second moments per volume, m²: of a cube h²/12 (xx, yy, zz)
+  Vector surface = Vector::Zero();        // ∫ n dA over the body's surface that is the cell's, n outward, m²
+};
+
 struct PointCloud {
   // One entry a point.
   std::vector<std::int64_t> ids;          // 0-based place in the file's order: unique over all ranks
@@ -24,6 +31,11 @@ struct PointCloud {
   std::vector<double> spacings;           // m: the edge of a cube as large as the elements here (see io/README.md)
   std::vector<int> blocks;                // index into block_names
   std::vector<std::uint64_t> sets;        // bit k: the point is in node set set_names[k]
+  // Empty unless they were asked for, and where the file does not tell them (text):
+  std::vector<CellShape> shapes;
+  // What of the mesh a point shares with those it hangs together with: the nodes of an element, the elements around a
+  // node; ascending. Two points touch if they have one of these numbers in common.
+  std::vector<std::vector<std::int64_t>> joints;
 
   // The same on all ranks.
   PointsAt at = PointsAt::elements;

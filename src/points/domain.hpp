@@ -30,6 +30,9 @@ struct BlockBonds {
   bool in_spacings = false;
   int body;
   FamilyKind families = FamilyKind::fastest;
+  // Bonds run through material: a bond whose ends are not joined by points that touch (PointCloud::joints), all of them
+  // within the horizon of both ends, is left out. Needs joints, and lists. Of two blocks, one that asks is enough.
+  bool through_material = false;
 
   // δ of a point with this local spacing, m.
   double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }
