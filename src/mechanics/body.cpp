@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "mechanics/groups.hpp"
+#include "mechanics/quadratic_fit.hpp"
 #include "points/parallel.hpp"
 
 namespace strut {
@@ -20,16 +21,20 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
     block.points.push_back(i);
     if (i < domain.interior) ++block.interior;
   }
+  std::size_t cells = 0;
   for (MaterialBlock& block : blocks) {
     const auto fresh_state = [&block]<class L>(const L& law) {
       const auto columns = materials::to_columns<L>(materials::virgin_state_of(law));
-      for (const double value : columns) block.state.insert(block.state.end(), block.points.size(), value);
+      for (const double value : columns) block.state.insert(block.state.end(), block.law_points(), value);
     };
     std::visit(fresh_state, block.material.law);
     if (!block.points.empty() && !domain.families.lattice_of.empty()) {
       block.lattice = domain.families.lattice_of[block.points[0]];
     }
     if (block.is_ordinary()) block.ordinary.resize(block.points.size());
+    if (block.is_quadratic()) block.cells.resize(block.law_points());
+    block.first_law_point = cells;
+    cells += block.cells.size();
   }
   return blocks;
 }
@@ -43,6 +48,7 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   ForceStates states;
   if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::packed(Tensor::Zero(), 0));
   if (any(Formulation::ordinary)) states.scalars.resize(points);
+  if (any(Formulation::quadratic)) states.quadratics.resize(points);
   const bool with_gradients =
       std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) { return m.mean_stabilization > 0; });
   if (with_gradients) states.gradients.assign(points, bonds::packed(Tensor::Zero(), 0));
@@ -53,6 +59,7 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   MaterialPoint& point = body.points[block.points[k]];
   inverse = symmetric_part(K.inverse());
+  if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress
   if (block.lattice >= 0) {
     // Of alike families the same. It takes the gradient of displacements there, so this is as small beside strains.
     const double size = trace(inverse);
@@ -96,23 +103,27 @@ void set_shapes(Body& body) {
 }
 
 void set_what_blocks_feel(Body& body) {
-  if (body.force_states.scalars.empty()) {
+  const ForceStates& states = body.force_states;
+  if (states.scalars.empty() && states.quadratics.empty()) {
     for (MaterialBlock& block : body.blocks) block.feels_correspondence = true;
     return;
   }
-  std::vector<double> ordinary(body.domain.sites.size());
+  std::vector<double> formulations(body.domain.sites.size());
   for (const MaterialBlock& block : body.blocks) {
-    for (const int i : block.points) ordinary[i] = block.is_ordinary() ? 1 : 0;
+    for (const int i : block.points) formulations[i] = static_cast<double>(block.material.formulation);
   }
-  body.domain.halo.exchange(ordinary.data(), 1, 1);
+  body.domain.halo.exchange(formulations.data(), 1, 1);
   const Families& families = body.domain.families;
   for (MaterialBlock& block : body.blocks) {
-    const auto feel = [&block](bool is_ordinary) {
-      (is_ordinary ? block.feels_ordinary : block.feels_correspondence) = true;
+    const auto feel = [&block](double formulation) {
+      const auto is = [formulation](Formulation f) { return formulation == static_cast<double>(f); };
+      if (is(Formulation::ordinary)) block.feels_ordinary = true;
+      if (is(Formulation::quadratic)) block.feels_quadratic = true;
+      if (is(Formulation::correspondence)) block.feels_correspondence = true;
     };
-    feel(block.is_ordinary());
+    feel(static_cast<double>(block.material.formulation));
     if (block.lattice >= 0) continue;  // all of its body is by correspondence
-    for (const int i : block.points) families.for_each(i, [&](int j) { feel(ordinary[j] > 0); });
+    for (const int i : block.points) families.for_each(i, [&](int j) { feel(formulations[j]); });
   }
 }
 
@@ -126,6 +137,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .force_states = {},
             .points = {},
             .shape_inverse = {},
+            .fits = {},
             .density = {},
             .velocity = {},
             .previous_velocity = {},
@@ -147,11 +159,14 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.residual.assign(owned, 0);
   if (!body.force_states.gradients.empty()) body.mean_work.assign(owned, 0);
   for (MaterialBlock& block : body.blocks) {
-    if (block.is_ordinary() && block.lattice >= 0) throw std::logic_error("an ordinary block must ask for lists");
-    if (block.material.viscosity.any()) block.viscous.resize(block.points.size());
+    if (block.material.formulation != Formulation::correspondence && block.lattice >= 0) {
+      throw std::logic_error("a block that is not by correspondence must ask for lists");
+    }
+    if (block.material.viscosity.any()) block.viscous.resize(block.law_points());
   }
   set_shapes(body);
   set_what_blocks_feel(body);
+  if (!body.force_states.quadratics.empty()) body.fits = std::make_shared<const QuadraticFits>(body);
   return body;
 }
 
@@ -161,7 +176,8 @@ namespace {
 std::size_t seen_bytes(const Body& body) {
   return sizeof(Site) + (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
          (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
-         (body.force_states.gradients.empty() ? 0 : sizeof(ForceState));
+         (body.force_states.gradients.empty() ? 0 : sizeof(ForceState)) +
+         (body.force_states.quadratics.empty() ? 0 : sizeof(QuadraticState));
 }
 
 // What an owned point has besides.
@@ -169,9 +185,10 @@ std::size_t own_bytes(const MaterialBlock& block, bool has_mean_work) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
   constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
-  return mechanics + cloud + state * sizeof(double) + (has_mean_work ? sizeof(double) : 0) +
-         (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) +
-         (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
+  const std::size_t of_law_point = state * sizeof(double) + (block.is_quadratic() ? sizeof(MaterialPoint) : 0) +
+                                   (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
+  return mechanics + cloud + block.places_a_point() * of_law_point + (has_mean_work ? sizeof(double) : 0) +
+         (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) + (block.is_quadratic() ? sizeof(CellShape) : 0);
 }
 
 }  // namespace
@@ -182,6 +199,7 @@ double footprint(const Body& body) {
   for (const MaterialBlock& block : body.blocks)
     bytes += static_cast<double>(own_bytes(block, !body.mean_work.empty()) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
+  if (body.fits) bytes += body.fits->bytes();
   return bytes;
 }
 

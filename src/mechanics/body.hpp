@@ -27,7 +27,9 @@ enum class Influence { one, linear_decay, cubic_decay };
 //   correspondence: the family gives F, the law a stress, and the stress the force of each bond
 //   ordinary: the linear elastic solid of Silling et al. (2007), forces along the bonds; of the law only its moduli
 //   count
-enum class Formulation { correspondence, ordinary };
+//   quadratic: the family gives F and its gradient over the cell of the point, the law stresses at four places of the
+//   cell, and these the force of each bond (quadratic_fit.hpp)
+enum class Formulation { correspondence, ordinary, quadratic };
 
 // What the force of a bond reads of an end by correspondence: A = P K⁻¹ − C F (columns), and C in the fourth lane of
 // the first column.
@@ -40,6 +42,12 @@ struct alignas(16) ScalarState {
   double a = 0, b = 0;  // (3K − 5μ) θ/m; 15 μ/m; Pa/m⁵
 };
 
+// The same of an end by quadratic correspondence (quadratic_bonds.hpp): first and second force state, the part of the
+// consistency correction, and padding.
+struct alignas(64) QuadraticState {
+  double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, padding = 0;
+};
+
 // One entry a point, ghosts too, in every formulation that the scene has: zero where the point is of another, so that a
 // bond between any two is the sum over the formulations.
 struct ForceStates {
@@ -48,6 +56,7 @@ struct ForceStates {
   // F (columns), in the fourth lane of the first column C̄ and in that of the second the share of the step: what the
   // stabilisation by the mean gradient reads of an end. Empty where no block of the scene has it.
   std::vector<ForceState> gradients;
+  std::vector<QuadraticState> quadratics;
 };
 
 // What only the point itself reads.
@@ -102,11 +111,12 @@ struct MaterialBlock {
   BlockMaterial material;
   std::vector<int> points;              // owned points, ascending
   int interior = 0;                     // so many of them need no ghost
-  std::vector<double> state;            // state[column * points.size() + k] of points[k]
+  std::vector<double> state;            // state[column * law_points() + place] of a law point
+  std::vector<MaterialPoint> cells;     // law points of quadratic correspondence; of others body.points are these
   std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
-  std::vector<ViscousPoint> viscous;    // of points[k]; empty without viscosity
+  std::vector<ViscousPoint> viscous;    // of law points; empty without viscosity
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
-  bool feels_correspondence = false, feels_ordinary = false;
+  bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
   // Its body moves as a whole, without strain (undisturbed.hpp): there is nothing to compute.
   bool undisturbed = false;
@@ -114,17 +124,24 @@ struct MaterialBlock {
 
   int lattice = -1;  // in domain.families.lattices, where its points sit on one
 
-  double& state_at(std::size_t column, std::size_t k) { return state[column * points.size() + k]; }
+  std::size_t first_law_point = 0;  // of `cells`, among those of all blocks
+
+  // Law points: one a point, or four places of its cell. Those of the first place come first, in the order of points.
+  int places_a_point() const { return is_quadratic() ? 4 : 1; }
+  std::size_t law_points() const { return places_a_point() * points.size(); }
+  std::size_t place(std::size_t k, int q) const { return q * points.size() + k; }
+  double& state_at(std::size_t column, std::size_t place) { return state[column * law_points() + place]; }
   template <class L>
-  typename L::State state_of(std::size_t k) const {
-    return state_in<L>(state, points.size(), k);
+  typename L::State state_of(std::size_t place) const {
+    return state_in<L>(state, law_points(), place);
   }
-  // Of points[k] as it is now.
+  // Of points[k] as it is now, at its first place.
   materials::Moduli moduli(std::size_t k) const {
     return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(k)); }, material.law);
   }
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
+  bool is_quadratic() const { return material.formulation == Formulation::quadratic; }
   bool has_mean_gradient() const { return material.mean_stabilization > 0; }
   bool has_springs() const { return material.stabilization > 0; }
   // C of the springs of one of its points, which has none where it is stabilised by the mean gradient.
@@ -132,6 +149,7 @@ struct MaterialBlock {
 };
 
 class LatticeSums;
+class QuadraticFits;
 
 // 2ⁿ of a small n. A call of std::ldexp for each point would be a hundredth of a step.
 inline double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
@@ -146,6 +164,7 @@ struct Body {
   // Owned points.
   std::vector<MaterialPoint> points;
   Repeated<Symmetric> shape_inverse;      // K⁻¹, 1/m⁵
+  std::shared_ptr<const QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
   std::vector<double> density;            // kg/m³
   std::vector<Vector> velocity;           // at mid-step, m/s
   std::vector<Vector> previous_velocity;  // at the mid-step before, m/s
@@ -173,6 +192,10 @@ struct Body {
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
   Vector current(int i) const { return domain.current(i); }
+  // The law point of block.points[k] at the place q.
+  const MaterialPoint& law_point(const MaterialBlock& block, std::size_t k, int q) const {
+    return block.is_quadratic() ? block.cells[block.place(k, q)] : points[block.points[k]];
+  }
   Vector displacement(int i) const { return current(i) - domain.reference(i); }
 };
 

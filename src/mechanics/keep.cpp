@@ -50,22 +50,37 @@ void keep_points(Archive& archive, Body& body) {
     keep_numbers(archive, "mean_work", body.mean_work);
 }
 
+// The law points of quadratic correspondence.
+void keep_cells(Archive& archive, MaterialBlock& block) {
+  const int places = block.places_a_point();
+  const auto field = [&](const std::string& name, int width, const auto& number) {
+    archive.field("cell_" + name, width * places, [&block, width, number](std::size_t k, int c) -> double& {
+      return number(block.cells[block.place(k, c / width)], c % width);
+    });
+  };
+  field("deformation_gradient", 9, [](MaterialPoint& p, int c) -> double& { return p.deformation_gradient.data()[c]; });
+  field("rotation", 6, [](MaterialPoint& p, int c) -> double& { return p.rotation.number(c); });
+  field("stress", 6, [](MaterialPoint& p, int c) -> double& { return p.stress.data()[c]; });
+}
+
 void keep_block(Archive& archive, const Body& body, std::size_t number, MaterialBlock& block) {
   archive.points("block " + std::to_string(number) + " (" + block.name + ")", ids_of(body, block.points));
-  const std::size_t size = block.points.size();
+  const int places = block.places_a_point();
   const int columns =
       std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
   if (columns > 0) {
-    archive.field("state", columns, [&](std::size_t k, int c) -> double& { return block.state[c * size + k]; });
+    archive.field("state", columns * places,
+                  [&](std::size_t k, int c) -> double& { return block.state_at(c / places, block.place(k, c % places)); });
   }
+  if (block.is_quadratic()) keep_cells(archive, block);
   if (block.is_ordinary()) {
     archive.field("dilatation", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].dilatation; });
     archive.field("energy", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].energy; });
   }
   if (block.material.viscosity.any()) {
-    archive.field("viscosity", 3, [&](std::size_t k, int c) -> double& {
-      ViscousPoint& point = block.viscous[k];
-      return c == 0 ? point.pressure : c == 1 ? point.work : point.damping;
+    archive.field("viscosity", 3 * places, [&](std::size_t k, int c) -> double& {
+      ViscousPoint& point = block.viscous[block.place(k, c / 3)];
+      return c % 3 == 0 ? point.pressure : c % 3 == 1 ? point.work : point.damping;
     });
   }
 }

@@ -6,6 +6,7 @@
 
 #include "base/timing.hpp"
 #include "mechanics/ordinary_bonds.hpp"
+#include "mechanics/quadratic_cell.hpp"
 #include "mechanics/stress.hpp"
 #include "mechanics/tangent.hpp"
 
@@ -159,6 +160,25 @@ struct ForceSum {
     }
   }
 
+  void quadratic(Part part) const {
+    for (const MaterialBlock& block : body.blocks) {
+      if (!is_due(block, bodies) || !block.feels_quadratic) continue;
+      const Begun begun = block.feels_correspondence || block.feels_ordinary ? Begun::sum : Begun::nothing;
+      over_groups(body, Groups(body, block, part), [&](const Group& group, auto weight) {
+        const bonds::OfBundle family{*group.bundle};
+        add(group,
+            bonds::quadratic_far_force(family, body.domain.sites.data(), body.fits->multipliers(),
+                                       states.quadratics.data(), weight),
+            begun);
+        if (!block.is_quadratic()) return;
+        for (int l = 0; l < group.count; ++l) {
+          const int i = group.i[l];
+          result[i] += bonds::quadratic_own_force(states.quadratics[i], (*body.fits)[i]);
+        }
+      });
+    }
+  }
+
  private:
   enum class Begun { nothing, sum, pull };  // what `result` holds so far
 
@@ -188,23 +208,57 @@ void add_up(Halo& halo, const ForceSum<ExtensionOf>& sum, const Timed& timed) {
   };
   behind(sum.states.tensors, &ForceSum<ExtensionOf>::correspondence);
   behind(sum.states.scalars, &ForceSum<ExtensionOf>::ordinary);
+  behind(sum.states.quadratics, &ForceSum<ExtensionOf>::quadratic);
 }
 
-// The force state of the tangent at one point, for δF: δP = J C:sym(δF F⁻¹) F⁻ᵀ. A point that is stepped alone by a
+// δP at a law point, for δF: J C:sym(δF F⁻¹) F⁻ᵀ.
+Tensor elastic_change(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF) {
+  const Tensor inverse_F = point.deformation_gradient.inverse();
+  const Symmetric D = symmetric_part(dF * inverse_F);
+  const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
+  return point.deformation_gradient.determinant() * to_tensor(stress) * inverse_F.transpose();
+}
+
+// The force state of the tangent at one point, for δF. A point that is stepped alone by a
 // `share` of the step is as stiff to it as one of share² the stiffness is to the whole. C: of its springs.
 ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
                          const materials::Moduli& moduli, const Tensor& dF, double share) {
-  const Tensor inverse_F = point.deformation_gradient.inverse();
-  const double J = point.deformation_gradient.determinant();
-  const Symmetric D = symmetric_part(dF * inverse_F);
-  const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
-  const Tensor A = J * to_tensor(stress) * inverse_F.transpose() * to_tensor(shape_inverse) - C * dF;
+  const Tensor A = elastic_change(point, moduli, dF) * to_tensor(shape_inverse) - C * dF;
   return bonds::packed(share * share * A, share * share * C);
 }
 
 // The same with ∂P/∂F as it is.
 ForceState tangent_state(const Symmetric& shape_inverse, double C, const PointTangent& tangent, const Tensor& dF) {
   return bonds::packed(tangent.times(dF) * to_tensor(shape_inverse) - C * dF, C);
+}
+
+// The moduli of a law point as it is now.
+materials::Moduli moduli_at(const MaterialBlock& block, std::size_t place) {
+  return std::visit(
+      [&]<class L>(const L& law) { return materials::moduli_of(law, block.state_of<L>(place)); }, block.material.law);
+}
+
+// The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
+template <class Weight>
+void set_tangent_cells(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
+                       Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
+  QuadraticCells cells(group, *body.fits, body.domain.sites);
+  cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, field, body.fits->multipliers(), weight));
+  for (int q = 0; q < 4; ++q) {
+    const small::Tensor3<Lanes> dF = cells.gradient_at(q);
+    small::Tensor3<Lanes> dP = bonds::zero_tensor<Lanes>();
+    for (int l = 0; l < group.count; ++l) {
+      const std::size_t place = block.place(group.k[l], q);
+      const Tensor change = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(at(dF, l))
+                                     : elastic_change(block.cells[place], moduli_at(block, place), at(dF, l));
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) dP.c[r][c][l] = change(r, c);
+      }
+    }
+    cells.add_stress(q, dP);
+  }
+  const Lanes share = small::lanes_of([&](int l) { return body.share(group.i[l]) * body.share(group.i[l]); });
+  cells.store(group, share, result);
 }
 
 // δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.
@@ -235,6 +289,9 @@ void set_tangent_states(const Body& body, const Displacements& field, const std:
                         Part part, ForceStates& result, std::vector<Vector>& pulls) {
   const auto set = [&](const MaterialBlock& block, const Group& group, auto weight) {
     if (block.is_ordinary()) return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
+    if (block.is_quadratic()) {
+      return set_tangent_cells(body, block, group, field.sites, weight, tangents, result.quadratics);
+    }
     const auto dN = moments(group, field, weight, &pulls);
     for (int l = 0; l < group.count; ++l) set_tangent_state(body, block, group.k[l], at(dN, l), tangents, result);
   };
@@ -255,9 +312,11 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
   const Displacements u{body.domain.sites.data()};
   const auto advance = [&](MaterialBlock& block, const Groups& groups) {
     if (block.is_ordinary()) return advance_ordinary(body, block, with_views, groups, report);
+    if (block.is_quadratic()) return advance_quadratic(body, block, pass, groups, report);
     advance_stress(body, block, pass, groups, report);
   };
   const auto view = [&](const MaterialBlock& block, const Groups& groups) {
+    if (block.is_quadratic()) view_cells(body, block, groups);
     if (!block.is_ordinary()) view_residuals(body, groups);
   };
   const auto over = [&](Part part) {
@@ -325,8 +384,25 @@ double largest_pace(const Body& body, const MaterialBlock& block) {
   return largest(0, static_cast<int>(block.points.size()), 0, of_point);
 }
 
+namespace {
+
+double pace_of_cell(const Body& body, const MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  double fastest2 = 0;
+  for (int q = 0; q < block.places_a_point(); ++q) {
+    const std::size_t place = block.place(k, q);
+    const Tensor& F = block.cells[place].deformation_gradient;
+    const double speed2 = moduli_at(block, place).longitudinal() / (3 * body.density[i]);
+    fastest2 = std::max(fastest2, speed2 * F.determinant() * F.inverse().squaredNorm());
+  }
+  return std::sqrt(fastest2 * body.domain.volume(i) * (*body.fits)[i].steepness);
+}
+
+}  // namespace
+
 double pace(const Body& body, const MaterialBlock& block, int k) {
   const int i = block.points[k];
+  if (block.is_quadratic()) return pace_of_cell(body, block, k);
   const MaterialPoint& point = body.points[i];
   const Tensor& F = point.deformation_gradient;
   const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
@@ -355,14 +431,16 @@ namespace {
 
 template <class L>
 void add_energies(const Body& body, const MaterialBlock& block, const L& law, Energies& sum) {
+  const int places = block.places_a_point();
   for (std::size_t k = 0; k < block.points.size(); ++k) {
-    const int i = block.points[k];
-    const double volume = body.domain.volume(i);
-    const double J = body.points[i].deformation_gradient.determinant();
-    const auto state = block.state_of<L>(k);
-    sum.elastic += J * law.elastic_energy(body.points[i].stress, state) * volume;
-    sum.dissipated += law.dissipation(state) * volume;
-    if (!block.viscous.empty()) sum.dissipated += block.viscous[k].work * volume;
+    const double volume = body.domain.volume(block.points[k]) / places;
+    for (int q = 0; q < places; ++q) {
+      const MaterialPoint& point = body.law_point(block, k, q);
+      const auto state = block.state_of<L>(block.place(k, q));
+      sum.elastic += point.deformation_gradient.determinant() * law.elastic_energy(point.stress, state) * volume;
+      sum.dissipated += law.dissipation(state) * volume;
+      if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work * volume;
+    }
   }
 }
 

@@ -132,13 +132,18 @@ Observable state_variable(const std::string& name) {
       const auto copy = [&]<class L>(const L&) {
         const auto at = std::find(L::state_names.begin(), L::state_names.end(), name);
         if (at == L::state_names.end()) return;
-        const double* column = block.state.data() + (at - L::state_names.begin()) * block.points.size();
-        for (std::size_t k = 0; k < block.points.size(); ++k) out[block.points[k]] = column[k];
+        const double* column = block.state.data() + (at - L::state_names.begin()) * block.law_points();
+        const int places = block.places_a_point();
+        for (std::size_t k = 0; k < block.points.size(); ++k) {
+          double sum = 0;
+          for (int q = 0; q < places; ++q) sum += column[block.place(k, q)];
+          out[block.points[k]] = sum / places;
+        }
       };
       std::visit(copy, block.material.law);
     }
   };
-  return {name, 1, false, "state of the material law", fill};
+  return {name, 1, false, "state of the material law; by quadratic correspondence the mean over the cell", fill};
 }
 
 std::vector<std::string> names_of(const std::vector<Observable>& all, const std::vector<std::string>& prefixes) {

@@ -26,7 +26,8 @@ class WorstFailure {
   std::int64_t code_ = none;
 };
 
-// Of a block by correspondence (stress.cpp), and of an ordinary one (ordinary.cpp).
+// Of a block by correspondence (stress.cpp), by quadratic correspondence (quadratic_stress.cpp), and of an ordinary one
+// (ordinary.cpp).
 //   dt: of a step that is halved `order` times
 //   of_any_size: the step may turn a point far; its rotation is found to round-off
 struct StressPass {
@@ -35,7 +36,15 @@ struct StressPass {
   bool of_any_size = false;
 };
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups, StepReport& report);
+void advance_quadratic(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups,
+                       StepReport& report);
 void advance_ordinary(Body& body, MaterialBlock& block, bool with_views, const Groups& groups, StepReport& report);
+
+// By quadratic correspondence: F and R of each point, and its stress, from those of its cell.
+void view_cells(Body& body, const MaterialBlock& block, const Groups& groups);
+
+// The largest damping by viscosity of the points of a whole step.
+void add_damping(const MaterialBlock& block, const StressPass& pass, const Groups& groups, StepReport& report);
 
 // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F; on a lattice from its squares.
 void view_residuals(Body& body, const Groups& groups);

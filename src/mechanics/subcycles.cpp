@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mechanics/quadratic_bonds.hpp"
 #include "mechanics/stress.hpp"
 
 namespace strut {
@@ -167,20 +168,29 @@ std::vector<std::uint8_t> motions_of(const Body& body, const std::vector<std::ui
   return motions;
 }
 
+void scale(QuadraticState& state, double factor) {
+  double* numbers = state.first;
+  for (std::size_t n = 0; n < sizeof(QuadraticState) / sizeof(double); ++n) numbers[n] *= factor;
+}
+
 // Half of the impulse belongs to the interval before, half to the one after.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
   over_points(body, [&](int i, bool) {
     const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
     if (share == old_share) return;
     const double mean = 0.5 * (old_share + share);
-    for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
+    if (!body.force_states.tensors.empty()) {
+      for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
+    }
+    if (!body.force_states.quadratics.empty()) scale(body.force_states.quadratics[i], mean / old_share);
     if (body.has_mean_gradient(i)) body.force_states.gradients[i].column[1][3] = mean;
   });
 }
 
-void exchange_states(Halo& halo, std::vector<ForceState>& states) {
-  constexpr int width = sizeof(ForceState) / sizeof(double);
-  halo.exchange(states.data()->column[0].data(), width, width);
+template <class State>
+void exchange_states(Halo& halo, std::vector<State>& states) {
+  constexpr int width = sizeof(State) / sizeof(double);
+  if (!states.empty()) halo.exchange(reinterpret_cast<double*>(states.data()), width, width);
 }
 
 // The pull of the points' own springs, Σ ω V (y_j − y_i), put in force_density until the forces are summed up.
@@ -192,6 +202,39 @@ void keep_pulls(Body& body, const Groups& groups) {
       for (int l = 0; l < group.count; ++l) body.force_density[group.i[l]] = small::at(pull, l);
     });
   });
+}
+
+// What the far ends of the bonds of a bundle give to the forces on its points.
+template <class Weight>
+small::Vector3<small::Lanes> far_force(const Body& body, const bonds::OfBundle& family, Weight weight) {
+  const ForceStates& states = body.force_states;
+  const Site* sites = body.domain.sites.data();
+  small::Vector3<small::Lanes> sum = bonds::zero_vector<small::Lanes>();
+  const auto add = [&sum](const small::Vector3<small::Lanes>& force) {
+    for (int c = 0; c < 3; ++c) sum.c[c] += force.c[c];
+  };
+  if (!states.tensors.empty()) {
+    const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(),
+                                             small::Lanes::Zero()};
+    add(bonds::force<true>(family, sites, states.tensors.data(), none, weight));
+  }
+  if (!states.quadratics.empty()) {
+    add(bonds::quadratic_far_force(family, sites, body.fits->multipliers(), states.quadratics.data(), weight));
+  }
+  return sum;
+}
+
+// What a point that is due gives to the force on itself. `moment`: Σ ω V ξ. force_density: of its stabilisation.
+Vector own_force(const Body& body, int i, const Vector& moment) {
+  if (body.blocks[body.domain.cloud.blocks[i]].is_quadratic()) {
+    return bonds::quadratic_own_force(body.force_states.quadratics[i], (*body.fits)[i]);
+  }
+  const ForceState& own = body.force_states.tensors[i];
+  Vector sum = Vector::Zero();
+  for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
+  if (body.has_mean_gradient(i)) sum += body.force_density[i];
+  if (own.column[0][3] > 0) sum += own.column[0][3] * body.force_density[i];
+  return sum;
 }
 
 // Global ids of owned points and ghosts.
@@ -298,28 +341,26 @@ StepReport Subcycles::forces(Body& body, int order, double dt) {
     MaterialBlock& block = body.blocks[b];
     if (block.undisturbed || now.stressed[b].places.empty()) continue;
     const Groups groups(block, now.stressed[b]);
-    advance_stress(body, block, {dt, order}, groups, report);
+    if (block.is_quadratic()) {
+      advance_quadratic(body, block, {dt, order}, groups, report);
+    } else {
+      advance_stress(body, block, {dt, order}, groups, report);
+    }
     if (block.has_springs()) keep_pulls(body, groups);
   }
   add_residuals(body, now, order);
-  std::vector<ForceState>& states = body.force_states.tensors;
-  exchange_states(now.halo, states);
+  exchange_states(now.halo, body.force_states.tensors);
+  exchange_states(now.halo, body.force_states.quadratics);
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, now.sources.count(), [&, weight](int b) {
       const bonds::OfBundle family{now.sources[b]};
-      const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(),
-                                               small::Lanes::Zero()};
-      const auto far = bonds::force<true>(family, body.domain.sites.data(), states.data(), none, weight);
+      const small::Vector3<small::Lanes> far = far_force(body, family, weight);
       for (int l = 0; l < static_cast<int>(family.bundle.points.size()); ++l) {
         const int i = family.bundle.points[l];
         if (is_undisturbed(body, i)) continue;  // its force is zero, and its states are not kept
         Vector sum = at(far, l);
         if (body.halvings[i] >= order) {
-          const ForceState& own = states[i];
-          const Vector& moment = now.first_moments[static_cast<std::size_t>(b) * Bundle::width + l];
-          for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
-          if (body.has_mean_gradient(i)) sum += body.force_density[i];
-          if (own.column[0][3] > 0) sum += own.column[0][3] * body.force_density[i];
+          sum += own_force(body, i, now.first_moments[static_cast<std::size_t>(b) * Bundle::width + l]);
         }
         body.force_density[i] = sum;
       }

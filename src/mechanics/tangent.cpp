@@ -9,8 +9,10 @@ void Committed::take(const Body& body) {
   places_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) places_[i] = body.domain.sites[i].current;
   points_ = body.points;
-  states_.clear(), viscous_.clear();
-  for (const MaterialBlock& block : body.blocks) states_.push_back(block.state), viscous_.push_back(block.viscous);
+  states_.clear(), viscous_.clear(), cells_.clear();
+  for (const MaterialBlock& block : body.blocks) {
+    states_.push_back(block.state), viscous_.push_back(block.viscous), cells_.push_back(block.cells);
+  }
 }
 
 void Committed::restore(Body& body) const {
@@ -21,7 +23,7 @@ void Committed::restore(Body& body) const {
 void Committed::restore_materials(Body& body) const {
   body.points = points_;
   for (std::size_t b = 0; b < states_.size(); ++b) {
-    body.blocks[b].state = states_[b], body.blocks[b].viscous = viscous_[b];
+    body.blocks[b].state = states_[b], body.blocks[b].viscous = viscous_[b], body.blocks[b].cells = cells_[b];
   }
 }
 
@@ -82,16 +84,30 @@ materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, con
 }  // namespace
 
 std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt) {
-  std::vector<PointTangent> tangents(body.owned(), {Eigen::Matrix<double, 9, 9>::Zero()});
+  std::size_t cells = 0;
+  for (const MaterialBlock& block : body.blocks) cells += block.cells.size();
+  std::vector<PointTangent> tangents(body.owned() + cells, {Eigen::Matrix<double, 9, 9>::Zero()});
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     if (block.is_ordinary()) continue;
     const auto of_block = [&]<class L>(const L& law) {
+      const auto at_place = [&](std::size_t place, const MaterialPoint& old, const MaterialPoint& now) {
+        const auto state = state_in<L>(start.state(b), block.law_points(), place);
+        return point_tangent(now, by_stretch(law, old, now, dt, state));
+      };
       for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
         if (!(block.moduli(k).longitudinal() > 0)) return;
         const int i = block.points[k];
-        const auto state = state_in<L>(start.state(b), block.points.size(), k);
-        tangents[i] = point_tangent(body.points[i], by_stretch(law, start.point(i), body.points[i], dt, state));
+        if (!block.is_quadratic()) {
+          tangents[i] = at_place(k, start.point(i), body.points[i]);
+          return;
+        }
+        for (int q = 0; q < block.places_a_point(); ++q) {
+          const std::size_t place = block.place(k, q);
+          PointTangent& tangent = tangents[body.owned() + block.first_law_point + place];
+          tangent = at_place(place, start.cell(b, place), block.cells[place]);
+          tangents[i].by_gradient += tangent.by_gradient / block.places_a_point();
+        }
       });
     };
     std::visit(of_block, block.material.law);

@@ -17,6 +17,7 @@ class Committed {
   void restore_materials(Body& body) const;  // all but the places: what a trial of other places starts from
 
   const MaterialPoint& point(int i) const { return points_[i]; }
+  const MaterialPoint& cell(std::size_t block, std::size_t place) const { return cells_[block][place]; }
   const std::vector<double>& state(std::size_t block) const { return states_[block]; }
   Vector place(int i) const { return places_[i].head<3>().matrix(); }
 
@@ -24,6 +25,7 @@ class Committed {
   std::vector<Eigen::Array4d> places_;
   std::vector<MaterialPoint> points_;
   std::vector<std::vector<double>> states_;  // of blocks
+  std::vector<std::vector<MaterialPoint>> cells_;
   std::vector<std::vector<ViscousPoint>> viscous_;
 };
 
@@ -43,7 +45,8 @@ struct PointTangent {
 // F = R U, P = J R σ U⁻¹ (mechanics' README) and σ of U alone, where σ is unrotated; δF = R (δΩ U + δU) gives
 //   [(tr U) I − U] δω = axial(Rᵀ δF − (Rᵀ δF)ᵀ),  δΩ = [δω×],
 //   δP = R [ δΩ Q + tr(U⁻¹ δU) Q + J (∂σ/∂U : δU) U⁻¹ − Q δU U⁻¹ ],  Q = J σ U⁻¹.
-// Of ordinary points and failed ones: zero.
+// Of ordinary points and failed ones: zero. By quadratic correspondence the mean over the cell; after the points follow
+// the law points of the cells, that of block.cells[p] at owned + block.first_law_point + p.
 std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt);
 
 }  // namespace strut

@@ -20,6 +20,7 @@ struct CellShape {
   Vector offset = Vector::Zero();         // from the point to the centroid, m
   Symmetric moments = Symmetric::Zero();  // central second moments per volume, m²: of a cube h²/12 (xx, yy, zz)
   Vector surface = Vector::Zero();        // ∫ n dA over the body's surface that is the cell's, n outward, m²
+  Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − X) dA over it, X the point, m³
 };
 
 struct PointCloud {

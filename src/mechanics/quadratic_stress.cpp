@@ -1,0 +1,126 @@
+// By quadratic correspondence, from the places of the points to the states of their bonds: F at four places of each
+// cell, rotation, law and first Piola–Kirchhoff stress there.
+#include "mechanics/law_points.hpp"
+#include "mechanics/quadratic_cell.hpp"
+
+namespace strut {
+
+namespace {
+
+// All that the update of one block needs.
+template <class L, class Weight>
+struct Update {
+  LawUpdate<L> law;
+  Weight weight;
+
+  Body& body() const { return law.body; }
+  MaterialBlock& block() const { return law.block; }
+
+  LawPoints places(const Group& group, int q) const {
+    LawPoints g{{}, {}, group};
+    for (int l = 0; l < Group::width; ++l) {
+      g.places[l] = static_cast<int>(block().place(group.k[l], q));
+      g.points[l] = &block().cells[g.places[l]];
+    }
+    return g;
+  }
+
+  // The largest pace² of the points of a group.
+  double advance(const Group& group) const {
+    const std::vector<Site>& sites = body().domain.sites;
+    QuadraticCells cells(group, *body().fits, sites);
+    cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body().fits->multipliers(), weight));
+    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
+    const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
+    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
+    for (int q = 0; q < 4; ++q) {
+      const LawPoints g = places(group, q);
+      LaneTensor F = cells.gradient_at(q);
+      for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
+      const Deformed now = law.advance(g, F, share);
+      LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
+      for (int l = 0; l < group.count; ++l) {
+        if (now.J[l] > 0 && now.stiffness[l] > 0) {
+          law.store(g, l, now);
+          continue;
+        }
+        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // failed, or NaN
+        if (!(now.J[l] > 0)) determinant[l] = now.J[l];
+      }
+      cells.add_stress(q, P);
+      speed2 = speed2.max(squared_speed(now));
+    }
+    cells.store(group, share, body().force_states.quadratics);
+    return report(group, determinant, share * share * cells.volume() * cells.steepness() * speed2);
+  }
+
+ private:
+  // Reports points that are turned inside out at a place, and returns the largest pace² of the others.
+  double report(const Group& group, const Lanes& determinant, const Lanes& pace2) const {
+    double fastest = 0;
+    for (int l = 0; l < group.count; ++l) {
+      if (determinant[l] > 0) {
+        fastest = std::max(fastest, pace2[l]);
+      } else {
+        const bool is_number = !std::isnan(determinant[l]);
+        law.failure.report(group.k[l], is_number ? Failure::Kind::inverted : Failure::Kind::not_finite);
+        body().force_states.quadratics[group.i[l]] = {};
+      }
+    }
+    return fastest;
+  }
+};
+
+template <class L, class Weight>
+void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, const StressPass& pass,
+                    const Groups& groups, StepReport& report) {
+  WorstFailure failure;
+  const Update<L, Weight> update{{body, block, law, pass, failure}, weight};
+  const auto advance_group = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };
+  const double fastest = largest(0, groups.count(), 0, advance_group);
+  report.pace = std::max(report.pace, std::sqrt(fastest));
+  add_damping(block, pass, groups, report);
+  take_worse(failure.found(block), report.failure);
+}
+
+// What a look at the body shows of a cell: F and R in its middle, and the mean of the stresses.
+void view_cell(Body& body, const MaterialBlock& block, int k, const Tensor& F) {
+  MaterialPoint& point = body.points[block.points[k]];
+  point.deformation_gradient = F;
+  const Tensor R = F.determinant() > 0 ? polar_rotation(F) : Tensor::Identity();
+  point.rotation = Rotation(R);
+  Tensor stress = Tensor::Zero();
+  for (int q = 0; q < 4; ++q) {
+    const MaterialPoint& there = block.cells[block.place(k, q)];
+    const Tensor turned = R.transpose() * there.rotation.tensor();
+    stress += 0.25 * turned * to_tensor(there.stress) * turned.transpose();
+  }
+  point.stress = symmetric_part(stress);
+}
+
+}  // namespace
+
+void advance_quadratic(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups,
+                       StepReport& report) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    std::visit([&](const auto& law) { advance_points(body, block, law, weight, pass, groups, report); },
+               block.material.law);
+  });
+}
+
+void view_cells(Body& body, const MaterialBlock& block, const Groups& groups) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const Group group = groups[g];
+      const std::vector<Site>& sites = body.domain.sites;
+      QuadraticCells cells(group, *body.fits, sites);
+      cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body.fits->multipliers(), weight));
+      for (int l = 0; l < group.count; ++l) {
+        const bool carries = (*body.fits)[group.i[l]].carries_stress();
+        view_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));
+      }
+    });
+  });
+}
+
+}  // namespace strut
