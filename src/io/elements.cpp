@@ -109,7 +109,7 @@ Integrals& Integrals::operator+=(const Integrals& other) {
   return *this;
 }
 
-CellShape shape_of(const Integrals& integrals) {
+CellShape cell_shape(const Integrals& integrals) {
   CellShape shape;
   shape.offset = integrals.first / integrals.volume;
   shape.moments = integrals.second / integrals.volume - squared(shape.offset);
@@ -117,7 +117,7 @@ CellShape shape_of(const Integrals& integrals) {
 }
 
 Symmetric hexahedron_moments(std::span<const Vector, 8> nodes) {
-  return shape_of(over_cube(Vector::Zero(), 1, nodes, hexahedron(nodes).centroid)).moments;
+  return cell_shape(over_cube(Vector::Zero(), 1, nodes, hexahedron(nodes).centroid)).moments;
 }
 
 // Of any simplex: Σ (x_node − x̄)⊗(x_node − x̄) / ((d + 1)(d + 2)) with d = 3.

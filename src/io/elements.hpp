@@ -31,7 +31,7 @@ struct Integrals {
   Integrals& operator+=(const Integrals& other);
 };
 // The centroid, from O, and the central second moments per volume.
-CellShape shape_of(const Integrals& integrals);
+CellShape cell_shape(const Integrals& integrals);
 
 // Exact, about the element's centroid.
 Symmetric hexahedron_moments(std::span<const Vector, 8> nodes);

@@ -90,7 +90,7 @@ class Cells {
   double volume(std::size_t node) const { return integrals_[node].volume; }
 
   void give(std::size_t node, PointCloud& cloud) {
-    cloud.shapes.push_back(shape_of(integrals_[node]));
+    cloud.shapes.push_back(cell_shape(integrals_[node]));
     cloud.shapes.back().surface = surface_[node];
     cloud.joints.push_back(std::move(joints_[node]));
   }
