@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "io/elements.hpp"
@@ -44,21 +45,20 @@ bool is_of_a_body(const Symmetric& moments) {
 }
 
 void check_cell(const PartialCell& cell, const Mesh::Block& block, std::size_t number, const std::string& file) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(file + ": block '" + block.name + "', element " + std::to_string(number) +
-                ", attributes of its cell: " + what);
-  };
+  std::ostringstream problem;
   if (!(cell.volume > 0) || !std::isfinite(cell.volume)) {
-    fail("volume " + std::to_string(cell.volume) + " m³, expected a positive one");
+    problem << "volume " << cell.volume << " m³, expected a positive one";
+  } else if (!cell.centroid.allFinite() || !cell.surface.allFinite()) {
+    problem << "centroid (" << cell.centroid.transpose() << ") m and surface (" << cell.surface.transpose()
+            << ") m², expected finite numbers";
+  } else if (!is_of_a_body(cell.moments)) {
+    problem << "moments xx yy zz xy yz zx (" << cell.moments.transpose()
+            << ") m², which no body has: expected xx, yy and zz > 0, xy² ≤ xx·yy and so on";
+  } else {
+    return;
   }
-  if (!cell.centroid.allFinite() || !cell.surface.allFinite()) {
-    fail("a coordinate of the centroid or the surface is not a finite number");
-  }
-  if (!is_of_a_body(cell.moments)) {
-    fail(
-        "moments that no body has, expected positive moment_xx, moment_yy and moment_zz (m²) and no moment_xy, "
-        "moment_yz or moment_zx larger than the two that it goes with");
-  }
+  throw Error(file + ": block '" + block.name + "', element " + std::to_string(number) +
+              ", attributes of its cell: " + problem.str());
 }
 
 // The whole mesh as one cloud.

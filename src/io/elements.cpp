@@ -74,8 +74,8 @@ ElementPoint hexahedron(std::span<const Vector, 8> nodes) {
   for (const auto& g : corner) {
     const GaussPoint at = gauss_point(g, nodes);
     point.volume += at.weight;
-    point.centroid +=
-        at.weight * (position(at, nodes) - nodes[0]);  // about a corner: far from the origin nothing cancels
+    // About a corner: far from the origin nothing cancels.
+    point.centroid += at.weight * (position(at, nodes) - nodes[0]);
   }
   point.centroid = nodes[0] + point.centroid / point.volume;
   return point;

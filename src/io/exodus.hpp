@@ -96,8 +96,7 @@ struct Mesh {
     std::string type;             // "HEX8", "TET4" or "SPHERE"
     std::vector<int> nodes;       // 0-based, element by element
     std::vector<double> volumes;  // spheres only
-    // Of HEX8, or none: elements that are only partly filled with material (attributes of these names, see
-    // io/README.md).
+    // Of HEX8, or none: elements that are only partly filled with material; attributes in the file (io/README.md).
     std::vector<PartialCell> cells;
 
     std::size_t elements() const { return nodes.empty() ? 0 : nodes.size() / nodes_per_element(type); }

@@ -274,7 +274,8 @@ struct Porous {
   double filled;   // the part of the cells that is there
   double horizon;  // spacings; of the upper block 0.8 of it
   bool lower_asks, upper_asks;
-  int separate = 0;  // body of the upper block
+  int separate = 0;    // body of the upper block
+  double stretch = 1;  // of the cells along y
 };
 
 std::ostream& operator<<(std::ostream& out, const Porous& c) {
@@ -304,7 +305,7 @@ PointCloud whole_cloud(const Porous& c) {
         const double spacing = 0.9 + 0.2 * any(random);
         if (any(random) > c.filled) continue;
         cloud.ids.push_back(static_cast<Id>(cloud.ids.size()));
-        cloud.positions.push_back(Vector(i, j, k) + shift);
+        cloud.positions.push_back(Vector(i, c.stretch * j, k) + shift);
         cloud.spacings.push_back(spacing);
         cloud.blocks.push_back(k < 4 ? 0 : 1);
         cloud.joints.push_back(corners_of(i, j, k));
@@ -425,7 +426,8 @@ INSTANTIATE_TEST_SUITE_P(Points, PorousDomain,
                          testing::Values(Porous{0.3, 3, true, true}, Porous{0.5, 2.2, true, true},
                                          Porous{0.4, 3, false, true}, Porous{0.3, 2.5, true, false, 1},
                                          Porous{0.3, 3, false, false},
-                                         Porous{0.004, 4, true, true}),  // fewer points than ranks
+                                         Porous{0.5, 2.2, true, true, 0, 2},  // not all that touch are bonded
+                                         Porous{0.004, 4, true, true}),       // fewer points than ranks
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 TEST(ThroughMaterial, NeedsListsAndJoints) {
