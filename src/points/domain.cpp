@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "points/cell_grid.hpp"
@@ -174,6 +175,17 @@ struct LeftOut {
   }
 };
 
+LeftOut left_out_of(std::vector<std::pair<int, int>> pairs, int owned) {
+  std::sort(pairs.begin(), pairs.end());
+  LeftOut result{std::vector<std::size_t>(owned + 1, 0), {}};
+  for (const auto& [i, j] : pairs) {
+    ++result.start[i + 1];
+    result.members.push_back(j);
+  }
+  std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
+  return result;
+}
+
 // Collective.
 LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Pool& pool, const CellGrid& grid,
                  double reach, const Communicator& communicator) {
@@ -182,20 +194,22 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
   check_through_material(cloud, bonds, communicator);
   ThroughMaterial material({pool.positions, pool.horizons, pool.bodies},
                            joints_of(cloud, blocks, pool, reach, communicator));
-  LeftOut result{{0}, {}};
-  std::vector<int> family;
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-    if (blocks[cloud.blocks[i]]) {
-      family.clear();
-      for_each_within(grid, pool, i, reach, [&](int j) { family.push_back(j); });
-      for (const int j : material.apart(i, family)) {
-        if (pool.asks[i] || pool.asks[j]) result.members.push_back(j);
-      }
-      std::sort(result.members.begin() + result.start.back(), result.members.end());
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<int> family, asked;
+  const int owned = static_cast<int>(cloud.size());
+  for (int i = 0; i < owned; ++i) {
+    if (!blocks[cloud.blocks[i]]) continue;
+    family.clear(), asked.clear();
+    for_each_within(grid, pool, i, reach, [&](int j) {
+      family.push_back(j);
+      if ((pool.asks[i] || pool.asks[j]) && j > i) asked.push_back(j);  // of two owned points one is enough
+    });
+    for (const int j : material.apart(i, family, asked)) {
+      pairs.emplace_back(i, j);
+      if (j < owned) pairs.emplace_back(j, i);
     }
-    result.start.push_back(result.members.size());
   }
-  return result;
+  return left_out_of(std::move(pairs), owned);
 }
 
 // Where families are looked up that are no stencils.

@@ -49,9 +49,9 @@ std::span<const int> row(const Table& table, std::size_t i) {
 
 ThroughMaterial::ThroughMaterial(const Joined& points, std::vector<Joint> joints)
     : points_(points),
-      family_(points.positions.size(), 0),
-      joined_(points.positions.size(), 0),
-      seen_(points.positions.size(), 0) {
+      mark_(points.positions.size(), 0),
+      seen_(points.positions.size(), 0),
+      before_(points.positions.size(), -1) {
   std::sort(joints.begin(), joints.end());
   const Table points_of = points_of_joints(joints);
   const Table joints_of = turned(points_of, points.positions.size());
@@ -79,28 +79,42 @@ bool ThroughMaterial::near(int i, int j) const {
   return bonded(points_.horizons[i], points_.horizons[j], points_.positions[j] - points_.positions[i]);
 }
 
-// Most are joined over one point or none; a few need a walk; a flood is for those that are apart, or around a corner.
-std::vector<int> ThroughMaterial::apart(int i, std::span<const int> family) {
+// In a solid body the paths of spread() reach all; a walk and a flood are for those that are apart, or around a corner.
+std::vector<int> ThroughMaterial::apart(int i, std::span<const int> family, std::span<const int> asked) {
   ++now_;
-  for (const int j : family) family_[j] = now_;
-  join_over_one(i);
+  for (const int j : family) mark_[j] = 2 * now_;
+  spread(i, family.size());
   std::vector<int> found;
-  for (const int j : family) {
-    if (!is_joined(j) && !walks_straight(i, j) && !floods(i, j)) found.push_back(j);
+  for (const int j : asked) {
+    if (is_missing(j) && !walks_straight(i, j) && !floods(i, j)) found.push_back(j);
   }
   return found;
 }
 
-void ThroughMaterial::join_over_one(int i) {
+// Paths from i, each one point longer than another one: one of them to a point, of many, so that some are missed.
+void ThroughMaterial::spread(int i, std::size_t family) {
+  front_.clear();
+  const auto join = [this](int j, int before) {
+    ++mark_[j];
+    before_[j] = before;
+    front_.push_back(j);
+  };
   for (const int k : touching(i)) {
-    if (in_family(k)) joined_[k] = now_;
+    if (in_family(k)) join(k, -1);
   }
-  for (const int k : touching(i)) {
-    if (!in_family(k)) continue;
+  for (std::size_t n = 0; n < front_.size() && front_.size() < family; ++n) {
+    const int k = front_[n];
     for (const int j : touching(k)) {
-      if (in_family(j) && !is_joined(j) && near(j, k)) joined_[j] = now_;
+      if (is_missing(j) && is_near_path(j, k)) join(j, k);
     }
   }
+}
+
+bool ThroughMaterial::is_near_path(int j, int end) const {
+  for (int k = end; k >= 0; k = before_[k]) {
+    if (!near(j, k)) return false;
+  }
+  return true;
 }
 
 // From i always to the one that is nearest to j, as long as that leads nearer.

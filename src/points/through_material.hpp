@@ -22,9 +22,9 @@ class ThroughMaterial {
   // `joints`: the number of a joint and a point that has it, in any order. Points of different bodies do not touch.
   ThroughMaterial(const Joined& points, std::vector<std::pair<std::int64_t, int>> joints);
 
-  // Those of `family`, which is all that is bonded to i, to which no path of points leads that touch and are bonded to
-  // both ends. Symmetric: i is apart from j where j is apart from i. In the order of the family.
-  std::vector<int> apart(int i, std::span<const int> family);
+  // Those of `asked` to which no path of points leads that touch and are bonded to both ends. `family`: all that is
+  // within the horizon of i; `asked`: some of it. Symmetric: i is apart from j where j is apart from i.
+  std::vector<int> apart(int i, std::span<const int> family, std::span<const int> asked);
 
  private:
   std::span<const int> touching(int i) const {
@@ -32,18 +32,22 @@ class ThroughMaterial {
   }
   bool touch(int i, int j) const;
   bool near(int i, int j) const;
-  bool in_family(int i) const { return family_[i] == now_; }
-  bool is_joined(int i) const { return joined_[i] == now_; }
-  void join_over_one(int i);
+  bool in_family(int i) const { return mark_[i] >> 1 == now_; }
+  bool is_missing(int i) const { return mark_[i] == 2 * now_; }
+  void spread(int i, std::size_t family);
+  bool is_near_path(int j, int end) const;
   bool walks_straight(int i, int j) const;
   bool floods(int i, int j);
 
   Joined points_;
   std::vector<std::size_t> start_{0};
   std::vector<int> touching_;  // of each point, ascending, without itself
-  // Marks, one a point: set where they hold the number of the present search.
-  std::vector<std::int64_t> family_, joined_, seen_;
+  // One a point. Where it holds twice the number of the present search the point is in its family, where it is one more
+  // it has been joined to i, too.
+  std::vector<std::int64_t> mark_;
+  std::vector<std::int64_t> seen_;  // the number of the last flood that was here
   std::int64_t now_ = 0, flood_ = 0;
+  std::vector<int> before_;  // of a joined point: the one before it on a path from i; −1 where it touches i
   std::vector<int> front_;
 };
 
