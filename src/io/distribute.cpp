@@ -1,5 +1,6 @@
 #include "io/distribute.hpp"
 
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,53 @@ std::vector<double> flattened(const std::vector<Vector>& vectors) {
   return numbers;
 }
 
+// Rank 0 alone knows whether there are any.
+bool on_root(bool value, const Communicator& communicator) {
+  std::vector<int> flag{value ? 1 : 0};
+  communicator.broadcast(flag);
+  return flag.front() != 0;
+}
+
+std::vector<CellShape> scatter_shapes(const std::vector<CellShape>& whole, const std::vector<std::int64_t>& counts,
+                                      const Communicator& communicator) {
+  if (!on_root(!whole.empty(), communicator)) return {};
+  std::vector<ShapeNumbers> numbers;
+  for (const CellShape& shape : whole) numbers.push_back(numbers_of(shape));
+  std::vector<CellShape> mine;
+  for (const ShapeNumbers& shape : communicator.scatter(std::span<const ShapeNumbers>(numbers), counts)) {
+    mine.push_back(shape_of(shape));
+  }
+  return mine;
+}
+
+// How many each point has, then all of them in a row.
+std::vector<std::vector<std::int64_t>> scatter_joints(const std::vector<std::vector<std::int64_t>>& whole,
+                                                      const std::vector<std::int64_t>& counts,
+                                                      const Communicator& communicator) {
+  if (!on_root(!whole.empty(), communicator)) return {};
+  std::vector<std::int64_t> lengths, all, of_ranks;
+  for (const auto& joints : whole) {
+    lengths.push_back(static_cast<std::int64_t>(joints.size()));
+    all.insert(all.end(), joints.begin(), joints.end());
+  }
+  const auto my_lengths = communicator.scatter(std::span<const std::int64_t>(lengths), counts);
+  auto length = lengths.begin();
+  for (const std::int64_t count : counts) {
+    const auto end = length == lengths.end() ? length : length + count;
+    of_ranks.push_back(std::accumulate(length, end, std::int64_t{0}));
+    length = end;
+  }
+  communicator.broadcast(of_ranks);
+  const auto my_joints = communicator.scatter(std::span<const std::int64_t>(all), of_ranks);
+  std::vector<std::vector<std::int64_t>> mine;
+  auto joint = my_joints.begin();
+  for (const std::int64_t count : my_lengths) {
+    mine.emplace_back(joint, joint + count);
+    joint += count;
+  }
+  return mine;
+}
+
 }  // namespace
 
 PointCloud distribute(const PointCloud& whole, const Communicator& communicator) {
@@ -54,6 +102,8 @@ PointCloud distribute(const PointCloud& whole, const Communicator& communicator)
   mine.spacings = column(whole.spacings);
   mine.blocks = column(whole.blocks);
   mine.sets = column(whole.sets);
+  mine.shapes = scatter_shapes(whole.shapes, counts, communicator);
+  mine.joints = scatter_joints(whole.joints, counts, communicator);
 
   std::vector<std::int64_t> triple = counts;
   for (std::int64_t& size : triple) size *= 3;

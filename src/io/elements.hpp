@@ -1,10 +1,10 @@
-// The material point that an element stands for: its volume and its centroid.
+// The material point that an element stands for: its volume, its centroid, its second moments; the parts of its nodes.
 #pragma once
 
 #include <array>
 #include <span>
 
-#include "base/tensors.hpp"
+#include "points/cloud.hpp"
 
 namespace strut::io {
 
@@ -21,6 +21,27 @@ ElementPoint tetrahedron(std::span<const Vector, 4> nodes);
 // volume, and Σ part × node = volume × centroid.
 std::array<double, 8> hexahedron_parts(std::span<const Vector, 8> nodes);
 std::array<double, 4> tetrahedron_parts(std::span<const Vector, 4> nodes);
+
+// Integrals over a piece of a body, about a point O: those of pieces add up.
+struct Integrals {
+  double volume = 0;                     // ∫ dV, m³
+  Vector first = Vector::Zero();         // ∫ (x − O) dV, m⁴
+  Symmetric second = Symmetric::Zero();  // ∫ (x − O)⊗(x − O) dV, m⁵
+
+  Integrals& operator+=(const Integrals& other);
+};
+// The centroid, from O, and the central second moments per volume.
+CellShape cell_shape(const Integrals& integrals);
+
+// Exact, about the element's centroid.
+Symmetric hexahedron_moments(std::span<const Vector, 8> nodes);
+Symmetric tetrahedron_moments(std::span<const Vector, 4> nodes);
+Symmetric cube_moments(double volume);
+
+// Of the piece next to each node, about that node: an octant of the hexahedron's local coordinates; the quarter of the
+// tetrahedron between the node, the middles of its edges and faces, and the centroid.
+std::array<Integrals, 8> hexahedron_pieces(std::span<const Vector, 8> nodes);
+std::array<Integrals, 4> tetrahedron_pieces(std::span<const Vector, 4> nodes);
 
 double sphere_volume(double radius);
 double sphere_radius(double volume);  // of the sphere of equal volume

@@ -25,6 +25,8 @@ namespace strut::io {
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
 // `with_cells`: also shapes and joints of the points (cloud.hpp).
+// HEX8 blocks with the attributes of PartialCell: volume and place of a point at an element are the cell's, the spacing
+// stays the hexahedron's. Throws Error where the cell is not one (names element and block), and for points at nodes.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
                        PointsAt at = PointsAt::elements, bool with_cells = false);
 
@@ -76,10 +78,10 @@ int nodes_per_element(const std::string& type);
 
 // The material in an element that is only partly filled, or that has taken over what is in a neighbour.
 struct PartialCell {
-  double volume = 0;                        // m³
-  Vector centroid = Vector::Zero();         // m
-  Symmetric moments = Symmetric::Zero();    // central second moments per volume, m² (xx yy zz xy yz zx)
-  Vector surface = Vector::Zero();          // ∫ n dA over the material's surface, n outward, m²
+  double volume = 0;                      // m³
+  Vector centroid = Vector::Zero();       // m
+  Symmetric moments = Symmetric::Zero();  // central second moments per volume, m² (xx yy zz xy yz zx)
+  Vector surface = Vector::Zero();        // ∫ n dA over the material's surface, n outward, m²
 };
 // The names of the attributes in the file, in the order of the members.
 inline constexpr std::array<const char*, 13> partial_cell_attributes{
@@ -94,7 +96,7 @@ struct Mesh {
     std::string type;             // "HEX8", "TET4" or "SPHERE"
     std::vector<int> nodes;       // 0-based, element by element
     std::vector<double> volumes;  // spheres only
-    // Of HEX8, or none: elements that are only partly filled with material (attributes of these names, see io/README.md).
+    // Of HEX8, or none: elements that are only partly filled with material; attributes in the file (io/README.md).
     std::vector<PartialCell> cells;
 
     std::size_t elements() const { return nodes.empty() ? 0 : nodes.size() / nodes_per_element(type); }

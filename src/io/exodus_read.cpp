@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_sets = 64;  // one bit each
 
-PointCloud read_cloud(const std::filesystem::path& path, PointsAt at) {
+PointCloud read_cloud(const std::filesystem::path& path, PointsAt at, bool with_cells) {
   const ExodusFile file = ExodusFile::open(path);
   const std::size_t sets = file.node_sets().size();
   if (sets > most_sets) {
@@ -22,17 +22,18 @@ PointCloud read_cloud(const std::filesystem::path& path, PointsAt at) {
                 " are supported");
   }
   const Mesh mesh = mesh_of(file);
-  if (at == PointsAt::nodes) return points_at_nodes(mesh, file.node_numbers(), path.string());
-  PointCloud cloud = points_at_elements(mesh, path.string());
+  if (at == PointsAt::nodes) return points_at_nodes(mesh, file.node_numbers(), path.string(), with_cells);
+  PointCloud cloud = points_at_elements(mesh, path.string(), with_cells);
   cloud.element_ids = file.element_numbers();
   return cloud;
 }
 
 }  // namespace
 
-PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator, PointsAt at) {
+PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator, PointsAt at,
+                       bool with_cells) {
   PointCloud whole;
-  run_on_root(communicator, [&] { whole = rehearsed(file, [&] { return read_cloud(file, at); }); });
+  run_on_root(communicator, [&] { whole = rehearsed(file, [&] { return read_cloud(file, at, with_cells); }); });
   return distribute(whole, communicator);
 }
 

@@ -39,14 +39,52 @@ PointCloud whole_grid(const Vector& origin, const Vector& length, const std::arr
   return cloud;
 }
 
+// The part of the box's surface that cell `at` of so many along each axis has.
+Vector surface_of(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell) {
+  Vector surface;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double sides = (at[axis] == points[axis] - 1 ? 1 : 0) - (at[axis] == 0 ? 1 : 0);
+    surface[axis] = sides * cell.prod() / cell[axis];
+  }
+  return surface;
+}
+
+// The corners of a cell, numbered x fastest.
+std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::array<int, 3>& points) {
+  std::vector<std::int64_t> corners;
+  for (const std::int64_t z : {at[2], at[2] + 1}) {
+    for (const std::int64_t y : {at[1], at[1] + 1}) {
+      for (const std::int64_t x : {at[0], at[0] + 1}) {
+        corners.push_back((z * (points[1] + 1) + y) * (points[0] + 1) + x);
+      }
+    }
+  }
+  return corners;
+}
+
+void add_cells(const Vector& cell, const std::array<int, 3>& points, PointCloud& cloud) {
+  const Vector squares = cell.cwiseAbs2() / 12;
+  for (int k = 0; k < points[2]; ++k) {
+    for (int j = 0; j < points[1]; ++j) {
+      for (int i = 0; i < points[0]; ++i) {
+        CellShape& shape = cloud.shapes.emplace_back();
+        shape.moments.head<3>() = squares;
+        shape.surface = surface_of({i, j, k}, points, cell);
+        cloud.joints.push_back(corners_of({i, j, k}, points));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
-                     const Communicator& communicator) {
+                     const Communicator& communicator, bool with_cells) {
   PointCloud whole;
   run_on_root(communicator, [&] {
     check_count(points);
     whole = whole_grid(origin, length, points);
+    if (with_cells) add_cells(length.cwiseQuotient(Vector(points[0], points[1], points[2])), points, whole);
   });
   return distribute(whole, communicator);
 }

@@ -12,7 +12,8 @@ class Communicator;
 namespace strut::io {
 
 // Collective. `points` cells along x, y, z, x fastest, in the block "block_1"; each rank receives a contiguous slice.
+// `with_cells`: also shapes and joints, which are the corners of the cells.
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
-                     const Communicator& communicator);
+                     const Communicator& communicator, bool with_cells = false);
 
 }  // namespace strut::io

@@ -5,6 +5,7 @@
 #include "io/elements.hpp"
 #include "io/exodus.hpp"
 #include "io/exodus_file.hpp"
+#include "io/mesh_read.hpp"
 #include "io/numbering.hpp"
 
 namespace strut::io {
@@ -26,10 +27,16 @@ std::vector<ExodusFile::Block> blocks_of(const Mesh& mesh) {
     if (block.type == "SPHERE" && block.volumes.size() != block.nodes.size()) {
       throw Error("block '" + block.name + "' needs one volume for each sphere");
     }
+    if (!block.cells.empty() && (block.type != "HEX8" || block.cells.size() != block.elements())) {
+      throw Error("block '" + block.name + "' needs one cell for each HEX8 element, or none");
+    }
     const int size = nodes_per_element(block.type);
     if (block.nodes.size() % size != 0) throw Error("the last element of block '" + block.name + "' lacks nodes");
     blocks.push_back({ids[b], block.name, block.type, std::ssize(block.nodes) / size, size, {}});
     if (block.type == "SPHERE") blocks.back().attributes = {"radius", "volume"};
+    if (!block.cells.empty()) {
+      blocks.back().attributes.assign(partial_cell_attributes.begin(), partial_cell_attributes.end());
+    }
   }
   return blocks;
 }
@@ -49,8 +56,17 @@ std::vector<std::int64_t> counted_from_one(const std::vector<int>& nodes) {
   return numbers;
 }
 
+void put_cells(const ExodusFile& file, const ExodusFile::Block& layout, const std::vector<PartialCell>& cells) {
+  for (std::size_t k = 0; k < partial_cell_attributes.size(); ++k) {
+    std::vector<double> values;
+    for (PartialCell cell : cells) values.push_back(member(cell, k));
+    file.put_attribute(layout, static_cast<int>(k), values);
+  }
+}
+
 void put_elements(const ExodusFile& file, const ExodusFile::Block& layout, const Mesh::Block& block) {
   file.put_connectivity(layout, counted_from_one(block.nodes));
+  if (!block.cells.empty()) put_cells(file, layout, block.cells);
   if (block.type != "SPHERE") return;
   std::vector<double> radii;
   for (const double volume : block.volumes) radii.push_back(sphere_radius(volume));

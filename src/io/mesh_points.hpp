@@ -10,10 +10,11 @@
 namespace strut::io {
 
 // A point for each element, at its centroid. `file`: the mesh's name, for errors. Throws Error: see read_exodus.
-PointCloud points_at_elements(const Mesh& mesh, const std::string& file);
+PointCloud points_at_elements(const Mesh& mesh, const std::string& file, bool with_cells);
 
 // A point for each node that an element uses; `numbers`: the mesh's own, of all nodes. Throws Error: see read_exodus.
-PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file);
+PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file,
+                           bool with_cells);
 
 // Bit k of a node: it is in set k.
 std::vector<std::uint64_t> sets_of_nodes(const Mesh& mesh);

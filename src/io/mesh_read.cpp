@@ -91,11 +91,28 @@ class Reader {
       fail("block '" + name + "': element type " + block.type + " with " + std::to_string(block.nodes_per_element) +
            " nodes is not supported, expected HEX8, TET4 or SPHERE");
     }
-    mesh_.blocks.push_back({name, type.empty() ? "SPHERE" : type, {}, {}});
+    mesh_.blocks.push_back({name, type.empty() ? "SPHERE" : type, {}, {}, {}});
     if (block.elements == 0) return;
     mesh_.blocks.back().nodes = indices(file_.connectivity(block), "block '" + name + "'");
     if (type == "SPHERE") mesh_.blocks.back().volumes = sphere_volumes(block);
+    if (type == "HEX8") mesh_.blocks.back().cells = partial_cells(block);
     elements_ += block.elements;
+  }
+
+  // None where not all of their attributes are there: other codes have attributes of their own.
+  std::vector<PartialCell> partial_cells(const ExodusFile::Block& block) const {
+    std::vector<int> columns;
+    for (const char* name : partial_cell_attributes) {
+      const auto found = std::find(block.attributes.begin(), block.attributes.end(), name);
+      if (found == block.attributes.end()) return {};
+      columns.push_back(static_cast<int>(found - block.attributes.begin()));
+    }
+    std::vector<PartialCell> cells(block.elements);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const std::vector<double> values = file_.attribute(block, columns[k]);
+      for (std::size_t e = 0; e < cells.size(); ++e) member(cells[e], k) = values[e];
+    }
+    return cells;
   }
 
   // Attributes radius and volume, or the radius alone; results of other codes hold an element variable instead.
@@ -122,6 +139,13 @@ class Reader {
 };
 
 }  // namespace
+
+double& member(PartialCell& cell, std::size_t attribute) {
+  if (attribute == 0) return cell.volume;
+  if (attribute < 4) return cell.centroid[static_cast<int>(attribute) - 1];
+  if (attribute < 10) return cell.moments[static_cast<int>(attribute) - 4];
+  return cell.surface[static_cast<int>(attribute) - 10];
+}
 
 Mesh mesh_of(const ExodusFile& file) { return Reader(file).read(); }
 

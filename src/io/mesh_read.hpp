@@ -9,4 +9,7 @@ namespace strut::io {
 // See read_mesh (exodus.hpp).
 Mesh mesh_of(const ExodusFile& file);
 
+// What partial_cell_attributes[attribute] is the name of.
+double& member(PartialCell& cell, std::size_t attribute);
+
 }  // namespace strut::io

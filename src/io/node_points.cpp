@@ -1,9 +1,11 @@
 // The nodes of a mesh become material points, with the parts of the elements around them.
 #include <cmath>
+#include <optional>
 
 #include "base/errors.hpp"
 #include "io/elements.hpp"
 #include "io/mesh_points.hpp"
+#include "io/surface.hpp"
 
 namespace strut::io {
 
@@ -24,6 +26,10 @@ class Shares {
   std::vector<Share> collect() {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
       const Mesh::Block& block = mesh_.blocks[b];
+      if (!block.cells.empty()) {
+        throw Error(file_ + ": block '" + block.name + "' has elements that are partly filled (attribute " +
+                    partial_cell_attributes[0] + " and others); its points can only be at elements");
+      }
       if (block.type == "HEX8") add_block<8>(static_cast<int>(b), hexahedron_parts);
       if (block.type == "TET4") add_block<4>(static_cast<int>(b), tetrahedron_parts);
       if (block.type == "SPHERE" && block.elements() > 0) {
@@ -62,6 +68,60 @@ class Shares {
   std::size_t elements_ = 0;  // so far
 };
 
+// What of the elements around each node belongs to it, and which elements these are.
+class Cells {
+ public:
+  explicit Cells(const Mesh& mesh)
+      : mesh_(mesh),
+        integrals_(mesh.nodes.size()),
+        surface_(mesh.nodes.size(), Vector::Zero()),
+        joints_(mesh.nodes.size()) {
+    for (const Mesh::Block& block : mesh_.blocks) {
+      if (block.type == "HEX8") add_block<8>(block, hexahedron_pieces);
+      if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
+    }
+    for (const Face& face : surface_of(mesh_)) {
+      const double share = 1.0 / static_cast<double>(face.corners().size());
+      for (const int node : face.corners()) surface_[node] += share * face.area;
+    }
+  }
+
+  // The volume of the pieces: on distorted elements not quite the point's, which is ∫N dV.
+  double volume(std::size_t node) const { return integrals_[node].volume; }
+
+  void give(std::size_t node, PointCloud& cloud) {
+    cloud.shapes.push_back(cell_shape(integrals_[node]));
+    cloud.shapes.back().surface = surface_[node];
+    cloud.joints.push_back(std::move(joints_[node]));
+  }
+
+ private:
+  template <std::size_t size, class Pieces>
+  void add_block(const Mesh::Block& block, const Pieces& pieces_of) {
+    for (std::size_t e = 0; e < block.elements(); ++e, ++elements_) {
+      const std::array<Integrals, size> pieces = pieces_of(corners<size>(mesh_, block, e));
+      for (std::size_t n = 0; n < size; ++n) {
+        const int node = block.nodes[e * size + n];
+        integrals_[node] += pieces[n];
+        std::vector<std::int64_t>& joints = joints_[node];
+        if (joints.empty() || joints.back() != elements_) joints.push_back(elements_);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<Integrals> integrals_;
+  std::vector<Vector> surface_;
+  std::vector<std::vector<std::int64_t>> joints_;
+  std::int64_t elements_ = 0;  // so far
+};
+
+void check_parts(double volume, std::int64_t number, const std::string& file) {
+  if (volume > 0) return;
+  throw Error(file + ": node " + std::to_string(number) + ": its parts of the elements around it add up to " +
+              std::to_string(volume) + " m³, expected a positive volume (elements too distorted?)");
+}
+
 // A block all of whose nodes belong to blocks before it would be gone without a word.
 void check_blocks_have_points(const PointCloud& cloud, const std::string& file) {
   std::vector<char> found(cloud.block_names.size(), 0);
@@ -77,8 +137,11 @@ void check_blocks_have_points(const PointCloud& cloud, const std::string& file) 
 
 }  // namespace
 
-PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file) {
+PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file,
+                           bool with_cells) {
   const std::vector<Share> shares = Shares(mesh, file).collect();
+  std::optional<Cells> cells;
+  if (with_cells) cells.emplace(mesh);
   const std::vector<std::uint64_t> sets = sets_of_nodes(mesh);
   PointCloud cloud;
   cloud.at = PointsAt::nodes;
@@ -87,9 +150,10 @@ PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& nu
   for (std::size_t n = 0; n < shares.size(); ++n) {
     const Share& share = shares[n];
     if (share.elements == 0) continue;  // a node of no element
-    if (!(share.volume > 0)) {
-      throw Error(file + ": node " + std::to_string(numbers[n]) + ": its parts of the elements around it add up to " +
-                  std::to_string(share.volume) + " m³, expected a positive volume (elements too distorted?)");
+    check_parts(share.volume, numbers[n], file);
+    if (with_cells) {
+      check_parts(cells->volume(n), numbers[n], file);
+      cells->give(n, cloud);
     }
     cloud.ids.push_back(static_cast<std::int64_t>(n));
     cloud.element_ids.push_back(numbers[n]);

@@ -1,6 +1,7 @@
 // The material points of one rank, as a reader delivers them and as the partition hands them on.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -22,6 +23,20 @@ struct CellShape {
   Vector surface = Vector::Zero();        // ∫ n dA over the body's surface that is the cell's, n outward, m²
   Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − X) dA over it, X the point, m³
 };
+
+// A shape as it travels.
+using ShapeNumbers = std::array<double, 12>;
+inline ShapeNumbers numbers_of(const CellShape& shape) {
+  ShapeNumbers numbers;
+  Eigen::Map<Vector>(numbers.data()) = shape.offset;
+  Eigen::Map<Symmetric>(numbers.data() + 3) = shape.moments;
+  Eigen::Map<Vector>(numbers.data() + 9) = shape.surface;
+  return numbers;
+}
+inline CellShape shape_of(const ShapeNumbers& numbers) {
+  return {Eigen::Map<const Vector>(numbers.data()), Eigen::Map<const Symmetric>(numbers.data() + 3),
+          Eigen::Map<const Vector>(numbers.data() + 9)};
+}
 
 struct PointCloud {
   // One entry a point.

@@ -6,11 +6,15 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
 
+#include "base/errors.hpp"
 #include "points/cell_grid.hpp"
 #include "points/common_box.hpp"
 #include "points/near_ranks.hpp"
 #include "points/partition.hpp"
+#include "points/through_material.hpp"
 
 namespace strut {
 
@@ -41,18 +45,23 @@ struct Pool {
   std::vector<std::int64_t> ids;
   std::vector<double> horizons;
   std::vector<int> bodies;
+  std::vector<char> asks;  // for bonds through material
 };
 
 Pool pool_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
              const std::vector<Candidate>& others) {
-  Pool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}};
-  for (const int block : cloud.blocks) pool.bodies.push_back(bonds[block].body);
+  Pool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
+  const auto add_block = [&](std::int64_t block) {
+    pool.bodies.push_back(bonds[block].body);
+    pool.asks.push_back(bonds[block].through_material ? 1 : 0);
+  };
+  for (const int block : cloud.blocks) add_block(block);
   for (const Candidate& c : others) {
     pool.positions.emplace_back(c.position[0], c.position[1], c.position[2]);
     pool.volumes.push_back(c.volume);
     pool.ids.push_back(c.id);
     pool.horizons.push_back(c.horizon);
-    pool.bodies.push_back(bonds[c.block].body);
+    add_block(c.block);
   }
   return pool;
 }
@@ -85,9 +94,9 @@ std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::ve
   return blocks;
 }
 
-// Calls visit(j) for the family of pool member i.
+// Calls visit(j) for all that is within the horizon of pool member i.
 template <class Visit>
-void for_each_neighbour(const CellGrid& grid, const Pool& pool, int i, double reach, Visit&& visit) {
+void for_each_within(const CellGrid& grid, const Pool& pool, int i, double reach, Visit&& visit) {
   const Vector here = pool.positions[i];
   grid.visit_near(here, [&](int j, const Vector& there) {
     const Vector xi = there - here;
@@ -95,6 +104,130 @@ void for_each_neighbour(const CellGrid& grid, const Pool& pool, int i, double re
     if (bonded(pool.horizons[i], pool.horizons[j], xi)) visit(j);
   });
 }
+
+// ---- Bonds through material ----------------------------------------------------------------------------------------
+
+// Of each block: whether one of its body asks for it.
+std::vector<char> concerned(const std::vector<BlockBonds>& bonds) {
+  std::vector<char> blocks;
+  for (const BlockBonds& block : bonds) {
+    blocks.push_back(std::any_of(bonds.begin(), bonds.end(), [&](const BlockBonds& other) {
+      return other.through_material && other.body == block.body;
+    }));
+  }
+  return blocks;
+}
+
+// Collective.
+void check_through_material(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
+                            const Communicator& communicator) {
+  std::string problem;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    if (bonds[b].through_material && bonds[b].families != FamilyKind::lists) {
+      throw std::logic_error("block '" + cloud.block_names[b] + "' asks for bonds through material without lists");
+    }
+  }
+  for (std::size_t i = 0; i < cloud.size() && problem.empty(); ++i) {
+    if (!bonds[cloud.blocks[i]].through_material || (!cloud.joints.empty() && !cloud.joints[i].empty())) continue;
+    problem = "block '" + cloud.block_names[cloud.blocks[i]] +
+              "': its bonds shall run through material, but its points share nothing with each other; expected "
+              "hexahedra or tetrahedra, not spheres or a text mesh";
+  }
+  raise_together(communicator, problem);
+}
+
+// A joint of a candidate, as it travels.
+struct JointOf {
+  std::int64_t id, joint;
+};
+
+// Each joint with a pool member that has it, of some blocks. Collective: the candidates' come from their owners, which
+// go through the same points in the same order as for the candidates themselves.
+std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, const std::vector<char>& blocks,
+                                                    const Pool& pool, double reach, const Communicator& communicator) {
+  std::vector<std::pair<std::int64_t, int>> joints;
+  std::vector<Vector> places;
+  std::vector<JointOf> mine;
+  for (std::size_t i = 0; i < cloud.joints.size(); ++i) {
+    if (!blocks[cloud.blocks[i]]) continue;
+    for (const std::int64_t joint : cloud.joints[i]) {
+      joints.emplace_back(joint, static_cast<int>(i));
+      places.push_back(cloud.positions[i]);
+      mine.push_back({cloud.ids[i], joint});
+    }
+  }
+  std::size_t member = cloud.size();
+  for (const JointOf& one : from_near_ranks<JointOf>(box_around(cloud.positions), places, mine, reach, communicator)) {
+    while (pool.ids[member] != one.id) ++member;
+    joints.emplace_back(one.joint, static_cast<int>(member));
+  }
+  return joints;
+}
+
+// Whom an owned point is not bonded to although it is within the horizon. Empty where no block asks for it.
+struct LeftOut {
+  std::vector<std::size_t> start;
+  std::vector<int> members;  // ascending for each point
+
+  bool contains(int i, int j) const {
+    if (start.empty()) return false;
+    return std::binary_search(members.begin() + start[i], members.begin() + start[i + 1], j);
+  }
+};
+
+LeftOut left_out_of(std::vector<std::pair<int, int>> pairs, int owned) {
+  std::sort(pairs.begin(), pairs.end());
+  LeftOut result{std::vector<std::size_t>(owned + 1, 0), {}};
+  for (const auto& [i, j] : pairs) {
+    ++result.start[i + 1];
+    result.members.push_back(j);
+  }
+  std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
+  return result;
+}
+
+// Collective.
+LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Pool& pool, const CellGrid& grid,
+                 double reach, const Communicator& communicator) {
+  const std::vector<char> blocks = concerned(bonds);
+  if (std::find(blocks.begin(), blocks.end(), 1) == blocks.end()) return {};
+  check_through_material(cloud, bonds, communicator);
+  ThroughMaterial material({pool.positions, pool.horizons, pool.bodies},
+                           joints_of(cloud, blocks, pool, reach, communicator));
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<int> family, asked;
+  const int owned = static_cast<int>(cloud.size());
+  for (int i = 0; i < owned; ++i) {
+    if (!blocks[cloud.blocks[i]]) continue;
+    family.clear(), asked.clear();
+    for_each_within(grid, pool, i, reach, [&](int j) {
+      family.push_back(j);
+      if ((pool.asks[i] || pool.asks[j]) && j > i) asked.push_back(j);  // of two owned points one is enough
+    });
+    for (const int j : material.apart(i, family, asked)) {
+      pairs.emplace_back(i, j);
+      if (j < owned) pairs.emplace_back(j, i);
+    }
+  }
+  return left_out_of(std::move(pairs), owned);
+}
+
+// Where families are looked up that are no stencils.
+struct Search {
+  const CellGrid& grid;
+  const LeftOut& left_out;
+  double reach;
+};
+
+// Calls visit(j) for the family of owned point i.
+template <class Visit>
+void for_each_neighbour(const Search& search, const Pool& pool, int i, Visit&& visit) {
+  for_each_within(search.grid, pool, i, search.reach, [&](int j) {
+    if (!search.left_out.contains(i, j)) visit(j);
+  });
+}
+
+// ---- Stencils, order, lists ----------------------------------------------------------------------------------------
 
 // The bodies that sit on a lattice, over the pool: who owns which cell, until points have their order in memory.
 struct Stencils {
@@ -141,14 +274,13 @@ bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, cons
          cost_of_list(counts[3] / std::max(1.0, counts[2]));
 }
 
-// Calls visit(j) for the family of pool member i, by its stencil or by a search.
+// Calls visit(j) for the family of owned point i, by its stencil or by a search.
 template <class Visit>
-void for_each_neighbour(const Stencils& stencils, const CellGrid& grid, const Pool& pool, int i, double reach,
-                        Visit&& visit) {
+void for_each_neighbour(const Stencils& stencils, const Search& search, const Pool& pool, int i, Visit&& visit) {
   if (stencils.of[i] >= 0) {
     stencils.lattices[stencils.of[i]].for_each(i, visit);
   } else {
-    for_each_neighbour(grid, pool, i, reach, visit);
+    for_each_neighbour(search, pool, i, visit);
   }
 }
 
@@ -173,16 +305,16 @@ std::vector<int> by_blocks(const Stencils& stencils, const std::vector<int>& blo
   return points;
 }
 
-Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool, const std::vector<int>& blocks,
-               double reach) {
+Order order_of(const Stencils& stencils, const Search& search, const Pool& pool, const std::vector<int>& blocks) {
   Order order;
   const int owned = static_cast<int>(blocks.size());
   std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
   Eigen::AlignedBox3d others;
   for (std::size_t j = owned; j < pool.ids.size(); ++j) others.extend(pool.positions[j]);
   for (int i = 0; i < owned; ++i) {
-    if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= reach * reach)) continue;
-    for_each_neighbour(stencils, grid, pool, i, reach, [&](int j) {
+    if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= search.reach * search.reach))
+      continue;
+    for_each_neighbour(stencils, search, pool, i, [&](int j) {
       order.listed += stencils.of[i] < 0;
       if (j >= owned) needs_ghost[i] = used[j] = 1;
     });
@@ -200,12 +332,12 @@ Order order_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool,
 
 // Lists of the points in their order, neighbours by local[], from a second look at the grid. A bundle is of points that
 // follow upon each other, of one block, and of the interior or the boundary.
-Bundles lists_of(const Stencils& stencils, const CellGrid& grid, const Pool& pool, const std::vector<int>& blocks,
-                 const Order& order, const std::vector<int>& local, double reach) {
+Bundles lists_of(const Stencils& stencils, const Search& search, const Pool& pool, const std::vector<int>& blocks,
+                 const Order& order, const std::vector<int>& local) {
   Bundles lists;
   lists.reserve(order.listed);
   Bundles::Maker maker(lists, pool.ids.size());
-  const auto family = [&](int i, const auto& visit) { for_each_neighbour(grid, pool, i, reach, visit); };
+  const auto family = [&](int i, const auto& visit) { for_each_neighbour(search, pool, i, visit); };
   const std::span<const int> points(order.points);
   for (const auto part : {points.first(order.interior), points.subspan(order.interior)}) {
     for (auto begin = part.begin(); begin != part.end();) {
@@ -262,7 +394,9 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
   const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
-  const Order order = order_of(stencils, grid, pool, cloud.blocks, reach);
+  const LeftOut apart = left_out(cloud, bonds, pool, grid, reach, communicator);
+  const Search search{grid, apart, reach};
+  const Order order = order_of(stencils, search, pool, cloud.blocks);
   PointCloud mine = reordered(cloud, order.points);
   mine.positions = {}, mine.volumes = {};
   std::vector<int> local(pool.ids.size(), -1);
@@ -280,7 +414,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     bodies.push_back(pool.bodies[p]);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
   }
-  Families families{lists_of(stencils, grid, pool, cloud.blocks, order, local, reach), {}, {}};
+  Families families{lists_of(stencils, search, pool, cloud.blocks, order, local), {}, {}};
   if (!frames.empty()) {
     std::vector<Vector> positions;
     for (const int p : members) positions.push_back(pool.positions[p]);

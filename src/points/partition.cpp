@@ -17,19 +17,25 @@ namespace strut {
 
 namespace {
 
-// One point as it travels.
+// One point as it travels; behind it the numbers of its shape, then its joints, where there are any.
 struct Parcel {
   std::int64_t id, element_id;
   double position[3];
   double volume, spacing;
   int block;
   std::uint64_t sets;
+  bool has_shape, has_joints;
+  int joints;
 };
 
 Parcel packed(const PointCloud& cloud, std::size_t i) {
   const Vector& X = cloud.positions[i];
-  return {cloud.ids[i],      cloud.element_ids[i], {X[0], X[1], X[2]}, cloud.volumes[i],
-          cloud.spacings[i], cloud.blocks[i],      cloud.sets[i]};
+  const bool has_joints = !cloud.joints.empty();
+  return {cloud.ids[i],       cloud.element_ids[i],
+          {X[0], X[1], X[2]}, cloud.volumes[i],
+          cloud.spacings[i],  cloud.blocks[i],
+          cloud.sets[i],      !cloud.shapes.empty(),
+          has_joints,         has_joints ? static_cast<int>(cloud.joints[i].size()) : 0};
 }
 
 void append(PointCloud& cloud, const Parcel& parcel) {
@@ -40,6 +46,25 @@ void append(PointCloud& cloud, const Parcel& parcel) {
   cloud.spacings.push_back(parcel.spacing);
   cloud.blocks.push_back(parcel.block);
   cloud.sets.push_back(parcel.sets);
+}
+
+// Point i of `from`.
+void append(PointCloud& cloud, const PointCloud& from, std::size_t i) {
+  append(cloud, packed(from, i));
+  if (!from.shapes.empty()) cloud.shapes.push_back(from.shapes[i]);
+  if (!from.joints.empty()) cloud.joints.push_back(from.joints[i]);
+}
+
+// To and from the bytes of a parcel, one thing after the other.
+template <class T>
+void put(char*& place, const T* values, std::size_t count) {
+  std::memcpy(place, values, count * sizeof(T));
+  place += count * sizeof(T);
+}
+template <class T>
+void take(const char*& place, T* values, std::size_t count) {
+  std::memcpy(values, place, count * sizeof(T));
+  place += count * sizeof(T);
 }
 
 // What Zoltan's callbacks read and fill.
@@ -78,21 +103,37 @@ void place(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* pos
   *error = ZOLTAN_OK;
 }
 
-int parcel_size(void*, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR, int* error) {
+int parcel_size(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int* error) {
   *error = ZOLTAN_OK;
-  return sizeof(Parcel);
+  const Parcel parcel = packed(cloud_of(data), *local);
+  return static_cast<int>(sizeof parcel + (parcel.has_shape ? sizeof(ShapeNumbers) : 0) +
+                          parcel.joints * sizeof(std::int64_t));
 }
 
 void pack(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int, int, char* buffer, int* error) {
-  const Parcel parcel = packed(cloud_of(data), *local);
-  std::memcpy(buffer, &parcel, sizeof parcel);
+  const PointCloud& cloud = cloud_of(data);
+  const Parcel parcel = packed(cloud, *local);
+  put(buffer, &parcel, 1);
+  if (parcel.has_shape) put(buffer, numbers_of(cloud.shapes[*local]).data(), ShapeNumbers().size());
+  if (parcel.has_joints) put(buffer, cloud.joints[*local].data(), parcel.joints);
   *error = ZOLTAN_OK;
 }
 
 void unpack(void* data, int, ZOLTAN_ID_PTR, int, char* buffer, int* error) {
+  PointCloud& cloud = static_cast<Migration*>(data)->arrived;
+  const char* place = buffer;
   Parcel parcel;
-  std::memcpy(&parcel, buffer, sizeof parcel);
-  append(static_cast<Migration*>(data)->arrived, parcel);
+  take(place, &parcel, 1);
+  append(cloud, parcel);
+  if (parcel.has_shape) {
+    ShapeNumbers numbers;
+    take(place, numbers.data(), numbers.size());
+    cloud.shapes.push_back(shape_of(numbers));
+  }
+  if (parcel.has_joints) {
+    std::vector<std::int64_t>& joints = cloud.joints.emplace_back(parcel.joints);
+    take(place, joints.data(), joints.size());
+  }
   *error = ZOLTAN_OK;
 }
 
@@ -140,7 +181,7 @@ PointCloud bisected(const PointCloud& cloud, const Communicator& communicator, c
   std::vector<char> leaves(cloud.size(), 0);
   for (int k = 0; k < exports; ++k) leaves[export_lids[k]] = 1;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!leaves[i]) append(migration.arrived, packed(cloud, i));
+    if (!leaves[i]) append(migration.arrived, cloud, i);
   }
   require(zoltan.Migrate(-1, nullptr, nullptr, nullptr, nullptr, exports, export_gids, export_lids, export_ranks,
                          export_parts),
@@ -217,7 +258,7 @@ PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator
 
 PointCloud reordered(const PointCloud& cloud, const std::vector<int>& order) {
   PointCloud result = emptied(cloud);
-  for (const int i : order) append(result, packed(cloud, i));
+  for (const int i : order) append(result, cloud, i);
   return result;
 }
 

@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <ostream>
 #include <random>
 #include <set>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "base/communicator.hpp"
+#include "base/errors.hpp"
 #include "points/domain.hpp"
 #include "points/partition.hpp"
 
@@ -262,6 +265,193 @@ TEST(Lattice, NeighboursAtExactlyTheHorizonAreIn) {
   const Domain domain = make_domain(partitioned(slice(cloud, world), world), {0.1}, world);
   const auto bonds = world.sum(static_cast<std::int64_t>(domain.families.bonds()));
   EXPECT_EQ(bonds, 2 * 3 * 5 * 6 * 6);
+}
+
+// ---- Bonds through material, shapes and joints ----------------------------------------------------------------------
+
+// Cells of a porous block, with their corners for joints; shapes by their ids. Of two blocks one above the other.
+struct Porous {
+  double filled;   // the part of the cells that is there
+  double horizon;  // spacings; of the upper block 0.8 of it
+  bool lower_asks, upper_asks;
+  int separate = 0;    // body of the upper block
+  double stretch = 1;  // of the cells along y
+};
+
+std::ostream& operator<<(std::ostream& out, const Porous& c) {
+  return out << c.filled << " filled, horizon " << c.horizon << ", asked " << c.lower_asks << c.upper_asks;
+}
+
+std::vector<std::int64_t> corners_of(int i, int j, int k) {
+  std::vector<std::int64_t> corners;
+  for (int n = 0; n < 8; ++n) corners.push_back((i + n % 2) + 100 * (j + n / 2 % 2) + 10000 * (k + n / 4));
+  return corners;
+}
+
+CellShape shape_of_id(Id id) {
+  const auto x = static_cast<double>(id);
+  return {Vector(x, x + 1, x + 2), Symmetric::LinSpaced(x, x + 7), Vector(-x, x / 3, 1)};
+}
+
+PointCloud whole_cloud(const Porous& c) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> any(0, 1);
+  PointCloud cloud;
+  cloud.block_names = {"lower", "upper"};
+  for (int k = 0; k < 8; ++k) {
+    for (int j = 0; j < 7; ++j) {
+      for (int i = 0; i < 9; ++i) {
+        const Vector shift = 0.2 * Vector(any(random), any(random), any(random));
+        const double spacing = 0.9 + 0.2 * any(random);
+        if (any(random) > c.filled) continue;
+        cloud.ids.push_back(static_cast<Id>(cloud.ids.size()));
+        cloud.positions.push_back(Vector(i, c.stretch * j, k) + shift);
+        cloud.spacings.push_back(spacing);
+        cloud.blocks.push_back(k < 4 ? 0 : 1);
+        cloud.joints.push_back(corners_of(i, j, k));
+        cloud.shapes.push_back(shape_of_id(cloud.ids.back()));
+      }
+    }
+  }
+  cloud.element_ids = cloud.ids;
+  cloud.volumes.assign(cloud.ids.size(), 1);
+  cloud.sets.assign(cloud.ids.size(), 0);
+  return cloud;
+}
+
+std::vector<BlockBonds> bonds_of(const Porous& c) {
+  std::vector<BlockBonds> bonds = {BlockBonds::per_spacing(c.horizon),
+                                   BlockBonds::per_spacing(0.8 * c.horizon, c.separate)};
+  bonds[0].through_material = c.lower_asks, bonds[1].through_material = c.upper_asks;
+  for (BlockBonds& block : bonds) block.families = FamilyKind::lists;
+  return bonds;
+}
+
+// By the words of the definition, over all pairs: the points that are bonded to both ends fall into parts that hang
+// together, and both ends must be in one.
+std::set<Pair> through_material(const Porous& c) {
+  const PointCloud cloud = whole_cloud(c);
+  const std::vector<BlockBonds> bonds = bonds_of(c);
+  const auto n = static_cast<int>(cloud.size());
+  const auto block = [&](int i) { return bonds[cloud.blocks[i]]; };
+  const auto in_reach = [&](int i, int j) {
+    const double horizon = 0.5 * (block(i).horizon_at(cloud.spacings[i]) + block(j).horizon_at(cloud.spacings[j]));
+    return block(i).body == block(j).body && (cloud.positions[i] - cloud.positions[j]).norm() <= horizon;
+  };
+  const auto touch = [&](int i, int j) {
+    std::vector<std::int64_t> common;
+    std::set_intersection(cloud.joints[i].begin(), cloud.joints[i].end(), cloud.joints[j].begin(),
+                          cloud.joints[j].end(), std::back_inserter(common));
+    return !common.empty();
+  };
+  std::vector<std::vector<int>> touching(n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (j != i && touch(i, j)) touching[i].push_back(j);
+    }
+  }
+  const auto joined = [&](int i, int j) {
+    std::set<int> reached{i};
+    std::vector<int> front{i};
+    while (!front.empty() && !reached.contains(j)) {
+      const int at = front.back();
+      front.pop_back();
+      for (const int k : touching[at]) {
+        if ((k == j || (in_reach(i, k) && in_reach(j, k))) && reached.insert(k).second) front.push_back(k);
+      }
+    }
+    return reached.contains(j);
+  };
+  std::set<Pair> pairs;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      if (i == j || !in_reach(i, j)) continue;
+      const bool asked = block(i).through_material || block(j).through_material;
+      if (!asked || joined(i, j)) pairs.emplace(i, j);
+    }
+  }
+  return pairs;
+}
+
+class PorousDomain : public testing::TestWithParam<Porous> {
+ protected:
+  const Communicator world;
+  Domain domain = make_domain(partitioned(slice(whole_cloud(GetParam()), world), world), bonds_of(GetParam()), world);
+  const std::vector<Id> ids = ids_of(domain);
+};
+
+TEST_P(PorousDomain, FamiliesAreThoseOfTheDefinitionOverAllPairs) {
+  const std::vector<Pair> bonds = all_bonds(domain, ids, world);
+  const std::set<Pair> distinct(bonds.begin(), bonds.end());
+  EXPECT_EQ(distinct.size(), bonds.size());
+  EXPECT_EQ(distinct, through_material(GetParam()));
+  Porous all = GetParam();
+  all.lower_asks = all.upper_asks = false;
+  if ((GetParam().lower_asks || GetParam().upper_asks) && GetParam().filled > 0.1) {
+    EXPECT_LT(distinct.size(), through_material(all).size()) << "a case without pores";
+  }
+}
+
+TEST_P(PorousDomain, FamiliesAreInTheOrderOfIdsAndNeedTheirGhosts) {
+  std::vector<char> used(domain.ghosts, 0);
+  for (int i = 0; i < domain.owned; ++i) {
+    Id last = -1;
+    bool has_ghost = false;
+    domain.families.for_each(i, [&](int j) {
+      EXPECT_LT(last, ids[j]);
+      last = ids[j];
+      if (j < domain.owned) return;
+      has_ghost = true;
+      used[j - domain.owned] = 1;
+    });
+    EXPECT_EQ(has_ghost, i >= domain.interior);
+  }
+  EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
+}
+
+TEST_P(PorousDomain, PointsKeepTheirShapesAndJoints) {
+  const PointCloud whole = whole_cloud(GetParam());
+  const PointCloud again = strut::whole_cloud(domain);
+  ASSERT_EQ(domain.cloud.shapes.size(), domain.cloud.size());
+  ASSERT_EQ(again.joints.size(), again.size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    const Id id = again.ids[i];
+    EXPECT_EQ(domain.cloud.ids[i], id);
+    EXPECT_EQ(numbers_of(domain.cloud.shapes[i]), numbers_of(shape_of_id(id)));
+    EXPECT_EQ(again.joints[i], whole.joints[id]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Points, PorousDomain,
+                         testing::Values(Porous{0.3, 3, true, true}, Porous{0.5, 2.2, true, true},
+                                         Porous{0.4, 3, false, true}, Porous{0.3, 2.5, true, false, 1},
+                                         Porous{0.3, 3, false, false},
+                                         Porous{0.5, 2.2, true, true, 0, 2},  // not all that touch are bonded
+                                         Porous{0.004, 4, true, true}),       // fewer points than ranks
+                         [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+TEST(ThroughMaterial, NeedsListsAndJoints) {
+  const Communicator world;
+  const Porous c = {0.3, 2.2, true, true};
+  std::vector<BlockBonds> bonds = bonds_of(c);
+  PointCloud cloud = slice(whole_cloud(c), world);
+  bonds[1].families = FamilyKind::fastest;
+  EXPECT_THROW(make_domain(cloud, bonds, world), std::logic_error);
+  bonds[1].families = FamilyKind::lists;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.blocks[i] == 1) cloud.joints[i].clear();
+  }
+  for (const bool all : {false, true}) {
+    if (all) cloud.joints.clear();
+    try {
+      make_domain(cloud, bonds, world);
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(all ? "block 'lower': its bonds" : "block 'upper': its bonds"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 // Every step waits for the rank with most points.
