@@ -61,7 +61,8 @@ std::string summary_of(const Cells& cells, const Gathering& gathering) {
       "  %zu pieces of less than %g of a cell merged into neighbours; %zu without any dropped (%.3g %% of the "
       "volume)\n",
       gathering.factor, gathering.factor, gathering.factor, cells.parts.size(), cells.grid.cells[0],
-      cells.grid.cells[1], cells.grid.cells[2], kept, cells.merged, gathering.smallest, cells.dropped, 100 * lost);
+      cells.grid.cells[1], cells.grid.cells[2], kept, cells.merged, gathering.smallest, cells.small, cells.dropped,
+      100 * lost);
   return text;
 }
 

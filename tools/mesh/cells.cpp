@@ -171,33 +171,69 @@ void absorb(io::PartialCell& part, const io::PartialCell& other) {
   part.surface += other.surface;
 }
 
-// Merges the small pieces into their neighbours.
+// Merges the small pieces into their neighbours. Nodes can join cells only whose places touch: what would tear material
+// apart, because a merged cell has a contact beyond, waits until its neighbours have changed.
 class Merging {
  public:
-  Merging(Pieces& pieces, std::vector<std::set<int>> links, double limit)
-      : list_(pieces.list), links_(std::move(links)), limit_(limit), alive_(list_.size(), true) {}
+  Merging(Pieces& pieces, std::vector<std::set<int>> links, const VoxelGrid& grid, double limit)
+      : list_(pieces.list), links_(std::move(links)), grid_(grid), limit_(limit), alive_(list_.size(), true) {}
 
   void run(Cells& cells) {
     for (std::size_t p = 0; p < list_.size(); ++p) note(static_cast<int>(p));
     while (!small_.empty()) {
       const int piece = small_.begin()->second;
       small_.erase(small_.begin());
-      links_[piece].empty() ? drop(piece, cells) : merge(piece, largest_linked(piece), cells);
+      if (links_[piece].empty()) {
+        drop(piece, cells);
+      } else if (const Choice choice = choice_for(piece); choice.into >= 0) {
+        merge(piece, choice, cells);
+      }
     }
     put_into(cells);
   }
 
  private:
+  struct Choice {
+    int into = -1;  // a piece; -1: none is possible
+    int place = 0;  // of both, merged
+  };
+
   void note(int piece) {
-    if (list_[piece].filled < limit_) small_.emplace(list_[piece].filled, piece);
+    if (alive_[piece] && list_[piece].filled < limit_) small_.emplace(list_[piece].filled, piece);
   }
 
-  int largest_linked(int piece) const {
-    int largest = *links_[piece].begin();
+  // Whether a piece at `place` would touch all those that `piece` has contacts with, `other` aside.
+  bool reaches(int place, int piece, int other) const {
+    const Triple at = grid_.cell(place);
+    return std::all_of(links_[piece].begin(), links_[piece].end(), [&](int linked) {
+      return linked == other || ((grid_.cell(list_[linked].place) - at).abs() <= 1).all();
+    });
+  }
+
+  double extent_with(int piece, int other) const {
+    io::PartialCell both = list_[other].part;
+    absorb(both, list_[piece].part);
+    return both.moments.head<3>().sum();
+  }
+
+  Choice choice_for(int piece) const {
+    const Choice choice = most_compact(piece, [&](int other) { return list_[other].place; });
+    return choice.into >= 0 ? choice : most_compact(piece, [&](int) { return list_[piece].place; });
+  }
+
+  template <class Place>
+  Choice most_compact(int piece, const Place& place_with) const {
+    Choice best;
+    double least = 0;
     for (const int other : links_[piece]) {
-      if (list_[other].filled > list_[largest].filled) largest = other;
+      const int place = place_with(other);
+      if (!reaches(place, piece, other) || !reaches(place, other, piece)) continue;
+      const double extent = extent_with(piece, other);
+      if (best.into >= 0 && extent >= least) continue;
+      best = {other, place};
+      least = extent;
     }
-    return largest;
+    return best;
   }
 
   void drop(int piece, Cells& cells) {
@@ -206,11 +242,12 @@ class Merging {
     cells.dropped_volume += list_[piece].part.volume;
   }
 
-  // What is merged is the smallest of all, so that the other one's place is the larger one's.
-  void merge(int piece, int into, Cells& cells) {
+  void merge(int piece, const Choice& choice, Cells& cells) {
+    const int into = choice.into;
     small_.erase({list_[into].filled, into});
     absorb(list_[into].part, list_[piece].part);
     list_[into].filled += list_[piece].filled;
+    list_[into].place = choice.place;
     for (const int other : links_[piece]) {
       links_[other].erase(piece);
       if (other == into) continue;
@@ -220,29 +257,44 @@ class Merging {
     links_[piece].clear();
     alive_[piece] = false;
     ++cells.merged;
-    note(into);
+    note_around(into);
+  }
+
+  // It, and those that may have waited for a change of it.
+  void note_around(int piece) {
+    note(piece);
+    for (const int other : links_[piece]) {
+      note(other);
+      for (const int further : links_[other]) note(further);
+    }
   }
 
   void put_into(Cells& cells) const {
-    std::vector<int> number(list_.size(), -1);
-    for (std::size_t p = 0; p < list_.size(); ++p) {
-      if (!alive_[p]) continue;
-      number[p] = static_cast<int>(cells.parts.size());
-      cells.parts.push_back(list_[p].part);
-      cells.places.push_back(list_[p].place);
+    std::vector<std::pair<int, int>> order;  // place and piece
+    for (int p = 0; p < static_cast<int>(list_.size()); ++p) {
+      if (alive_[p]) order.emplace_back(list_[p].place, p);
     }
-    for (std::size_t p = 0; p < list_.size(); ++p) {
-      for (const int other : links_[p]) {
-        if (number[p] < number[other]) cells.contacts.push_back({number[p], number[other]});
+    std::sort(order.begin(), order.end());
+    std::vector<int> number(list_.size(), -1);
+    for (const auto& [place, piece] : order) {
+      number[piece] = static_cast<int>(cells.parts.size());
+      cells.parts.push_back(list_[piece].part);
+      cells.places.push_back(place);
+      cells.small += list_[piece].filled < limit_ ? 1 : 0;
+    }
+    for (const auto& [place, piece] : order) {
+      for (const int other : links_[piece]) {
+        if (number[piece] < number[other]) cells.contacts.push_back({number[piece], number[other]});
       }
     }
   }
 
   std::vector<Piece>& list_;
   std::vector<std::set<int>> links_;
+  const VoxelGrid& grid_;
   double limit_;
   std::vector<char> alive_;
-  std::set<std::pair<double, int>> small_;
+  std::set<std::pair<double, int>> small_;  // by size, those to be looked at
 };
 
 }  // namespace
@@ -263,7 +315,7 @@ Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills,
   add_volumes(material, cells.grid, factor, pieces);
   add_surfaces(material, pieces);
   const double limit = gathering.smallest * factor * factor * factor;
-  Merging(pieces, links_of(material, pieces), limit).run(cells);
+  Merging(pieces, links_of(material, pieces), cells.grid, limit).run(cells);
   return cells;
 }
 

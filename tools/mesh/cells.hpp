@@ -22,6 +22,7 @@ struct Cells {
   std::vector<std::array<int, 2>>
       contacts;               // cells whose material has faces in common: each pair once, the lower first
   std::size_t merged = 0;     // pieces that became part of a neighbour
+  std::size_t small = 0;      // kept below the limit: they alone join those around them
   std::size_t dropped = 0;    // pieces that were too small and had none
   double dropped_volume = 0;  // m³
   double volume() const;      // m³, of what is left
@@ -29,8 +30,10 @@ struct Cells {
 
 // `voxels`: indices of the solid ones, ascending. `fills`: the part of each that is solid, > 0 to 1; empty: all of it.
 // Voxels of a cell that hang together through faces within it are a piece. The smallest piece that is below the limit
-// is merged into the largest one that has a face in common with it, again and again; a merged one is where the larger
-// was. Volume and first and second moments are those of the voxels, but for what is dropped.
+// is merged into one that has a face in common with it, again and again: that with which it has the smallest moments,
+// among those where all that hang together have places that touch. A merged piece is where the larger one was, or,
+// where only this keeps its neighbours, where the smaller one was. Volume and first and second moments are those of the
+// voxels, but for what is dropped.
 Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid,
                const Gathering& gathering);
 
