@@ -54,15 +54,15 @@ io::Mesh cell_mesh(const Cells& cells) {
 std::string summary_of(const Cells& cells, const Gathering& gathering) {
   const double kept = cells.volume();
   const double lost = cells.dropped == 0 ? 0 : cells.dropped_volume / (cells.dropped_volume + kept);
+  const int n = gathering.factor;
+  const Triple& places = cells.grid.cells;
   char text[500];
-  std::snprintf(
-      text, sizeof text,
-      "  %d x %d x %d voxels to a cell: %zu cells in %d x %d x %d places, volume %.6g m^3\n"
-      "  %zu pieces of less than %g of a cell merged into neighbours; %zu without any dropped (%.3g %% of the "
-      "volume)\n",
-      gathering.factor, gathering.factor, gathering.factor, cells.parts.size(), cells.grid.cells[0],
-      cells.grid.cells[1], cells.grid.cells[2], kept, cells.merged, gathering.smallest, cells.small, cells.dropped,
-      100 * lost);
+  std::snprintf(text, sizeof text,
+                "  %d x %d x %d voxels to a cell: %zu cells in %d x %d x %d places, volume %.6g m^3\n"
+                "  pieces of less than %g of a cell: %zu merged into neighbours, %zu kept that alone join others,\n"
+                "    %zu without neighbours dropped (%.3g %% of the volume)\n",
+                n, n, n, cells.parts.size(), places[0], places[1], places[2], kept, gathering.smallest, cells.merged,
+                cells.small, cells.dropped, 100 * lost);
   return text;
 }
 
