@@ -204,13 +204,6 @@ void check_new(const std::vector<std::string>& names, const std::vector<std::str
   }
 }
 
-void shift(io::Mesh& mesh, const Vector& by) {
-  for (Vector& node : mesh.nodes) node += by;
-  for (io::Mesh::Block& block : mesh.blocks) {
-    for (io::PartialCell& part : block.cells) part.centroid += by;
-  }
-}
-
 io::Mesh extruded(const Body& body, std::string& summary) {
   check_size(body);
   const std::vector<double> levels = levels_of(body, height(body));
@@ -292,6 +285,13 @@ io::Mesh mesh_of(const Body& body, std::string& summary) {
   mesh.blocks[0].name = body.name;
   for (auto& set : mesh.node_sets) set.name = body.name + "_" + set.name;
   return mesh;
+}
+
+void shift(io::Mesh& mesh, const Vector& by) {
+  for (Vector& node : mesh.nodes) node += by;
+  for (io::Mesh::Block& block : mesh.blocks) {
+    for (io::PartialCell& part : block.cells) part.centroid += by;
+  }
 }
 
 void append(io::Mesh& mesh, const io::Mesh& body) {

@@ -19,6 +19,7 @@ struct Material {
   const std::vector<double>& fills;
   const VoxelGrid& grid;
   std::vector<Upper> upper;
+  std::vector<Upper> joined;  // the same, where they hang together
 
   double fill(int voxel) const { return fills.empty() ? 1 : fills[voxel]; }
   int size() const { return static_cast<int>(voxels.size()); }
@@ -35,6 +36,36 @@ std::vector<Upper> upper_neighbours(const std::vector<int>& voxels, const VoxelG
       const int wanted = voxels[v] + stride[axis];
       while (ahead < voxels.size() && voxels[ahead] < wanted) ++ahead;
       if (ahead < voxels.size() && voxels[ahead] == wanted) upper[v][axis] = static_cast<int>(ahead);
+    }
+  }
+  return upper;
+}
+
+// For each voxel the fullest one that it has a face in common with, -1: none is fuller than it is.
+std::vector<int> fullest_neighbours(const std::vector<double>& fills, const std::vector<Upper>& upper) {
+  std::vector<int> fullest(upper.size(), -1);
+  const auto offer = [&](int to, int other) {
+    if (fills[other] > (fullest[to] < 0 ? fills[to] : fills[fullest[to]])) fullest[to] = other;
+  };
+  for (int v = 0; v < static_cast<int>(upper.size()); ++v) {
+    for (const int w : upper[v]) {
+      if (w < 0) continue;
+      offer(v, w);
+      offer(w, v);
+    }
+  }
+  return fullest;
+}
+
+// Grey voxels that are less than half full are the rims of struts, and hang on their fullest neighbour alone: two
+// struts whose rims meet are still two.
+std::vector<Upper> joined_neighbours(const std::vector<double>& fills, std::vector<Upper> upper) {
+  if (fills.empty()) return upper;
+  const std::vector<int> fullest = fullest_neighbours(fills, upper);
+  for (int v = 0; v < static_cast<int>(upper.size()); ++v) {
+    for (int& w : upper[v]) {
+      if (w < 0 || (fills[v] >= 0.5 && fills[w] >= 0.5) || fullest[v] == w || fullest[w] == v) continue;
+      w = -1;
     }
   }
   return upper;
@@ -97,7 +128,7 @@ Pieces connected_within(const Material& material, const VoxelGrid& coarse, int f
   const std::vector<int> places = places_of(material, coarse, factor);
   Groups groups(material.voxels.size());
   for (int v = 0; v < material.size(); ++v) {
-    for (const int w : material.upper[v]) {
+    for (const int w : material.joined[v]) {
       if (w >= 0 && places[v] == places[w]) groups.join(v, w);
     }
   }
@@ -152,7 +183,7 @@ void add_surfaces(const Material& material, Pieces& pieces) {
 std::vector<std::set<int>> links_of(const Material& material, const Pieces& pieces) {
   std::vector<std::set<int>> links(pieces.list.size());
   for (int v = 0; v < material.size(); ++v) {
-    for (const int w : material.upper[v]) {
+    for (const int w : material.joined[v]) {
       if (w < 0 || pieces.of[v] == pieces.of[w]) continue;
       links[pieces.of[v]].insert(pieces.of[w]);
       links[pieces.of[w]].insert(pieces.of[v]);
@@ -308,7 +339,8 @@ double Cells::volume() const {
 Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid,
                const Gathering& gathering) {
   const int factor = gathering.factor;
-  const Material material{voxels, fills, grid, upper_neighbours(voxels, grid)};
+  const std::vector<Upper> upper = upper_neighbours(voxels, grid);
+  const Material material{voxels, fills, grid, upper, joined_neighbours(fills, upper)};
   Cells cells;
   cells.grid = coarse_grid(grid, factor);
   Pieces pieces = connected_within(material, cells.grid, factor);
