@@ -118,7 +118,7 @@ std::size_t bodies_in(const io::Mesh& mesh) {
   return firsts.size();
 }
 
-TEST(Cells, KeepVolumeAndMomentsOfTheBody) {
+TEST(MeshCells, KeepVolumeAndMomentsOfTheBody) {
   for (const double smallest : {0.0, 0.3, 0.6}) {
     for (const int factor : {2, 5}) {
       const Body body = foam(factor);
@@ -148,7 +148,7 @@ Body grey_bars(const std::vector<double>& axes, std::vector<double>& fills) {
   return body;
 }
 
-TEST(Cells, KeepVolumeAndMomentsOfGreyVoxels) {
+TEST(MeshCells, KeepVolumeAndMomentsOfGreyVoxels) {
   std::vector<double> fills;
   const Body bar = grey_bars({7.7}, fills);
   for (const int factor : {1, 3}) {
@@ -160,7 +160,7 @@ TEST(Cells, KeepVolumeAndMomentsOfGreyVoxels) {
   }
 }
 
-TEST(Cells, GreyBarsWhoseRimsMeetAreTwo) {
+TEST(MeshCells, GreyBarsWhoseRimsMeetAreTwo) {
   std::vector<double> fills;
   const Body bars = grey_bars({4.2, 11.6}, fills);
   std::set<int> columns;
@@ -171,7 +171,7 @@ TEST(Cells, GreyBarsWhoseRimsMeetAreTwo) {
   }
 }
 
-TEST(Cells, SurfaceOfAClosedBodyHasNoSum) {
+TEST(MeshCells, SurfaceOfAClosedBodyHasNoSum) {
   const Body bar = inclined_bar();
   const Body box = foam(4);  // its walls are surface, too
   for (const Body& body : {bar, box}) {
@@ -184,7 +184,7 @@ TEST(Cells, SurfaceOfAClosedBodyHasNoSum) {
 }
 
 // 3 × 2 × 2 whole cells in a larger grid: the surface of each is the sum of its outer faces.
-TEST(Cells, OfABoxAreWholeAndHaveItsFaces) {
+TEST(MeshCells, OfABoxAreWholeAndHaveItsFaces) {
   const Body body = drawn({1.0, 0.8, 0.8}, {10, 8, 8},
                           [](const Eigen::Array3i& at) { return at[0] >= 2 && at[0] < 8 && at[1] < 4 && at[2] >= 4; });
   const Cells cells = gathered(body.voxels, {}, body.grid, {2, 0.3});
@@ -209,7 +209,7 @@ TEST(Cells, OfABoxAreWholeAndHaveItsFaces) {
   for (const io::Mesh::NodeSet& set : mesh.node_sets) EXPECT_EQ(set.nodes.size(), sizes.at(set.name)) << set.name;
 }
 
-TEST(Cells, AreAsLargeAsAskedForWhereTheyHaveNeighbours) {
+TEST(MeshCells, AreAsLargeAsAskedForWhereTheyHaveNeighbours) {
   for (const double smallest : {0.3, 0.6}) {
     const Body body = foam(5);
     const Cells cells = gathered(body.voxels, {}, body.grid, {5, smallest});
@@ -222,7 +222,7 @@ TEST(Cells, AreAsLargeAsAskedForWhereTheyHaveNeighbours) {
   }
 }
 
-TEST(Cells, HangTogetherAsTheMaterialDoes) {
+TEST(MeshCells, HangTogetherAsTheMaterialDoes) {
   for (const double smallest : {0.0, 0.3, 0.6}) {
     const Body body = foam(4);
     const Cells cells = gathered(body.voxels, {}, body.grid, {4, smallest});
@@ -243,7 +243,7 @@ TEST(Cells, HangTogetherAsTheMaterialDoes) {
 }
 
 // Two bars of 3 × 3 voxels along z with one void layer between them, in cells of 7: both pass through the same cells.
-TEST(Cells, BarsWithANarrowGapShareNoNode) {
+TEST(MeshCells, BarsWithANarrowGapShareNoNode) {
   const auto bars = [](const Eigen::Array3i& at) { return at[1] < 3 && (at[0] < 3 || (at[0] >= 4 && at[0] < 7)); };
   const Body apart = drawn({7, 7, 70}, {7, 7, 70}, bars);
   const Cells cells = gathered(apart.voxels, {}, apart.grid, {7, 0.1});
@@ -261,7 +261,7 @@ TEST(Cells, BarsWithANarrowGapShareNoNode) {
   EXPECT_EQ(bridged.nodes.size(), 2 * 4 * 9u + 8);
 }
 
-TEST(Cells, SmallPiecesAreMergedOrDropped) {
+TEST(MeshCells, SmallPiecesAreMergedOrDropped) {
   // Along x a whole cell, then a layer of one voxel (a quarter), and apart from both two voxels alone.
   const Body body = drawn({16, 4, 4}, {16, 4, 4}, [](const Eigen::Array3i& at) {
     return at[0] < 5 || (at[0] >= 12 && at[0] < 14 && at[1] == 0 && at[2] == 0);
@@ -280,7 +280,7 @@ TEST(Cells, SmallPiecesAreMergedOrDropped) {
 }
 
 // A chain of voxels in cells that are each too small: none is lost by merging, however thin the strut.
-TEST(Cells, AThinWireStaysOne) {
+TEST(MeshCells, AThinWireStaysOne) {
   const Body wire = drawn({40, 4, 4}, {40, 4, 4}, [](const Eigen::Array3i& at) { return at[1] == 1 && at[2] == 1; });
   for (const double smallest : {0.1, 0.2, 0.5}) {
     const Cells cells = gathered(wire.voxels, {}, wire.grid, {4, smallest});
