@@ -61,7 +61,10 @@ void write(const strut::io::Mesh& mesh, const std::string& source, const std::st
 void make(const std::string& source, const std::string& output) {
   if (source != "--arrays") return write(from_recipe(source, output), source, output);
   std::ios::sync_with_stdio(false);
-  write(strut::mesh::read_arrays(std::cin, "standard input"), "standard input", output);
+  std::string summary;
+  const strut::io::Mesh mesh = strut::mesh::read_arrays(std::cin, "standard input", &summary);
+  std::fputs(summary.c_str(), stdout);
+  write(mesh, "standard input", output);
 }
 
 }  // namespace

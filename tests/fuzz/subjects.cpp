@@ -127,6 +127,8 @@ Subject recipes() {
       "elements = sphere\nspacing = 1e-3\n[body]\nname = a\nshape = box\nsize = 3e-3 3e-3 4e-3\n[body]\nname = "
       "b\nshape = "
       "cone\nlength = 5e-3\nradius = 2e-3\ntop_radius = 1e-3\n",
+      "shape = foam\nsize = 1e-3 1e-3 1e-3\nspacing = 1e-4\ncells = 2\nsmallest_cell = 0.2\ncell = 4e-4\n"
+      "relative_density = 0.1\n",
       "shape = foam\nsize = 1e-3 1e-3 1e-3\nspacing = 5e-5\ncell = 4e-4\nrelative_density = 0.1\nseed = "
       "3\nirregularity = "
       "0.5\n",
@@ -136,14 +138,25 @@ Subject recipes() {
   return {"recipe", "body.recipe", samples, change_text, read_recipe};
 }
 
+std::string raw(const auto& numbers) {
+  return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0]));
+}
+
 std::string arrays_sample() {
-  const auto raw = [](const auto& numbers) {
-    return std::string(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(numbers[0]));
-  };
   return "strut-mesh arrays 1\nnodes 4\n" + raw(std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) +
          "block tips TET4 1 4\n" + raw(std::vector<std::int32_t>{0, 1, 2, 3}) + "block points SPHERE 1 1\n" +
          raw(std::vector<std::int32_t>{2}) + raw(std::vector<double>{0.5}) + "set foot 2\n" +
          raw(std::vector<std::int32_t>{0, 1}) + "end\n";
+}
+
+std::string cells_sample() {
+  return "strut-mesh arrays 1\nnodes 8\n" +
+         raw(std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1}) +
+         "block cube HEX8 1 8\n" + raw(std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}) + "cells cube 1\n" +
+         raw(std::vector<double>{0.5, 0.5, 0.5, 0.5, 0.1, 0.1, 0.1, 0, 0, 0, 1, 0, 0}) +
+         "voxels foam 4 3 2 4 2 0.3 grey\n" + raw(std::vector<double>{0.1, 0.2, 0.1, 0, 0, 0}) +
+         raw(std::vector<std::int32_t>{0, 0, 0, 1, 0, 0, 2, 1, 2, 2, 1, 3}) + raw(std::vector<double>{1, 0.5, 1, 0.7}) +
+         "end\n";
 }
 
 Subject arrays() {
@@ -151,7 +164,7 @@ Subject arrays() {
     std::ifstream stream(file, std::ios::binary);
     mesh::read_arrays(stream, "arrays");
   };
-  return {"arrays", "mesh.arrays", {arrays_sample()}, change_text, read};
+  return {"arrays", "mesh.arrays", {arrays_sample(), cells_sample()}, change_text, read};
 }
 
 Subject histories() {

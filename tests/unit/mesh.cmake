@@ -5,6 +5,7 @@ foreach(test IN ITEMS test_mesh test_mesh_arrays test_mesh_file test_foam_recipe
   target_compile_definitions(${test} PRIVATE STRUT_MESH="$<TARGET_FILE:strut-mesh>")
 endforeach()
 strut_test(test_foam_parts SOURCES test_foam_parts.cpp SEES foam RANKS 1)
+strut_test(test_mesh_cells SOURCES test_mesh_cells.cpp SEES foam RANKS 1)
 strut_test(test_compare SOURCES test_compare.cpp SEES io points RANKS 1)
 add_dependencies(test_compare strut-compare)
 target_compile_definitions(test_compare PRIVATE STRUT_COMPARE="$<TARGET_FILE:strut-compare>")

@@ -151,6 +151,58 @@ TEST_F(FoamRecipe, SaysWhatWasMade) {
   }
 }
 
+// The foam of cells is the same body as that of voxels, and the same file again.
+TEST_F(FoamRecipe, CellsHoldTheFinerVoxels) {
+  const std::string recipe = "relative_density = 0.1\norigin = 2 3 4\n";
+  const std::string fine = "shape = foam\nsize = 1 1 1\nspacing = 0.0125\ncell = 0.45\n";
+  const PointCloud voxels = made(fine + recipe);
+  const testing::Outcome outcome = make(cube + recipe + "cells = 2\n");
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  for (const char* part :
+       {"51200 voxels", "40 x 40 x 40 places", "merged into neighbours", "0 kept", "dropped (0 % of the volume)"}) {
+    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+  }
+  const io::Mesh mesh = io::read_mesh(path("mesh.g"));
+  ASSERT_EQ(mesh.blocks[0].cells.size(), mesh.blocks[0].elements());
+  double volume = 0, expected = 0;
+  Vector first = Vector::Zero(), expected_first = Vector::Zero();
+  for (const io::PartialCell& cell : mesh.blocks[0].cells) {
+    volume += cell.volume;
+    first += cell.volume * cell.centroid;
+    EXPECT_GE(cell.volume, 0.3 * std::pow(spacing, 3));
+  }
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    expected += voxels.volumes[i];
+    expected_first += voxels.volumes[i] * voxels.positions[i];
+  }
+  EXPECT_NEAR(volume, expected, 1e-9 * expected);  // 50,000 voxels by a Gauss sum of coordinates about 4
+  EXPECT_LT((first - expected_first).norm(), 1e-9 * expected_first.norm());
+  ASSERT_EQ(make(cube + recipe + "cells = 2\n").status, 0);
+  const io::Mesh again = io::read_mesh(path("mesh.g"));
+  EXPECT_EQ(again.nodes, mesh.nodes);
+  EXPECT_EQ(again.blocks[0].nodes, mesh.blocks[0].nodes);
+  for (std::size_t n = 0; n < again.blocks[0].cells.size(); ++n) {
+    EXPECT_EQ(again.blocks[0].cells[n].moments, mesh.blocks[0].cells[n].moments);
+  }
+}
+
+// A cell at a face of the box has its nodes there, in the sets that a hexahedron would be in.
+TEST_F(FoamRecipe, CellsAtTheFacesAreInTheNodeSets) {
+  ASSERT_EQ(make(cube + "relative_density = 0.12\ncells = 3\n").status, 0);
+  const io::Mesh mesh = io::read_mesh(path("mesh.g"));
+  for (const io::Mesh::NodeSet& set : mesh.node_sets) {
+    if (!set.name.starts_with("foam_")) continue;
+    const int axis = set.name[5] - 'x';
+    const double face = set.name.ends_with("max") ? 1 : 0;
+    std::set<int> expected;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      if (std::abs(mesh.nodes[n][axis] - face) < 1e-12) expected.insert(static_cast<int>(n));
+    }
+    EXPECT_FALSE(expected.empty());
+    EXPECT_EQ(std::set<int>(set.nodes.begin(), set.nodes.end()), expected) << set.name;
+  }
+}
+
 TEST_F(FoamRecipe, WrongRecipesAreRefused) {
   const std::string density = "relative_density = 0.1\n";
   const std::pair<std::string, const char*> wrong[] = {
@@ -161,6 +213,15 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {cube + density + "seed = -1\n", "line 7: '-1' is not a whole number"},
       {cube + density + "radius = 1\n", "line 7: a foam has no key 'radius'"},
       {cube + density + "method = fitted\n", "a foam has only the method lattice"},
+      {cube + density + "cells = 1\n", "line 7: cells is '1', expected a whole number from 2 to 16"},
+      {cube + density + "cells = 2.5\n", "line 7: cells is '2.5', expected a whole number from 2 to 16"},
+      {cube + density + "cells = 17\n", "line 7: cells is '17'"},
+      {cube + density + "smallest_cell = 0.2\n", "line 7: a body without the key 'cells' has no key 'smallest_cell'"},
+      {cube + density + "cells = 2\nsmallest_cell = 1\n",
+       "line 8: smallest_cell is '1', expected a number from 0 to 0.9"},
+      {cube + density + "cells = 2\nelements = sphere\n", "line 7: a body of spheres has no key 'cells'"},
+      {"shape = box\nsize = 1 1 1\nspacing = 0.1\ngrading = 1.1\ncells = 2\n",
+       "line 4: cells that gather voxels are all alike"},
       {cube + density + "cel = 1\n", "did you mean 'cell'?"},
       {"shape = box\nsize = 1 1 1\nspacing = 0.1\ncell = 1\n", "line 4: a box has no key 'cell'"},
       {"shape = foam\nsize = 1 1 1\nspacing = 0.1\ncell = 0.3\n" + density, "fewer than 4 spacings"},

@@ -197,6 +197,39 @@ TEST_F(MeshTool, GradedBoxHasTheSamePointsAsSpheres) {
   }
 }
 
+// Volume and second moment of a cylinder about its axis come with the finer voxels, not with the cells.
+TEST_F(MeshTool, CellsOfACylinderHaveItsSection) {
+  for (const char* centred : {"corner", "point"}) {
+    const std::string recipe = "shape = cylinder\nlength = 2\nradius = 1\nspacing = 0.25\norigin = 3 4 5\ncentred = ";
+    ASSERT_EQ(make(recipe + centred + "\ncells = 12\n").status, 0);
+    const io::Mesh mesh = io::read_mesh(path("mesh.g"));
+    double volume = 0;
+    Tensor second = Tensor::Zero();
+    for (const io::PartialCell& cell : mesh.blocks[0].cells) {
+      const Vector x = cell.centroid - Vector(3, 4, 6);
+      volume += cell.volume;
+      second += cell.volume * (to_tensor(cell.moments) + x * x.transpose());
+    }
+    // 48 voxels to a radius: lattice points in a disc miss its area by about a row of surface voxels of random sign.
+    EXPECT_NEAR(volume, 2 * pi, 0.003 * 2 * pi);
+    EXPECT_NEAR(second(0, 0), pi / 2, 0.006 * pi / 2);
+    EXPECT_NEAR(second(0, 0), second(1, 1), 1e-12);
+    EXPECT_NEAR(second(2, 2), volume / 3, 1e-12);
+  }
+}
+
+TEST_F(MeshTool, CellsOfABoxAreItsHexahedra) {
+  const std::string box = "shape = box\nsize = 1 2 3\nspacing = 0.5\norigin = 5 6 7\n";
+  const PointCloud hexahedra = made(box);
+  const PointCloud cells = made(box + "cells = 3\n");
+  ASSERT_EQ(cells.size(), hexahedra.size());
+  EXPECT_EQ(cells.set_names, hexahedra.set_names);
+  EXPECT_EQ(cells.sets, hexahedra.sets);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    EXPECT_NEAR((cells.positions[i] - hexahedra.positions[i]).norm(), 0, 1e-13);
+  }
+}
+
 TEST_F(MeshTool, GradingThatCannotBeIsRefused) {
   const std::string box = "shape = box\nsize = 1 1 1\nspacing = 0.1\n";
   const std::string lattice = "shape = cylinder\nlength = 1\nradius = 1\nspacing = 0.2\n";
@@ -205,7 +238,8 @@ TEST_F(MeshTool, GradingThatCannotBeIsRefused) {
         {box + "grading = 1.1\ncoarsest = 0.05\n", "line 5: coarsest is less than the spacing"},
         {box + "grading = 1.1\nuniform = 0\n", "line 5: uniform is '0', expected a length > 0"},
         {box + "uniform = 0.5\n", "line 4: a body without grading has no key 'uniform'"},
-        {lattice + "grading = 1.1\n", "line 5: a lattice cylinder has no key 'grading'"}}) {
+        {lattice + "grading = 1.1\n", "line 5: a lattice cylinder has no key 'grading'"},
+        {lattice + "method = fitted\ncells = 2\n", "line 6: a fitted body has no key 'cells'"}}) {
     const testing::Outcome outcome = make(recipe);
     EXPECT_EQ(outcome.status, 1) << recipe;
     EXPECT_NE(outcome.text.find(expected), std::string::npos) << outcome.text;

@@ -1,4 +1,5 @@
 // strut-mesh --arrays: what another program hands over comes out of the file, and a damaged stream is refused.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -138,6 +139,136 @@ TEST_F(Arrays, WrongContent) {
     stream.volumes[1] = x;
     expect_error(stream.text(), "expected one > 0");
   }
+}
+
+// A stream of one cube with what it holds.
+struct CellStream {
+  std::string header = "cells cube 1\n";
+  std::vector<double> numbers = {0.25, 0.5, 0.4, 0.3, 0.01, 0.02, 0.03, 0.001, -0.002, 0.003, 0, -0.5, 1};
+  std::string text() const {
+    const Stream cube;
+    return cube.magic + cube.nodes_header + bytes(cube.nodes) + cube.cube_header + bytes(cube.cube) + header +
+           bytes(numbers) + cube.tip_header + bytes(cube.tip) + "end\n";
+  }
+};
+
+TEST_F(Arrays, CellsGoWithTheirBlock) {
+  const CellStream stream;
+  const testing::Outcome outcome = make(stream.text());
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  const io::Mesh mesh = io::read_mesh(path("mesh.g"));
+  ASSERT_EQ(mesh.blocks[0].cells.size(), 1u);
+  EXPECT_TRUE(mesh.blocks[1].cells.empty());
+  const io::PartialCell& cell = mesh.blocks[0].cells[0];
+  EXPECT_EQ(cell.volume, 0.25);
+  EXPECT_EQ(cell.centroid, Vector(0.5, 0.4, 0.3));
+  Symmetric moments;
+  moments << 0.01, 0.02, 0.03, 0.001, -0.002, 0.003;
+  EXPECT_EQ(cell.moments, moments);
+  EXPECT_EQ(cell.surface, Vector(0, -0.5, 1));
+}
+
+TEST_F(Arrays, WrongCells) {
+  for (const auto& [header, part] :
+       {std::pair("cells tip 1\n", "cells of block 'tip': there is no such block before them"),
+        {"cells cube 2\n", "cells of block 'cube': 2 cells, expected one for each of its 1 elements"},
+        {"cells cube\n", "expected 'block NAME TYPE"}}) {
+    CellStream stream;
+    stream.header = header;
+    expect_error(stream.text(), part);
+  }
+  CellStream stream;
+  stream.numbers[0] = 0;
+  expect_error(stream.text(), "cells of block 'cube', cell 0: volume 0");
+  stream.numbers[0] = 1;
+  stream.numbers[7] = std::nan("");
+  expect_error(stream.text(), "cell 0: moment_xy is not finite");
+  stream = CellStream();
+  stream.numbers.resize(12);
+  expect_error(stream.text(), "");
+}
+
+// Two layers of a box of 4 × 4 × 3 voxels, not cubes, in cells of 2³.
+struct VoxelStream {
+  std::string nodes = "nodes 0\n";
+  std::string header = "voxels foam 32 4 4 3 2 0.3 solid\n";
+  std::vector<double> place = {0.1, 0.2, 0.3, 5, 6, 7};
+  std::vector<int> voxels;
+  std::vector<double> fills;
+  std::string end = "end\n";
+
+  VoxelStream() {
+    for (int n = 0; n < 32; ++n) voxels.insert(voxels.end(), {n % 4, n / 4 % 4, n / 16});
+  }
+  std::string text() const {
+    return "strut-mesh arrays 1\n" + nodes + header + bytes(place) + bytes(voxels) + bytes(fills) + end;
+  }
+};
+
+TEST_F(Arrays, VoxelsAreGatheredInCells) {
+  VoxelStream stream;
+  const testing::Outcome outcome = make(stream.text());
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("2 x 2 x 2 voxels to a cell: 4 cells in 2 x 2 x 2 places"), std::string::npos);
+  const io::Mesh mesh = io::read_mesh(path("mesh.g"));
+  ASSERT_EQ(mesh.blocks[0].cells.size(), 4u);
+  EXPECT_EQ(mesh.nodes.size(), 18u);
+  EXPECT_NEAR(mesh.blocks[0].cells[0].volume, 8 * 0.006, 1e-15);
+  EXPECT_LT((mesh.blocks[0].cells[0].centroid - Vector(5.1, 6.2, 7.3)).norm(), 1e-14);
+  EXPECT_LT((mesh.blocks[0].cells[0].surface - Vector(-0.24, -0.12, 0)).norm(), 1e-14);  // faces of z cancel
+  ASSERT_EQ(mesh.node_sets.size(), 5u);                                                  // none at zmax
+  EXPECT_EQ(mesh.node_sets[0].name, "foam_zmin");
+
+  stream.header = "voxels foam 32 4 4 3 2 0.3 grey\n";
+  stream.fills.assign(32, 0.5);
+  ASSERT_EQ(make(stream.text()).status, 0);
+  EXPECT_NEAR(io::read_mesh(path("mesh.g")).blocks[0].cells[0].volume, 4 * 0.006, 1e-15);
+}
+
+TEST_F(Arrays, NodesOfVoxelsAreNotThoseOfTheStream) {
+  VoxelStream stream;
+  stream.nodes = "nodes 1\n" + bytes(std::vector<double>{1, 2, 3}) + "block ball SPHERE 1 1\n" +
+                 bytes(std::vector<int>{0}) + bytes(std::vector<double>{1});
+  stream.end = "set at 1\n" + bytes(std::vector<int>{0}) + "end\n";
+  ASSERT_EQ(make(stream.text()).status, 0);
+  const io::Mesh mesh = io::read_mesh(path("mesh.g"));
+  EXPECT_EQ(mesh.blocks[1].name, "foam");
+  EXPECT_EQ(*std::min_element(mesh.blocks[1].nodes.begin(), mesh.blocks[1].nodes.end()), 1);
+  std::filesystem::remove(path("mesh.g"));
+  stream.end = "set at 1\n" + bytes(std::vector<int>{1}) + "end\n";
+  expect_error(stream.text(), "set 'at' refers to node 1; the nodes are 0 to 0");
+  stream.end = "block foam SPHERE 0 1\nend\n";
+  expect_error(stream.text(), "two blocks are called 'foam'");
+  stream.end = "set foam_zmin 0\nend\n";
+  expect_error(stream.text(), "two sets are called 'foam_zmin'");
+}
+
+TEST_F(Arrays, WrongVoxels) {
+  for (const auto& [header, part] :
+       {std::pair("voxels foam 32 4 4 1 2 0.3 solid\n", "voxels 'foam', voxel 16 is not in the box"),
+        {"voxels foam 32 4 4 0 2 0.3 solid\n", "a box of 4 x 4 x 0 voxels"},
+        {"voxels foam 32 40000 40000 3 2 0.3 solid\n", "expected 1 to 2147483647 in all"},
+        {"voxels foam 300000000 4 4 3 2 0.3 solid\n", "at most 268435455 are supported"},
+        {"voxels foam 2000000 4 4 3 2 0.3 solid\n", "voxels 'foam': it ends after"},
+        {"voxels foam 32 4 4 3 17 0.3 solid\n", "17 along an edge of a cell, expected 1 to 16"},
+        {"voxels foam 32 4 4 3 2 1 solid\n", "the smallest cell is '1', expected a number from 0 to 0.9"},
+        {"voxels foam 32 4 4 3 2 0.3 gray\n", "are 'gray', expected solid or grey"},
+        {"voxels foam 0 4 4 3 2 0.3 solid\n", "no cell is left"}}) {
+    VoxelStream stream;
+    stream.header = header;
+    expect_error(stream.text(), part);
+  }
+  VoxelStream stream;
+  stream.place[1] = 0;
+  expect_error(stream.text(), "three edges of a voxel > 0");
+  stream = VoxelStream();
+  std::swap(stream.voxels[0], stream.voxels[3]);
+  expect_error(stream.text(), "voxel 1 is out of order");
+  stream = VoxelStream();
+  stream.header = "voxels foam 32 4 4 3 2 0.3 grey\n";
+  stream.fills.assign(32, 1);
+  stream.fills[3] = 0;
+  expect_error(stream.text(), "voxel 3: a part of 0");
 }
 
 }  // namespace

@@ -264,6 +264,62 @@ class KnownAnswers(ToolTest):
             self.assertEqual(said["faces"], "touched: xmin xmax ymin ymax zmin zmax")
 
 
+class Cells(ToolTest):
+    """--cells: columns of the attributes are volume, centroid, moments (xx yy zz xy yz zx), surface."""
+
+    def cells(self, image, *words):
+        said, mesh = self.voxels(image, *words)
+        return said, mesh, mesh.attributes["foam"]
+
+    def test_a_cube_that_is_off_the_cells_keeps_its_moments(self):
+        image = box((9, 9, 9), (1, 6), (2, 6), (3, 8))
+        edge = np.array([1e-3, 2e-3, 3e-3])
+        said, mesh, cells = self.cells(image, "--cells", 3, "--voxel-size", *edge, "--origin", 1, 2, 3)
+        places = (np.stack(np.nonzero(image)[::-1], axis=1) + 0.5) * edge + (1, 2, 3)
+        volume, centre = cells[:, 0], cells[:, 1:4]
+        self.assertGreaterEqual(volume.min(), 0.3 * 27 * 6e-9)
+        np.testing.assert_allclose(volume.sum(), 100 * 6e-9, rtol=1e-12)
+        np.testing.assert_allclose(volume @ centre / volume.sum(), places.mean(axis=0), rtol=1e-12)
+        second = volume @ (cells[:, 4:7] + (centre - places.mean(axis=0))**2) / volume.sum()
+        np.testing.assert_allclose(second, (np.array([5, 4, 5]) * edge)**2 / 12, rtol=1e-9)  # of a box
+        np.testing.assert_allclose(cells[:, 10:].sum(axis=0), 0, atol=1e-15)
+        np.testing.assert_allclose(hexahedra_volumes(mesh), 27 * 6e-9, rtol=1e-9)
+        self.assertEqual(set(mesh.sets), {"foam_xmax", "foam_ymin", "foam_zmin"})
+
+    def test_small_cells_are_kept_where_none_is_too_small(self):
+        image = box((8, 8, 8), (0, 8), (0, 5), (0, 8))
+        self.assertEqual(len(self.cells(image, "--cells", 4)[2]), 4)  # a quarter of a cell is merged
+        self.assertEqual(len(self.cells(image, "--cells", 4, "--smallest-cell", 0.2)[2]), 8)
+
+    def test_grey_voxels_are_solid_in_part(self):
+        image = np.full((12, 12, 12), 50, "u1")
+        image[3:9, 3:9, 3:9] = 250
+        image[9, 3:9, 3:9] = 100  # a quarter
+        image[0, 0, 0] = 240  # apart, and dropped
+        for words in (("--grey", 50, 250), ("--grey", 50, 250, "--threshold", 180)):
+            said, mesh, cells = self.cells(image, "--cells", 1, *words)
+            np.testing.assert_allclose(cells[:, 0].sum(), (216 + 9) * 1e-9, rtol=1e-6)  # parts in single precision
+            self.assertEqual(len(cells), 216)  # the quarters are less than 0.3
+            np.testing.assert_allclose(cells[:, 3].max(), (0.5 * 1 + 0.25 * 1.5) / 1.25 * 1e-3 + 8e-3, rtol=1e-6)
+            np.testing.assert_allclose(cells[:, 10:].sum(axis=0), 0, atol=1e-12)
+        said, mesh, cells = self.cells(image, "--cells", 3, "--grey")
+        self.assertIn("void 51", said["levels"])  # 36 of 1511 void voxels have 100
+        self.assertEqual(len(cells), 8)
+
+    def test_wrong_cells(self):
+        tifffile.imwrite(self.path("a.tif"), box((4, 4, 4), (0, 2), (0, 4), (0, 4)), photometric="minisblack")
+        for words, expected in ((("--cells", 1), "from 2 to 16"), (("--cells", 17), "from 2 to 16"),
+                                (("--cells", 2.5), "1 whole number"),
+                                (("--smallest-cell", 0.2), "needs --cells"), (("--grey",), "--grey needs --cells"),
+                                (("--cells", 2, "--smallest-cell", 1), "from 0 to 0.9"),
+                                (("--cells", 2, "--elements", "sphere"), "leave out --elements"),
+                                (("--cells", 2, "--grey", 1), "no or 2 numbers"),
+                                (("--cells", 2, "--grey", 1, 1), "two different values"),
+                                (("--cells", 2, "--grey", "--coarsen", 2), "leave out --coarsen"),
+                                (("--cells", 2, "--grey"), "has two values")):
+            self.refused("voxels", expected, self.path("a.tif"), "--voxel-size", 1e-3, *words)
+
+
 class CtFoam(ToolTest):
     @unittest.skipUnless(os.path.exists(CT_FOAM), f"the CT foam is not there: {CT_FOAM}")
     def test_the_ct_foam_is_what_is_known_of_it(self):

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/errors.hpp"
+#include "mesh/cells.hpp"
 #include "mesh/foam.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/section.hpp"
@@ -30,9 +31,11 @@ double exact_volume(const Body& body) {
 double height(const Body& body) { return body.shape == Body::Shape::box ? body.size.z() : body.length; }
 
 void check_cells(const Body& body, const Vector& extent) {
-  if (extent.maxCoeff() / body.spacing > most_cells || (extent / body.spacing).cwiseMax(1).prod() > most_cells) {
-    throw Error("body '" + body.name + "' would have more than 10⁸ cells: the spacing is too small");
-  }
+  const int factor = std::max(1, body.cells);
+  const Vector cells = extent / body.spacing;
+  if (cells.maxCoeff() * factor <= most_cells && (cells.cwiseMax(1) * factor).prod() <= most_cells) return;
+  throw Error("body '" + body.name + "' would have more than 10⁸ " + (body.cells > 0 ? "voxels" : "cells") +
+              ": the spacing is too small");
 }
 
 void check_size(const Body& body) {
@@ -212,6 +215,45 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
 }
 
+// The voxels whose centre lies in the body: all of a box, or those of a cylinder about the middle of the grid.
+std::vector<int> voxels_in(const Body& body, const VoxelGrid& grid) {
+  std::vector<int> voxels;
+  const Vector h = grid.spacing();
+  for (int n = 0; n < static_cast<int>(grid.count()); ++n) {
+    const Vector x = (grid.cell(n).cast<double>() + 0.5) * h.array() - grid.size.array() / 2;
+    if (body.shape == Body::Shape::box || x.head<2>().norm() <= body.radius) voxels.push_back(n);
+  }
+  return voxels;
+}
+
+// Of a cylinder: cubes, with a corner or a centre of them on the axis.
+VoxelGrid grid_around(const Body& body) {
+  if (body.shape == Body::Shape::box) return grid_of(body.size, body.spacing, body.cells);
+  const int layers = std::max(1, static_cast<int>(std::lround(body.length / body.spacing)));
+  const double h = body.length / layers;
+  const bool corner = body.centred == Body::Centred::corner;
+  const int across = corner ? 2 * static_cast<int>(std::ceil(body.radius / h))
+                            : 2 * static_cast<int>(std::ceil(body.radius / h - 0.5)) + 1;
+  return {{across * h, across * h, body.length}, body.cells * Eigen::Array3i(across, across, layers)};
+}
+
+io::Mesh gathered_body(const Body& body, std::string& summary) {
+  check_size(body);
+  const VoxelGrid grid = grid_around(body);
+  const std::vector<int> voxels = voxels_in(body, grid);
+  if (voxels.empty()) throw Error("body '" + body.name + "' holds no voxel: the spacing is too large");
+  const Gathering gathering{body.cells, body.smallest_cell};
+  const Cells cells = gathered(voxels, {}, grid, gathering);
+  const Vector h = cells.grid.spacing();
+  char text[200];
+  std::snprintf(text, sizeof text, "%s: %s in cells of %.6g %.6g %.6g m (asked for %g), exact volume %.6g m^3\n",
+                body.name.c_str(), shape_name(body), h[0], h[1], h[2], body.spacing, exact_volume(body));
+  summary = text + summary_of(cells, gathering);
+  io::Mesh mesh = cell_mesh(cells);
+  if (body.shape == Body::Shape::cylinder) shift(mesh, {-grid.size[0] / 2, -grid.size[1] / 2, 0});
+  return mesh;
+}
+
 io::Mesh read_body(const Body& body, std::string& summary) {
   io::Mesh mesh = io::read_mesh(body.file);
   if (body.named && mesh.blocks.size() != 1) {
@@ -227,20 +269,29 @@ io::Mesh read_body(const Body& body, std::string& summary) {
 
 io::Mesh shaped(const Body& body, std::string& summary) {
   if (body.shape == Body::Shape::file) return read_body(body, summary);
-  if (body.shape != Body::Shape::foam) return extruded(body, summary);
-  check_cells(body, body.size);
-  return foam_mesh(body, summary);
+  if (body.shape == Body::Shape::foam) {
+    check_cells(body, body.size);
+    return foam_mesh(body, summary);
+  }
+  return body.cells > 0 ? gathered_body(body, summary) : extruded(body, summary);
 }
 
 }  // namespace
 
 io::Mesh mesh_of(const Body& body, std::string& summary) {
   io::Mesh mesh = shaped(body, summary);
-  for (Vector& node : mesh.nodes) node += body.origin;
+  shift(mesh, body.origin);
   if (body.shape == Body::Shape::file && !body.named) return mesh;
   mesh.blocks[0].name = body.name;
   for (auto& set : mesh.node_sets) set.name = body.name + "_" + set.name;
   return mesh;
+}
+
+void shift(io::Mesh& mesh, const Vector& by) {
+  for (Vector& node : mesh.nodes) node += by;
+  for (io::Mesh::Block& block : mesh.blocks) {
+    for (io::PartialCell& part : block.cells) part.centroid += by;
+  }
 }
 
 void append(io::Mesh& mesh, const io::Mesh& body) {

@@ -12,6 +12,9 @@ namespace strut::mesh {
 // file holds.
 io::Mesh mesh_of(const Body& body, std::string& summary);
 
+// Moves nodes and what elements hold.
+void shift(io::Mesh& mesh, const Vector& by);
+
 // Adds a body's mesh. Throws Error where a block or set of it has a name that is taken.
 void append(io::Mesh& mesh, const io::Mesh& body);
 

@@ -1,9 +1,11 @@
 #include "mesh/foam.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "base/errors.hpp"
+#include "mesh/cells.hpp"
 #include "mesh/voxels.hpp"
 
 namespace strut::mesh {
@@ -30,12 +32,6 @@ void check(const Body& body) {
   }
 }
 
-VoxelGrid grid_of(const Body& body) {
-  VoxelGrid grid{body.size, Eigen::Array3i::Ones()};
-  for (int k = 0; k < 3; ++k) grid.cells[k] = std::max(1, static_cast<int>(std::lround(body.size[k] / body.spacing)));
-  return grid;
-}
-
 // Struts thinner than a voxel are dust, until their radius lets it join, and then they are too many.
 void check(const Body& body, const Struts& struts, std::size_t wanted) {
   if (static_cast<double>(struts.voxels.size()) <= too_much * static_cast<double>(wanted)) return;
@@ -59,28 +55,45 @@ std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& 
   const Vector h = grid.spacing();
   char text[1000];
   std::snprintf(text, sizeof text,
-                "%s: open-cell foam, irregularity %g, seed %llu: %.0f points of %d x %d x %d voxels\n"
+                "%s: open-cell foam, irregularity %g, seed %llu: %.0f %s of %d x %d x %d voxels\n"
                 "  relative density %.6g (asked for %g) in one piece; %zu other pieces of %zu points in all dropped\n"
                 "  %zu cells (seeds in the box), %zu edges in the box, their length %.6g m in all\n"
                 "  struts %.4g spacings = %.4g m thick; spacing %.6g %.6g %.6g m (asked for %g)\n",
-                body.name.c_str(), body.irregularity, static_cast<unsigned long long>(body.seed), points, grid.cells[0],
-                grid.cells[1], grid.cells[2], points / static_cast<double>(grid.count()), body.relative_density,
-                struts.dropped_pieces, struts.dropped_voxels, skeleton.cells, edges, length,
-                thickness / std::cbrt(h.prod()), thickness, h[0], h[1], h[2], body.spacing);
+                body.name.c_str(), body.irregularity, static_cast<unsigned long long>(body.seed), points,
+                body.cells > 0 ? "voxels" : "points", grid.cells[0], grid.cells[1], grid.cells[2],
+                points / static_cast<double>(grid.count()), body.relative_density, struts.dropped_pieces,
+                struts.dropped_voxels, skeleton.cells, edges, length, thickness / std::cbrt(h.prod()), thickness, h[0],
+                h[1], h[2], body.spacing);
   if (thickness >= thin * body.spacing) return text;
   return std::string(text) + "  note: struts are thinner than 3 spacings; a smaller spacing would show their shape\n";
+}
+
+// As it is drawn: in voxels, where these are gathered in cells.
+Body drawn(Body body) {
+  if (body.cells > 0) body.spacing /= body.cells;
+  return body;
+}
+
+io::Mesh gathered_mesh(const Body& body, const Struts& struts, const VoxelGrid& grid, std::string& summary) {
+  const Gathering gathering{body.cells, body.smallest_cell};
+  const Cells cells = gathered(struts.voxels, {}, grid, gathering);
+  summary += summary_of(cells, gathering);
+  summary += "  struts " + number(2 * struts.radius / std::cbrt(cells.grid.spacing().prod())) + " cells thick\n";
+  return cell_mesh(cells);
 }
 
 }  // namespace
 
 io::Mesh foam_mesh(const Body& body, std::string& summary) {
-  check(body);
-  const VoxelGrid grid = grid_of(body);
+  const Body fine = drawn(body);
+  check(fine);
+  const VoxelGrid grid = grid_of(body.size, body.spacing, std::max(1, body.cells));
   const Skeleton skeleton = foam_skeleton(body.size, body.cell, body.irregularity, body.seed);
   const auto wanted = static_cast<std::size_t>(std::llround(body.relative_density * static_cast<double>(grid.count())));
   const Struts struts = struts_around(skeleton.edges, grid, wanted);
-  check(body, struts, wanted);
-  summary = summary_of(body, grid, skeleton, struts);
+  check(fine, struts, wanted);
+  summary = summary_of(fine, grid, skeleton, struts);
+  if (body.cells > 0) return gathered_mesh(body, struts, grid, summary);
   return voxel_mesh(struts.voxels, grid, body.elements);
 }
 

@@ -15,12 +15,13 @@ namespace strut::mesh {
 
 namespace {
 
-const std::vector<std::string> keys = {"name",         "shape", "method",  "centred", "elements", "length",
-                                       "radius",       "size",  "spacing", "origin",  "cell",     "relative_density",
-                                       "irregularity", "seed",  "file",    "grading", "uniform",  "coarsest",
-                                       "top_radius"};
+const std::vector<std::string> keys = {
+    "name", "shape",   "method",  "centred",  "elements",         "length",       "radius",
+    "size", "spacing", "origin",  "cell",     "relative_density", "irregularity", "seed",
+    "file", "grading", "uniform", "coarsest", "top_radius",       "cells",        "smallest_cell"};
 
 const std::vector<std::string> foam_keys = {"cell", "relative_density", "irregularity", "seed"};
+const std::vector<std::string> gathering_keys = {"cells", "smallest_cell"};
 const std::vector<std::string> grading_keys = {"grading", "uniform", "coarsest"};
 
 struct Entry {
@@ -127,6 +128,7 @@ class Converter {
     refuse({"method", "elements", "spacing", "length", "radius", "top_radius", "centred", "size"}, "file");
     refuse(foam_keys, "file");
     refuse(grading_keys, "file");
+    refuse(gathering_keys, "file");
     const Entry* entry = required("file");
     if (entry == nullptr) return;
     body.file = folder_ / entry->value;
@@ -138,6 +140,7 @@ class Converter {
     body.method = choice<Body::Method>("method", {"lattice", "fitted"}, cone ? "fitted" : "lattice");
     body.elements = choice<Body::Elements>("elements", {"hex", "sphere"}, "hex");
     body.spacing = length("spacing");
+    convert_gathering(body);
     if (cone) return convert_cone(body);
     if (body.shape == Body::Shape::cylinder) return convert_cylinder(body);
     convert_box(body, body.shape == Body::Shape::foam ? "foam" : "box");
@@ -201,9 +204,30 @@ class Converter {
     if (const Entry* entry = entries_.find("seed")) body.seed = whole(*entry);
   }
 
+  // Of cubes only: after the method and the elements.
+  void convert_gathering(Body& body) {
+    const Entry* cells = entries_.find("cells");
+    if (cells == nullptr) return refuse({"smallest_cell"}, "body without the key 'cells'");
+    if (body.shape == Body::Shape::cone) return refuse(gathering_keys, "cone");
+    if (body.method == Body::Method::fitted) return refuse(gathering_keys, "fitted body");
+    if (body.elements == Body::Elements::spheres) return refuse(gathering_keys, "body of spheres");
+    const double value = number(cells->value).value_or(NAN);
+    if (!(value >= 2 && value <= 16 && value == std::floor(value))) {
+      return fail(*cells, "cells is '" + cells->value + "', expected a whole number from 2 to 16");
+    }
+    body.cells = static_cast<int>(value);
+    const Entry* smallest = entries_.find("smallest_cell");
+    if (smallest == nullptr) return;
+    body.smallest_cell = number(smallest->value).value_or(NAN);
+    if (!(body.smallest_cell >= 0 && body.smallest_cell <= 0.9)) {
+      fail(*smallest, "smallest_cell is '" + smallest->value + "', expected a number from 0 to 0.9");
+    }
+  }
+
   void convert_grading(Body& body) {
     const Entry* grading = entries_.find("grading");
     if (grading == nullptr) return refuse({"uniform", "coarsest"}, "body without grading");
+    if (body.cells > 0) return fail(*grading, "cells that gather voxels are all alike: leave out grading or cells");
     body.grading = number(grading->value).value_or(NAN);
     if (!(body.grading >= 1 && body.grading <= 2)) {
       fail(*grading, "grading is '" + grading->value + "', expected a number from 1 to 2");

@@ -1,7 +1,7 @@
 #include "mesh/voxels.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace strut::mesh {
 
@@ -21,14 +21,6 @@ constexpr std::array<Face, 6> faces = {{{"zmin", 2, false},
                                         {"xmax", 0, true},
                                         {"ymin", 1, false},
                                         {"ymax", 1, true}}};
-
-// Puts node `number` at the place `at` (0 to `last` along each axis) into the sets of the faces that it lies on.
-void add_to_sets(io::Mesh& mesh, int number, const Triple& at, const Triple& last) {
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const int axis = faces[f].axis;
-    if (at[axis] == (faces[f].upper ? last[axis] : 0)) mesh.node_sets[f].nodes.push_back(number);
-  }
-}
 
 // Numbers the corners of voxels as they are met. Voxels come layer by layer, so that the numbers of the corners below
 // and above a layer are all that is kept.
@@ -65,13 +57,11 @@ class Corners {
 };
 
 void add_hexahedra(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid& grid) {
-  static const Triple corners[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
   Corners numbers(mesh, grid);
   for (const int voxel : voxels) {
     const Triple cell = grid.cell(voxel);
     numbers.go_to(cell[2]);
-    for (const Triple& corner : corners) mesh.blocks[0].nodes.push_back(numbers.number(cell + corner));
+    for (const Triple& corner : hexahedron_corners) mesh.blocks[0].nodes.push_back(numbers.number(cell + corner));
   }
 }
 
@@ -89,11 +79,31 @@ void add_spheres(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid
 
 }  // namespace
 
-io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements) {
+VoxelGrid grid_of(const Vector& size, double spacing, int factor) {
+  VoxelGrid grid{size, Eigen::Array3i::Ones()};
+  for (int k = 0; k < 3; ++k) {
+    grid.cells[k] = factor * std::max(1, static_cast<int>(std::lround(size[k] / spacing)));
+  }
+  return grid;
+}
+
+io::Mesh empty_mesh(const std::string& type) {
   io::Mesh mesh;
   for (const Face& face : faces) mesh.node_sets.push_back({face.name, {}});
+  mesh.blocks.push_back({"", type, {}, {}, {}});
+  return mesh;
+}
+
+void add_to_sets(io::Mesh& mesh, int number, const Triple& at, const Triple& last) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const int axis = faces[f].axis;
+    if (at[axis] == (faces[f].upper ? last[axis] : 0)) mesh.node_sets[f].nodes.push_back(number);
+  }
+}
+
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements) {
   const bool spheres = elements == Body::Elements::spheres;
-  mesh.blocks.push_back({"", spheres ? "SPHERE" : "HEX8", {}, {}});
+  io::Mesh mesh = empty_mesh(spheres ? "SPHERE" : "HEX8");
   spheres ? add_spheres(mesh, voxels, grid) : add_hexahedra(mesh, voxels, grid);
   return mesh;
 }

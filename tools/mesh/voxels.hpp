@@ -1,6 +1,8 @@
 // A box of voxels of which some are kept: those around the edges of a skeleton, and the mesh of them.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "io/exodus.hpp"
@@ -22,6 +24,9 @@ struct VoxelGrid {
   }
 };
 
+// As many cells as come nearest to the spacing, each divided in `factor` voxels along each axis.
+VoxelGrid grid_of(const Vector& size, double spacing, int factor);
+
 struct Struts {
   std::vector<int> voxels;         // indices, ascending: one piece, voxels that share faces
   double radius = 0;               // m
@@ -32,6 +37,16 @@ struct Struts {
 // The voxels whose centre lies within a radius of an edge, the radius such that the largest piece has at least `wanted`
 // voxels. Voxels at the same distance are kept or left out together, so that symmetry is kept, too.
 Struts struts_around(const std::vector<Edge>& edges, const VoxelGrid& grid, std::size_t wanted);
+
+// One empty block of this type, and empty node sets zmin, zmax, xmin, xmax, ymin, ymax. No names yet.
+io::Mesh empty_mesh(const std::string& type);
+
+// Puts node `number` at the place `at` (0 to `last` along each axis) into the sets of the faces that it lies on.
+void add_to_sets(io::Mesh& mesh, int number, const Eigen::Array3i& at, const Eigen::Array3i& last);
+
+// The corners of a hexahedron from its lower one, in the order of Exodus.
+inline const std::array<Eigen::Array3i, 8> hexahedron_corners = {
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
 // Hexahedra or spheres; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box. No names yet.
 io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements);

@@ -53,8 +53,8 @@ def number(word):
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse that says one line, knows the nearest option, and takes as many numbers after an option as there are:
-    a file's name may follow them, and they may be negative."""
+    """argparse that says one line, knows the nearest option, and takes as many numbers after an option as there are, none
+    where that is one of its counts: a file's name may follow them, and they may be negative."""
 
     def __init__(self, **words):
         super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **words)
@@ -64,9 +64,9 @@ class Parser(argparse.ArgumentParser):
         self.counts[option] = counts
 
         def numbers(text):
-            found = [number(word) for word in text.split(",")]
+            found = [number(word) for word in text.split(",") if text]
             if len(found) not in counts or any(x is None or x != x or x != kind(x) for x in found):
-                wanted = f"{' or '.join(map(str, counts))} {'whole ' if kind is int else ''}number"
+                wanted = f"{' or '.join(map(str, counts)).replace('0', 'no')} {'whole ' if kind is int else ''}number"
                 raise argparse.ArgumentTypeError(f"expected {wanted}{'s' if counts != (1,) else ''}, found '{text}'")
             return [kind(x) for x in found] if counts != (1,) else kind(found[0])
 
@@ -88,7 +88,7 @@ class Parser(argparse.ArgumentParser):
                 taken = 0
                 while taken < min(most, len(words)) and number(words[taken]) is not None:
                     taken += 1
-                if taken:
+                if taken or 0 in self.counts[word]:
                     word, words = f"{word}={','.join(words[:taken])}", words[taken:]
             out.append(word)
         return out
@@ -196,6 +196,11 @@ def parts_of(nodes, blocks, sets):
 
 def write_mesh(path, nodes, blocks, sets):
     """nodes: N x 3, in m; blocks: (name, HEX8|TET4|SPHERE, elements x nodes, volumes or None); sets: {name: nodes}."""
+    write_stream(path, parts_of(nodes, blocks, sets))
+
+
+def write_stream(path, parts):
+    """parts: bytes, or (array, type)."""
     import numpy as np
 
     program = mesh_program()
@@ -205,7 +210,7 @@ def write_mesh(path, nodes, blocks, sets):
     except OSError as error:
         fail(f"{program} cannot be started: {error.strerror}")
     try:
-        for part in parts_of(nodes, blocks, sets):
+        for part in parts:
             if isinstance(part, tuple):
                 part = np.ascontiguousarray(part[0], part[1]).reshape(-1).view(np.uint8)
             run.stdin.write(part)

@@ -1,4 +1,4 @@
-"""Solid voxels -> nodes, elements and the node sets of the box's faces."""
+"""Solid voxels -> nodes, elements and the node sets of the box's faces; or the voxels themselves, for cells."""
 import numpy as np
 
 from strut_tools import fail
@@ -48,3 +48,16 @@ def hexahedra(solid, cell, origin, block):
         elements[:, i] = number[first + np.ravel_multi_index(corner, shape)] - 1
     places = np.nonzero(taken)
     return coordinates(places, cell, origin, 0), (block, "HEX8", elements, None), places, solid.shape
+
+
+def gathered(solid, cell, origin, factor, smallest, block, fills=None):
+    """The stream with which strut-mesh gathers voxels in cells. fills: of each voxel of the box, what of it is solid."""
+    places = np.nonzero(solid)
+    kind = "solid" if fills is None else "grey"
+    yield (f"strut-mesh arrays 1\nnodes 0\nvoxels {block} {len(places[0])} {' '.join(map(str, solid.shape[::-1]))} "
+           f"{factor} {smallest} {kind}\n").encode()
+    yield np.array([*cell, *origin]), "<f8"
+    yield np.stack(places[::-1], axis=1), "<i4"
+    if fills is not None:
+        yield fills[places], "<f8"
+    yield b"end\n"

@@ -67,6 +67,28 @@ def solid_of(path, values, threshold, invert):
     return solid, f"{threshold:g}, {how}; solid is {'<=' if invert else '>'} it"
 
 
+# Grey -> how much of a voxel is solid
+
+
+def class_means(values, solid):
+    """Of the void and of the solid voxels."""
+    count = np.count_nonzero(solid)
+    inside = sum(float(layer[there].sum(dtype=float)) for layer, there in zip(values, solid))
+    outside = sum(float(layer[~there].sum(dtype=float)) for layer, there in zip(values, solid))
+    return outside / (solid.size - count), inside / count
+
+
+def fills_of(values, void, level):
+    """0 at the level of void, 1 at that of solid, and the straight line between."""
+    return np.clip((values.astype(np.float32) - np.float32(void)) / np.float32(level - void), 0, 1)
+
+
+def with_rims(solid, dropped, fills):
+    """The kept voxels and those around them, of which a part is solid; not what was dropped."""
+    around = ndimage.binary_dilation(solid, np.ones((3, 3, 3), bool))
+    return around & ~dropped & (fills > 0)
+
+
 # Part, finer, coarser
 
 

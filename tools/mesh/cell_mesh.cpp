@@ -1,0 +1,69 @@
+// Cells -> hexahedra that share nodes where the material of the cells hangs together.
+#include <algorithm>
+#include <cstdio>
+
+#include "mesh/cells.hpp"
+#include "mesh/groups.hpp"
+
+namespace strut::mesh {
+
+namespace {
+
+using Triple = Eigen::Array3i;
+
+// Corner `k` of the n-th cell has the number 8 n + k until nodes are numbered.
+Groups joined_corners(const Cells& cells) {
+  Groups corners(8 * cells.places.size());
+  for (const auto& [a, b] : cells.contacts) {
+    const Triple apart = cells.grid.cell(cells.places[b]) - cells.grid.cell(cells.places[a]);
+    for (int k = 0; k < 8; ++k) {
+      for (int l = 0; l < 8; ++l) {
+        if ((hexahedron_corners[k] == apart + hexahedron_corners[l]).all()) corners.join(8 * a + k, 8 * b + l);
+      }
+    }
+  }
+  return corners;
+}
+
+void add_hexahedra(io::Mesh& mesh, const Cells& cells) {
+  Groups corners = joined_corners(cells);
+  std::vector<int> numbers(8 * cells.places.size(), -1);
+  for (std::size_t n = 0; n < cells.places.size(); ++n) {
+    for (int k = 0; k < 8; ++k) {
+      int& number = numbers[corners.first(static_cast<int>(8 * n) + k)];
+      if (number < 0) {
+        const Triple at = cells.grid.cell(cells.places[n]) + hexahedron_corners[k];
+        number = static_cast<int>(mesh.nodes.size());
+        mesh.nodes.emplace_back(at.cast<double>() * cells.grid.spacing().array());
+        add_to_sets(mesh, number, at, cells.grid.cells);
+      }
+      mesh.blocks[0].nodes.push_back(number);
+    }
+  }
+}
+
+}  // namespace
+
+io::Mesh cell_mesh(const Cells& cells) {
+  io::Mesh mesh = empty_mesh("HEX8");
+  mesh.blocks[0].cells = cells.parts;
+  add_hexahedra(mesh, cells);
+  return mesh;
+}
+
+std::string summary_of(const Cells& cells, const Gathering& gathering) {
+  const double kept = cells.volume();
+  const double lost = cells.dropped == 0 ? 0 : cells.dropped_volume / (cells.dropped_volume + kept);
+  const int n = gathering.factor;
+  const Triple& places = cells.grid.cells;
+  char text[500];
+  std::snprintf(text, sizeof text,
+                "  %d x %d x %d voxels to a cell: %zu cells in %d x %d x %d places, volume %.6g m^3\n"
+                "  pieces of less than %g of a cell: %zu merged into neighbours, %zu kept that alone join others,\n"
+                "    %zu without neighbours dropped (%.3g %% of the volume)\n",
+                n, n, n, cells.parts.size(), places[0], places[1], places[2], kept, gathering.smallest, cells.merged,
+                cells.small, cells.dropped, 100 * lost);
+  return text;
+}
+
+}  // namespace strut::mesh

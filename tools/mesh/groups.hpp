@@ -1,0 +1,31 @@
+// Which of a number of items belong together, as pairs of them are joined one by one.
+#pragma once
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace strut::mesh {
+
+class Groups {
+ public:
+  explicit Groups(std::size_t items) : parent_(items) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  // The first item of the group that this one is in.
+  int first(int item) {
+    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+    return item;
+  }
+
+  void join(int a, int b) {
+    a = first(a);
+    b = first(b);
+    if (a > b) std::swap(a, b);
+    parent_[b] = a;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace strut::mesh
