@@ -18,15 +18,26 @@ namespace strut {
 
 namespace {
 
-PointCloud read_mesh(const deck::Discretization& discretization, const Communicator& communicator) {
+bool is_quadratic(const deck::Material& material) { return material.formulation == deck::Formulation::quadratic; }
+
+// Whether anything needs to know what the points are cells of.
+bool needs_cells(const deck::Deck& deck) {
+  return std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic) ||
+         std::any_of(deck.blocks.begin(), deck.blocks.end(),
+                     [](const deck::Block& block) { return !block.across_voids.value_or(true); });
+}
+
+PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator) {
   const Timed timed(phase("Mesh in"));
+  const deck::Discretization& discretization = deck.discretization;
   const deck::Grid& grid = discretization.grid;
+  const bool with_cells = needs_cells(deck);
   if (discretization.type == deck::MeshType::grid) {
-    return io::make_grid(grid.origin, grid.length, grid.points, communicator);
+    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells);
   }
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
   const bool nodes = discretization.points == deck::Points::nodes;
-  return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements);
+  return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements, with_cells);
 }
 
 // The points with the numbers; how many.
@@ -118,6 +129,17 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problem
   }
 }
 
+Formulation formulation_of(deck::Formulation formulation) {
+  switch (formulation) {
+    case deck::Formulation::ordinary:
+      return Formulation::ordinary;
+    case deck::Formulation::quadratic:
+      return Formulation::quadratic;
+    default:
+      return Formulation::correspondence;
+  }
+}
+
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
@@ -129,7 +151,7 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
     materials.push_back({material.density,
                          material.law,
                          coefficient(deck::StabilizationType::silling),
-                         ordinary ? Formulation::ordinary : Formulation::correspondence,
+                         formulation_of(material.formulation),
                          ordinary ? 0.0 : coefficient(deck::StabilizationType::mean_gradient),
                          {material.linear_viscosity, material.quadratic_viscosity}});
   }
@@ -145,8 +167,13 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     const int body = section->separate_body ? place + 1 : 0;
     bonds.push_back(section->horizon_factor ? BlockBonds::per_spacing(*section->horizon_factor, body)
                                             : BlockBonds(*section->horizon, body));
-    const bool ordinary = deck.materials[section->material].formulation == deck::Formulation::ordinary;
-    if (ordinary) bonds.back().families = FamilyKind::lists;
+    const deck::Material& material = deck.materials[section->material];
+    const bool by_touch = is_quadratic(material) && cloud.joined;
+    const bool is_alike = deck.discretization.influence == deck::Influence::one;  // others fade with the distance
+    bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
+    bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
+    const bool any = bonds.back().touching || bonds.back().through_material;
+    if (any || material.formulation != deck::Formulation::correspondence) bonds.back().families = FamilyKind::lists;
   }
   return bonds;
 }
@@ -277,9 +304,14 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 }
 
 // Owned points whose family cannot carry a shape tensor; `text` tells of the first.
-std::vector<int> degenerate_points(const Domain& domain, std::string& text) {
+std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, std::string& text) {
   std::vector<int> found;
+  std::vector<char> needs_shape;  // of blocks: cells without enough neighbours carry no stress and stay
+  for (const std::string& name : domain.cloud.block_names) {
+    needs_shape.push_back(!is_quadratic(deck.materials[section_of(deck, name)->material]));
+  }
   for (int i = 0; i < domain.owned; ++i) {
+    if (!needs_shape[domain.cloud.blocks[i]]) continue;
     const LatticeFamilies* stencil = domain.families.lattice(i);
     if (stencil && stencil->spans_space(i)) continue;  // without a sum over the family
     const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
@@ -312,7 +344,7 @@ Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicat
   for (;;) {
     Domain domain = make_domain(std::move(cloud), bonds, communicator);
     std::string text;
-    const std::vector<int> degenerate = degenerate_points(domain, text);
+    const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
     if (count == 0) return domain;
     if (deck.discretization.degenerate == deck::DegeneratePoints::error) {
@@ -451,7 +483,7 @@ Influence influence_of(deck::Influence influence) {
 }  // namespace
 
 Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
-  PointCloud cloud = read_mesh(deck.discretization, communicator);
+  PointCloud cloud = read_mesh(deck, communicator);
   deck::Problems problems;
   check_blocks(deck, cloud, problems);
   const std::vector<double> spacing = mean_spacings(cloud, communicator);

@@ -23,7 +23,7 @@ enum class Points { elements, nodes };
 enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
 enum class DegeneratePoints { error, drop };
 enum class StabilizationType { none, silling, mean_gradient };
-enum class Formulation { correspondence, ordinary };
+enum class Formulation { correspondence, ordinary, quadratic };
 
 // Equal cells, with a point at the centre of each, x fastest.
 struct Grid {
@@ -67,6 +67,7 @@ struct Block {
   std::optional<double> horizon;         // m
   std::optional<double> horizon_factor;  // in local spacings of each point
   bool separate_body = false;            // bonded to nothing outside of this section
+  std::optional<bool> across_voids;      // whether bonds reach across voids
 };
 
 // Which pairs of blocks an interaction that names none is about.

@@ -70,6 +70,16 @@ materials::AnyLaw make_polymer(const Values& material, Problems& problems) {
 
 // Of every law by correspondence.
 Section with_common_keys(Section law) {
+  law.keys.push_back({.name = "Formulation",
+                      .kind = Kind::choice,
+                      .choices = {"Correspondence", "Quadratic Correspondence"},
+                      .fallback = "Correspondence",
+                      .meaning =
+                          "How the deformation gradient is found: one for each point (Silling et al. 2007), or one "
+                          "that is linear over the cell of each point, with the stress at four places of it. The "
+                          "second is for struts and plates a few points thick; it has no zero-energy modes and "
+                          "no stabilization. Its families are those of the mesh: elements that share a node, nodes "
+                          "that share an element."});
   law.keys.push_back({.name = "Stabilization",
                       .kind = Kind::choice,
                       .choices = {"Mean Gradient", "Silling", "None"},

@@ -170,7 +170,12 @@ Section blocks() {
                      .kind = Kind::boolean,
                      .fallback = "false",
                      .meaning = "Points of this section are not bonded to those of others, however near: a "
-                                "body of its own, that others meet in contact."}},
+                                "body of its own, that others meet in contact."},
+                    {.name = "Bonds Across Voids",
+                     .kind = Kind::boolean,
+                     .meaning = "false: bonds run through material. Two points within the horizon are bonded only if "
+                                "elements that share nodes lead from one to the other within it. Needs hexahedra or "
+                                "tetrahedra. Without this key: true, but false for Quadratic Correspondence."}},
            .hints = {{"Damage Model", bonds_hold}, {"Damage Models", bonds_hold}}}}};
 }
 

@@ -1,6 +1,7 @@
 #include "io/distribute.hpp"
 
 #include <numeric>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -111,6 +112,10 @@ PointCloud distribute(const PointCloud& whole, const Communicator& communicator)
   const std::vector<double> xyz = communicator.scatter(std::span<const double>(numbers), triple);
   for (std::size_t i = 0; i < xyz.size(); i += 3) mine.positions.emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
 
+  const auto has_joints = [](const auto& joints) { return !joints.empty(); };
+  std::vector<int> joined{!whole.joints.empty() && std::all_of(whole.joints.begin(), whole.joints.end(), has_joints)};
+  communicator.broadcast(joined);
+  mine.joined = joined.front() != 0;
   std::vector<PointsAt> at{whole.at};
   communicator.broadcast(at);
   mine.at = at.front();

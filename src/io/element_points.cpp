@@ -48,7 +48,8 @@ void check_cell(const PartialCell& cell, const Mesh::Block& block, std::size_t n
   std::ostringstream problem;
   if (!(cell.volume > 0) || !std::isfinite(cell.volume)) {
     problem << "volume " << cell.volume << " m³, expected a positive one";
-  } else if (!cell.centroid.allFinite() || !cell.surface.allFinite()) {
+  } else if (!cell.centroid.allFinite() || !cell.surface.allFinite() ||
+             !cell.surface_moments.allFinite()) {
     problem << "centroid (" << cell.centroid.transpose() << ") m and surface (" << cell.surface.transpose()
             << ") m², expected finite numbers";
   } else if (!is_of_a_body(cell.moments)) {
@@ -110,6 +111,7 @@ class Converter {
     } else {
       shape.moments = block.cells[element].moments;
       shape.surface = block.cells[element].surface;
+      shape.surface_moments = block.cells[element].surface_moments;
     }
     cloud_.joints.push_back(joints_of(block, element));
   }
@@ -118,7 +120,10 @@ class Converter {
   void add_surface() {
     for (const Face& face : surface_of(mesh_)) {
       const std::size_t point = static_cast<std::size_t>(face.element);
-      if (mesh_.blocks[cloud_.blocks[point]].cells.empty()) cloud_.shapes[point].surface += face.area;
+      if (!mesh_.blocks[cloud_.blocks[point]].cells.empty()) continue;
+      CellShape& shape = cloud_.shapes[point];
+      shape.surface += face.area;
+      shape.surface_moments += face.area * (face.middle(mesh_) - cloud_.positions[point]).transpose();
     }
   }
 

@@ -40,13 +40,12 @@ PointCloud whole_grid(const Vector& origin, const Vector& length, const std::arr
 }
 
 // The part of the box's surface that cell `at` of so many along each axis has.
-Vector surface_of(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell) {
-  Vector surface;
+void set_surface(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell, CellShape& shape) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double sides = (at[axis] == points[axis] - 1 ? 1 : 0) - (at[axis] == 0 ? 1 : 0);
-    surface[axis] = sides * cell.prod() / cell[axis];
+    const int upper = at[axis] == points[axis] - 1 ? 1 : 0, lower = at[axis] == 0 ? 1 : 0;
+    shape.surface[axis] = (upper - lower) * cell.prod() / cell[axis];
+    shape.surface_moments(axis, axis) = (upper + lower) * cell.prod() / 2;
   }
-  return surface;
 }
 
 // The corners of a cell, numbered x fastest.
@@ -69,7 +68,7 @@ void add_cells(const Vector& cell, const std::array<int, 3>& points, PointCloud&
       for (int i = 0; i < points[0]; ++i) {
         CellShape& shape = cloud.shapes.emplace_back();
         shape.moments.head<3>() = squares;
-        shape.surface = surface_of({i, j, k}, points, cell);
+        set_surface({i, j, k}, points, cell, shape);
         cloud.joints.push_back(corners_of({i, j, k}, points));
       }
     }

@@ -144,7 +144,9 @@ double& member(PartialCell& cell, std::size_t attribute) {
   if (attribute == 0) return cell.volume;
   if (attribute < 4) return cell.centroid[static_cast<int>(attribute) - 1];
   if (attribute < 10) return cell.moments[static_cast<int>(attribute) - 4];
-  return cell.surface[static_cast<int>(attribute) - 10];
+  const int number = static_cast<int>(attribute) - 10;
+  if (number < 3) return cell.surface[number];
+  return cell.surface_moments((number - 3) / 3, (number - 3) % 3);
 }
 
 Mesh mesh_of(const ExodusFile& file) { return Reader(file).read(); }

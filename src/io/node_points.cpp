@@ -75,6 +75,7 @@ class Cells {
       : mesh_(mesh),
         integrals_(mesh.nodes.size()),
         surface_(mesh.nodes.size(), Vector::Zero()),
+        surface_moments_(mesh.nodes.size(), Tensor::Zero()),
         joints_(mesh.nodes.size()) {
     for (const Mesh::Block& block : mesh_.blocks) {
       if (block.type == "HEX8") add_block<8>(block, hexahedron_pieces);
@@ -82,7 +83,11 @@ class Cells {
     }
     for (const Face& face : surface_of(mesh_)) {
       const double share = 1.0 / static_cast<double>(face.corners().size());
-      for (const int node : face.corners()) surface_[node] += share * face.area;
+      for (std::size_t c = 0; c < face.corners().size(); ++c) {
+        const int node = face.nodes[c];
+        surface_[node] += share * face.area;
+        surface_moments_[node] += share * face.area * (face.middle_at(mesh, c) - mesh.nodes[node]).transpose();
+      }
     }
   }
 
@@ -92,6 +97,7 @@ class Cells {
   void give(std::size_t node, PointCloud& cloud) {
     cloud.shapes.push_back(cell_shape(integrals_[node]));
     cloud.shapes.back().surface = surface_[node];
+    cloud.shapes.back().surface_moments = surface_moments_[node];
     cloud.joints.push_back(std::move(joints_[node]));
   }
 
@@ -112,6 +118,7 @@ class Cells {
   const Mesh& mesh_;
   std::vector<Integrals> integrals_;
   std::vector<Vector> surface_;
+  std::vector<Tensor> surface_moments_;
   std::vector<std::vector<std::int64_t>> joints_;
   std::int64_t elements_ = 0;  // so far
 };

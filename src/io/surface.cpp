@@ -56,6 +56,19 @@ Face face_of(const Mesh& mesh, const Side& side) {
 
 }  // namespace
 
+Vector Face::middle(const Mesh& mesh) const {
+  Vector sum = Vector::Zero();
+  for (const int node : corners()) sum += mesh.nodes[node];
+  return sum / static_cast<double>(corners().size());
+}
+
+Vector Face::middle_at(const Mesh& mesh, std::size_t c) const {
+  const std::size_t count = corners().size();
+  const Vector here = mesh.nodes[nodes[c]], next = mesh.nodes[nodes[(c + 1) % count]],
+               before = mesh.nodes[nodes[(c + count - 1) % count]];
+  return (here + 0.5 * (here + next) + 0.5 * (here + before) + middle(mesh)) / 4;
+}
+
 std::vector<Face> surface_of(const Mesh& mesh) {
   std::vector<Side> sides = sides_of(mesh);
   std::sort(sides.begin(), sides.end(),

@@ -14,6 +14,9 @@ struct Face {
   Vector area;               // ∫ n dA, n outward, m²
 
   std::span<const int> corners() const { return {nodes, nodes[3] < 0 ? 3u : 4u}; }
+  Vector middle(const Mesh& mesh) const;  // the mean of the corners
+  // The mean of corner number c, the middles of the edges beside it and the middle of the face: of the corner's part.
+  Vector middle_at(const Mesh& mesh, std::size_t c) const;
 };
 
 // Of hexahedra and tetrahedra, in an order that depends on the mesh alone.

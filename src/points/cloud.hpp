@@ -18,24 +18,25 @@ constexpr const char* word(PointsAt at) { return at == PointsAt::nodes ? "node" 
 
 // The part of a body that a point stands for, by integrals over it: what a point's volume alone does not tell.
 struct CellShape {
-  Vector offset = Vector::Zero();         // from the point to the centroid, m
-  Symmetric moments = Symmetric::Zero();  // central second moments per volume, m²: of a cube h²/12 (xx, yy, zz)
-  Vector surface = Vector::Zero();        // ∫ n dA over the body's surface that is the cell's, n outward, m²
+  Vector offset = Vector::Zero();           // from the point to the centroid, m
+  Symmetric moments = Symmetric::Zero();    // central second moments per volume, m²: of a cube h²/12 (xx, yy, zz)
+  Vector surface = Vector::Zero();          // ∫ n dA over the body's surface that is the cell's, n outward, m²
   Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − X) dA over it, X the point, m³
 };
 
 // A shape as it travels.
-using ShapeNumbers = std::array<double, 12>;
+using ShapeNumbers = std::array<double, 21>;
 inline ShapeNumbers numbers_of(const CellShape& shape) {
   ShapeNumbers numbers;
   Eigen::Map<Vector>(numbers.data()) = shape.offset;
   Eigen::Map<Symmetric>(numbers.data() + 3) = shape.moments;
   Eigen::Map<Vector>(numbers.data() + 9) = shape.surface;
+  Eigen::Map<Tensor>(numbers.data() + 12) = shape.surface_moments;
   return numbers;
 }
 inline CellShape shape_of(const ShapeNumbers& numbers) {
   return {Eigen::Map<const Vector>(numbers.data()), Eigen::Map<const Symmetric>(numbers.data() + 3),
-          Eigen::Map<const Vector>(numbers.data() + 9)};
+          Eigen::Map<const Vector>(numbers.data() + 9), Eigen::Map<const Tensor>(numbers.data() + 12)};
 }
 
 struct PointCloud {
@@ -55,6 +56,7 @@ struct PointCloud {
 
   // The same on all ranks.
   PointsAt at = PointsAt::elements;
+  bool joined = false;  // every point has joints
   std::vector<std::string> block_names;
   std::vector<std::string> set_names;  // at most 64
 

@@ -45,7 +45,8 @@ struct Pool {
   std::vector<std::int64_t> ids;
   std::vector<double> horizons;
   std::vector<int> bodies;
-  std::vector<char> asks;  // for bonds through material
+  std::vector<char> asks;  // for bonds through material, or (2) for those that touch
+  std::vector<double> deltas;  // δ, m: horizons are those of the search
 };
 
 Pool pool_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
@@ -53,7 +54,8 @@ Pool pool_of(const PointCloud& cloud, const std::vector<double>& horizons, const
   Pool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
   const auto add_block = [&](std::int64_t block) {
     pool.bodies.push_back(bonds[block].body);
-    pool.asks.push_back(bonds[block].through_material ? 1 : 0);
+    pool.asks.push_back(bonds[block].touching ? 2 : bonds[block].through_material ? 1 : 0);
+    pool.deltas.push_back(pool.horizons[pool.deltas.size()] / bonds[block].search_factor());
   };
   for (const int block : cloud.blocks) add_block(block);
   for (const Candidate& c : others) {
@@ -70,7 +72,8 @@ std::vector<double> horizons_of(const PointCloud& cloud, const std::vector<Block
   std::vector<double> horizons;
   horizons.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    horizons.push_back(bonds[cloud.blocks[i]].horizon_at(cloud.spacings[i]));
+    const BlockBonds& block = bonds[cloud.blocks[i]];
+    horizons.push_back(block.search_factor() * block.horizon_at(cloud.spacings[i]));
   }
   return horizons;
 }
@@ -112,7 +115,7 @@ std::vector<char> concerned(const std::vector<BlockBonds>& bonds) {
   std::vector<char> blocks;
   for (const BlockBonds& block : bonds) {
     blocks.push_back(std::any_of(bonds.begin(), bonds.end(), [&](const BlockBonds& other) {
-      return other.through_material && other.body == block.body;
+      return (other.through_material || other.touching) && other.body == block.body;
     }));
   }
   return blocks;
@@ -123,12 +126,13 @@ void check_through_material(const PointCloud& cloud, const std::vector<BlockBond
                             const Communicator& communicator) {
   std::string problem;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if (bonds[b].through_material && bonds[b].families != FamilyKind::lists) {
+    if ((bonds[b].through_material || bonds[b].touching) && bonds[b].families != FamilyKind::lists) {
       throw std::logic_error("block '" + cloud.block_names[b] + "' asks for bonds through material without lists");
     }
   }
   for (std::size_t i = 0; i < cloud.size() && problem.empty(); ++i) {
-    if (!bonds[cloud.blocks[i]].through_material || (!cloud.joints.empty() && !cloud.joints[i].empty())) continue;
+    const BlockBonds& block = bonds[cloud.blocks[i]];
+    if (!(block.through_material || block.touching) || (!cloud.joints.empty() && !cloud.joints[i].empty())) continue;
     problem = "block '" + cloud.block_names[cloud.blocks[i]] +
               "': its bonds shall run through material, but its points share nothing with each other; expected "
               "hexahedra or tetrahedra, not spheres or a text mesh";
@@ -195,7 +199,7 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
   ThroughMaterial material({pool.positions, pool.horizons, pool.bodies},
                            joints_of(cloud, blocks, pool, reach, communicator));
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> family, asked;
+  std::vector<int> family, asked, apart;
   const int owned = static_cast<int>(cloud.size());
   for (int i = 0; i < owned; ++i) {
     if (!blocks[cloud.blocks[i]]) continue;
@@ -204,7 +208,14 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
       family.push_back(j);
       if ((pool.asks[i] || pool.asks[j]) && j > i) asked.push_back(j);  // of two owned points one is enough
     });
-    for (const int j : material.apart(i, family, asked)) {
+    apart.clear();
+    const auto by_touch = std::stable_partition(asked.begin(), asked.end(), [&](int j) { return std::max(pool.asks[i], pool.asks[j]) < 2; });
+    std::copy_if(by_touch, asked.end(), std::back_inserter(apart), [&](int j) { return !material.touch(i, j); });
+    asked.erase(by_touch, asked.end());
+    if (!asked.empty()) {
+      for (const int j : material.apart(i, family, asked)) apart.push_back(j);
+    }
+    for (const int j : apart) {
       pairs.emplace_back(i, j);
       if (j < owned) pairs.emplace_back(j, i);
     }
@@ -382,7 +393,10 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
   double reach = std::numeric_limits<double>::min();  // where there is no point
-  for (const BlockHorizons& block : blocks) reach = std::max(reach, block.largest * (1 + 1e-9));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    reach = std::max(reach, blocks[b].largest * (1 + 1e-9));
+    blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
+  }
   const int owned = static_cast<int>(cloud.size());
   const Pool pool = pool_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
   const std::vector<LatticeFrame> found = lattice_frames(cloud, own_horizons, bonds, communicator);
@@ -410,7 +424,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     local[p] = static_cast<int>(sites.size());
     Site& site = sites.emplace_back();
     site.reference << pool.positions[p].array(), pool.volumes[p];
-    site.current << pool.positions[p].array(), pool.horizons[p];
+    site.current << pool.positions[p].array(), pool.deltas[p];
     bodies.push_back(pool.bodies[p]);
     if (p >= owned) ghost_ids.push_back(pool.ids[p]);
   }

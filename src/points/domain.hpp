@@ -33,9 +33,15 @@ struct BlockBonds {
   // Bonds run through material: a bond whose ends are not joined by points that touch (PointCloud::joints), all of them
   // within the horizon of both ends, is left out. Needs joints, and lists. Of two blocks, one that asks is enough.
   bool through_material = false;
+  // Families are of those that touch, whatever their distance: at a centroid or a node a cell does not show how far it
+  // reaches. Needs joints, and lists. Of two blocks, one that asks is enough.
+  bool touching = false;
 
   // δ of a point with this local spacing, m.
   double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }
+  // Those that touch are looked for within so many horizons: the middles of cells that share a corner, or have taken
+  // over what is in a neighbour, are up to 2.8 spacings apart.
+  double search_factor() const { return touching ? 1.6 : 1; }
 };
 
 // Whether two points of one body, with these horizons (m) and the bond ξ, are in each other's families:

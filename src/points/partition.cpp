@@ -164,6 +164,7 @@ Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
 PointCloud emptied(const PointCloud& cloud) {
   PointCloud result;
   result.at = cloud.at;
+  result.joined = cloud.joined;
   result.block_names = cloud.block_names;
   result.set_names = cloud.set_names;
   return result;

@@ -25,12 +25,12 @@ class ThroughMaterial {
   // Those of `asked` to which no path of points leads that touch and are bonded to both ends. `family`: all that is
   // within the horizon of i; `asked`: some of it. Symmetric: i is apart from j where j is apart from i.
   std::vector<int> apart(int i, std::span<const int> family, std::span<const int> asked);
+  bool touch(int i, int j) const;
 
  private:
   std::span<const int> touching(int i) const {
     return {touching_.data() + start_[i], touching_.data() + start_[i + 1]};
   }
-  bool touch(int i, int j) const;
   bool near(int i, int j) const;
   bool in_family(int i) const { return mark_[i] >> 1 == now_; }
   bool is_missing(int i) const { return mark_[i] == 2 * now_; }

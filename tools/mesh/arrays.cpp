@@ -37,6 +37,7 @@ io::PartialCell cell_of(const CellNumbers& x) {
   cell.centroid = {x[1], x[2], x[3]};
   std::copy_n(x.begin() + 4, 6, cell.moments.begin());
   cell.surface = {x[10], x[11], x[12]};
+  for (int n = 0; n < 9; ++n) cell.surface_moments(n / 3, n % 3) = x[13 + n];
   return cell;
 }
 

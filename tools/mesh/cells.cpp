@@ -164,17 +164,24 @@ void add_volumes(const Material& material, const VoxelGrid& coarse, int factor, 
 void add_surfaces(const Material& material, Pieces& pieces) {
   const Vector h = material.grid.spacing();
   std::vector<std::array<bool, 3>> has_lower(material.voxels.size(), {false, false, false});
-  const auto add = [&](int v, int axis, double outward) {
-    pieces.list[pieces.of[v]].part.surface[axis] += outward * h.prod() / h[axis];
+  // `side`: 0 or 1, the face of voxel v along the axis that the area is on.
+  const auto add = [&](int v, int axis, double outward, int side) {
+    io::PartialCell& part = pieces.list[pieces.of[v]].part;
+    Vector at = material.grid.cell(material.voxels[v]).cast<double>() + 0.5;
+    at[axis] += side - 0.5;
+    const double area = outward * h.prod() / h[axis];
+    part.surface[axis] += area;
+    part.surface_moments.row(axis) += area * (at.cwiseProduct(h) - part.centroid).transpose();
   };
   for (int v = 0; v < material.size(); ++v) {
     const double fill = material.fill(v);
     for (int axis = 0; axis < 3; ++axis) {
-      if (!has_lower[v][axis]) add(v, axis, -fill);
+      if (!has_lower[v][axis]) add(v, axis, -fill, 0);
       const int w = material.upper[v][axis];
       if (w >= 0) has_lower[w][axis] = true;
       const double beyond = w < 0 ? 0 : material.fill(w);
-      add(w >= 0 && beyond < fill ? w : v, axis, fill - beyond);
+      const bool is_in_upper = w >= 0 && beyond < fill;
+      add(is_in_upper ? w : v, axis, fill - beyond, is_in_upper ? 0 : 1);
     }
   }
 }
@@ -197,6 +204,8 @@ void absorb(io::PartialCell& part, const io::PartialCell& other) {
   const double a = part.volume / volume, b = other.volume / volume;
   const Vector apart = other.centroid - part.centroid;
   part.moments = a * part.moments + b * other.moments + a * b * symmetric_part(apart * apart.transpose());
+  // About the common centroid, which lies b apart from the one and −a apart from the other.
+  part.surface_moments += other.surface_moments + (a * other.surface - b * part.surface) * apart.transpose();
   part.centroid += b * apart;
   part.volume = volume;
   part.surface += other.surface;
