@@ -57,10 +57,10 @@ bool is_in_cylinder(const Vector& x, const Vector& axis) {
 
 }  // namespace
 
-PointCloud square_prism(int across, PointsAt at, int length) {
+PointCloud square_prism(int across, int along, PointsAt at) {
   // Elements have 2³ small cubes, so that nodes have theirs, too.
   const double spacing = 1.0 / across;
-  SmallCubes body{spacing / 2, Place::Zero(), 2 * across * Place(1, 1, length), {}};
+  SmallCubes body{spacing / 2, Place::Zero(), 2 * Place(across, across, along), {}};
   body.is_filled = [&](const Place& cube) { return (cube >= body.low).all() && (cube < body.high).all(); };
   const bool at_nodes = at == PointsAt::nodes;
   const int shift = at_nodes ? 1 : 0;
@@ -70,7 +70,7 @@ PointCloud square_prism(int across, PointsAt at, int length) {
   for (const Cell& cell : cells) {
     cloud.joints.push_back(at_nodes ? elements_around(cell.place, body) : corners(cell.place));
   }
-  const Vector middle(0.5, 0.5, 0.5 * length);
+  const Vector middle(0.5, 0.5, 0.5 * along * spacing);
   for (Vector& position : cloud.positions) position -= middle;
   return cloud;
 }

@@ -8,8 +8,10 @@
 
 namespace strut::reference {
 
-// A square prism along z, `across` elements in thickness and length·across long, points at elements or at nodes.
-PointCloud square_prism(int across, PointsAt at, int length = 4);
+// A square prism along z, `across` elements in thickness and `along` in length, points at elements or at nodes.
+PointCloud square_prism(int across, int along, PointsAt at);
+// The same, four times as long as thick.
+inline PointCloud square_prism(int across, PointsAt at) { return square_prism(across, 4 * across, at); }
 
 // How a cylinder lies in the grid of cells.
 struct Placement {

@@ -128,9 +128,15 @@ SparseMatrix stiffness_matrix(Body& body, double reach) {
   return matrix;
 }
 
-SparseMatrix by_mass(const SparseMatrix& stiffness, const Body& body) {
+Eigen::VectorXd masses_of(const Body& body) {
+  Eigen::VectorXd masses(body.owned());
+  for (int i = 0; i < body.owned(); ++i) masses[i] = body.mass(i);
+  return masses;
+}
+
+SparseMatrix by_mass(const SparseMatrix& stiffness, const Eigen::VectorXd& masses) {
   Eigen::VectorXd scale(stiffness.rows());
-  for (int i = 0; i < body.owned(); ++i) scale.segment<3>(3 * i).setConstant(1 / std::sqrt(body.mass(i)));
+  for (Eigen::Index i = 0; i < masses.size(); ++i) scale.segment<3>(3 * i).setConstant(1 / std::sqrt(masses[i]));
   const SparseMatrix transpose = stiffness.transpose();
   return scale.asDiagonal() * SparseMatrix(0.5 * (stiffness + transpose)) * scale.asDiagonal();
 }

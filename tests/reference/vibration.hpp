@@ -15,8 +15,11 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 // reach is too short, or forces have no energy.
 SparseMatrix stiffness_matrix(Body& body, double reach = 3);
 
-// M^−½ K M^−½, 1/s².
-SparseMatrix by_mass(const SparseMatrix& stiffness, const Body& body);
+// kg, of the points.
+Eigen::VectorXd masses_of(const Body& body);
+
+// M^−½ K M^−½, 1/s², three rows a mass.
+SparseMatrix by_mass(const SparseMatrix& stiffness, const Eigen::VectorXd& masses);
 
 struct Vibration {
   int zeros = 0;  // modes without stiffness: six rigid motions, and patterns that a scheme does not see

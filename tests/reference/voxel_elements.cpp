@@ -1,6 +1,8 @@
 #include "voxel_elements.hpp"
 
+#include <bit>
 #include <cmath>
+#include <unordered_map>
 
 #include "base/errors.hpp"
 
@@ -101,6 +103,22 @@ VoxelMesh voxels_of(const io::Mesh& mesh) {
   return voxels;
 }
 
+VoxelMesh voxels_of(const PointCloud& elements) {
+  VoxelMesh voxels{elements.spacings[0], {}, {}};
+  std::unordered_map<std::int64_t, int> numbers;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    Corners corners;
+    for (int c = 0; c < 8; ++c) {
+      const auto [found, is_new] = numbers.try_emplace(elements.joints[i][c], static_cast<int>(numbers.size()));
+      corners[c] = found->second;
+      const Vector from_middle = place(c) - Vector::Constant(0.5);
+      if (is_new) voxels.nodes.emplace_back(elements.positions[i] + voxels.edge * from_middle);
+    }
+    voxels.voxels.push_back(corners);
+  }
+  return voxels;
+}
+
 VoxelStiffness voxel_stiffness(double edge, double young, double poisson) {
   const double lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson)), mu = young / (2 * (1 + poisson));
   const double weight = std::pow(edge / 2, 3);
@@ -114,6 +132,30 @@ VoxelStiffness voxel_stiffness(double edge, double young, double poisson) {
     }
   }
   return K;
+}
+
+Eigen::SparseMatrix<double> matrix_of(const VoxelMesh& mesh, const VoxelStiffness& stiffness) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Corners& corners : mesh.voxels) {
+    for (int row = 0; row < 24; ++row) {
+      for (int column = 0; column < 24; ++column) {
+        entries.emplace_back(3 * corners[row / 3] + row % 3, 3 * corners[column / 3] + column % 3,
+                             stiffness(row, column));
+      }
+    }
+  }
+  const auto rows = static_cast<int>(3 * mesh.nodes.size());
+  Eigen::SparseMatrix<double> matrix(rows, rows);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+Eigen::VectorXd masses_of(const VoxelMesh& mesh, double density) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(mesh.nodes.size()));
+  for (const Corners& corners : mesh.voxels) {
+    for (const int node : corners) masses[node] += density * std::pow(mesh.edge, 3) / 8;
+  }
+  return masses;
 }
 
 VoxelForces::VoxelForces(const VoxelMesh& mesh, const VoxelStiffness& stiffness) : nodes_(mesh.nodes.size()) {

@@ -2,6 +2,7 @@
 // the same stiffness; what differs is which nodes they take.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <vector>
 
@@ -21,10 +22,16 @@ struct VoxelMesh {
 
 // Of all blocks. Throws Error where an element is not a cube along the axes, as large as the others.
 VoxelMesh voxels_of(const io::Mesh& mesh);
+// The whole cells that these points at elements stand for, with their joints for corners (thin_members.hpp).
+VoxelMesh voxels_of(const PointCloud& elements);
 
 // N/m; component c of corner n is number 3 n + c.
 using VoxelStiffness = Eigen::Matrix<double, 24, 24>;
 VoxelStiffness voxel_stiffness(double edge, double young, double poisson);
+// Of all nodes.
+Eigen::SparseMatrix<double> matrix_of(const VoxelMesh& mesh, const VoxelStiffness& stiffness);
+// Of the nodes, an eighth of each voxel around them; kg.
+Eigen::VectorXd masses_of(const VoxelMesh& mesh, double density);
 
 // Of the nodes, a vector and a number that is not looked at; and a last one that no node has.
 using NodeField = std::vector<Eigen::Array4d>;
