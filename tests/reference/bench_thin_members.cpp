@@ -1,6 +1,6 @@
 // Free struts a few points thick: how far the frequencies of today's schemes are from the exact ones, as errors of the
 // stiffness, (ω/ω_exact)² − 1, of the first six modes; and the highest frequency, ω h/√(E/ρ), which rules the step.
-//   build/release/tests/reference/bench_thin_members [most points across]
+//   build/release/tests/reference/bench_thin_members [most points across [words of a method's name]]
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -46,12 +46,13 @@ SparseMatrix matrix_by_elements(const PointCloud& cloud) {
   return by_mass(matrix_of(mesh, voxel_stiffness(mesh.edge, 1, frequencies_poisson)), masses_of(mesh, 1));
 }
 
-std::vector<Method> methods() {
+std::vector<Method> methods(const std::string& words) {
   std::vector<Method> all;
   for (const Scheme& scheme : schemes) {
     all.push_back({scheme.name, [scheme](const PointCloud& cloud) { return matrix_by(scheme, cloud); }});
   }
   all.push_back({"finite elements on voxels", matrix_by_elements, true});
+  std::erase_if(all, [&](const Method& method) { return method.name.find(words) == std::string::npos; });
   return all;
 }
 
@@ -114,11 +115,11 @@ void cylinder_row(const Method& method, Cells cells, int across) {
   std::fflush(stdout);
 }
 
-void prisms(int most) {
+void prisms(int most, const std::vector<Method>& methods) {
   std::printf("Square prisms: errors of the stiffness, %%\n\n");
   std::printf("| scheme | points at | across | bending | bending | torsion | 2nd bending | 2nd bending | extension ");
   std::printf("| modes without stiffness | ω_max h/c |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const Method& method : methods()) {
+  for (const Method& method : methods) {
     for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {
       if (method.only_whole_elements && at == PointsAt::nodes) continue;
       for (const int across : {2, 3, 4, 6}) {
@@ -128,11 +129,11 @@ void prisms(int most) {
   }
 }
 
-void cylinders(int most) {
+void cylinders(int most, const std::vector<Method>& methods) {
   std::printf("\nRound cylinders, 20 directions and offsets: mean size (worst) of the errors of the stiffness, %%\n\n");
   std::printf("| scheme | cells | across | all six | bending | torsion | extension | bodies ");
   std::printf("| most modes without stiffness | largest ω_max h/c |\n|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const Method& method : methods()) {
+  for (const Method& method : methods) {
     for (const Cells cells : {Cells::whole, Cells::cut}) {
       if (method.only_whole_elements && cells == Cells::cut) continue;
       for (const int across : {3, 4, 6}) {
@@ -148,6 +149,7 @@ void cylinders(int most) {
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
   const int most = argc > 1 ? std::atoi(argv[1]) : 6;
-  strut::reference::prisms(most);
-  strut::reference::cylinders(most);
+  const auto methods = strut::reference::methods(argc > 2 ? argv[2] : "");
+  strut::reference::prisms(most, methods);
+  strut::reference::cylinders(most, methods);
 }
