@@ -52,7 +52,7 @@ TEST(VoxelElements, ForcesAreThoseOfTheElementMatrix) {
 
 TEST(VoxelElements, HaveHookesEnergyAndSixRigidMotions) {
   const VoxelStiffness K = voxel_stiffness(edge, young, poisson);
-  Eigen::Matrix<double, 24, 1> stretch, turn;
+  Eigen::VectorXd stretch(24), turn(24);
   for (int c = 0; c < 8; ++c) {
     const Vector x = edge * Vector(c & 1, c >> 1 & 1, c >> 2);
     stretch.segment<3>(3 * c) = Vector(x[0], -poisson * x[1], -poisson * x[2]);

@@ -73,7 +73,7 @@ Eigen::VectorXd lowest(const SparseMatrix& A, int size, int count, double shift)
   for (int n = 0; n < 200; ++n) {
     space = orthonormal(inverse.solve(space));
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small(space.transpose() * (A * space));
-    const Eigen::VectorXd now = small.eigenvalues();
+    const Eigen::VectorXd& now = small.eigenvalues();
     const double change = (now - values).head(count).cwiseAbs().maxCoeff();
     values = now;
     space = space * small.eigenvectors();
