@@ -1,0 +1,229 @@
+// The test bodies against integrals over prisms and cylinders, and their stiffness and modes against what is known.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "../verification/lattice.hpp"
+#include "base/errors.hpp"
+#include "cells.hpp"
+#include "frequencies.hpp"
+#include "schemes.hpp"
+#include "thin_members.hpp"
+#include "vibration.hpp"
+
+namespace strut::reference {
+namespace {
+
+// ---- Integrals -----------------------------------------------------------------------------------------------------
+
+struct Sums {
+  double volume = 0;
+  Vector first = Vector::Zero(), surface = Vector::Zero();
+  Tensor second = Tensor::Zero();
+};
+
+Sums sums_over(const PointCloud& cloud) {
+  Sums sums;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const CellShape& shape = cloud.shapes[i];
+    const Vector centroid = cloud.positions[i] + shape.offset;
+    sums.volume += cloud.volumes[i];
+    sums.first += cloud.volumes[i] * centroid;
+    sums.second += cloud.volumes[i] * (to_tensor(shape.moments) + centroid * centroid.transpose());
+    sums.surface += shape.surface;
+  }
+  return sums;
+}
+
+// Moments of a body about its axis and across it.
+void expect_moments(const Sums& sums, const Vector& axis, double along, double across, double tolerance) {
+  const Tensor expected = across * Tensor::Identity() + (along - across) * axis * axis.transpose();
+  EXPECT_LT((sums.second - expected).norm(), tolerance * along);
+}
+
+constexpr double length = frequencies_length;
+constexpr double round_off = 1e-13;  // of sums of some hundred numbers
+
+TEST(SquarePrism, HasTheIntegralsOfAPrism) {
+  for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {
+    for (const int across : {1, 2, 3}) {
+      const Sums sums = sums_over(square_prism(across, at));
+      EXPECT_NEAR(sums.volume, length, length * round_off);
+      EXPECT_LT(sums.first.norm(), round_off);
+      EXPECT_LT(sums.surface.norm(), round_off);
+      expect_moments(sums, Vector::UnitZ(), std::pow(length, 3) / 12, length / 12, round_off);
+    }
+  }
+}
+
+TEST(SquarePrism, KnowsItsCorners) {
+  constexpr double h = 0.5;
+  const PointCloud elements = square_prism(2, PointsAt::elements), nodes = square_prism(2, PointsAt::nodes);
+  EXPECT_EQ(elements.size(), 2 * 2 * 8);
+  EXPECT_EQ(nodes.size(), 3 * 3 * 9);
+  EXPECT_LT((elements.positions[0] - Vector(-0.25, -0.25, -1.75)).norm(), round_off);
+  EXPECT_LT((nodes.positions[0] - Vector(-0.5, -0.5, -2)).norm(), round_off);
+  EXPECT_LT(elements.shapes[0].offset.norm(), round_off);
+  EXPECT_LT((nodes.shapes[0].offset - Vector::Constant(h / 4)).norm(), round_off);
+  EXPECT_LT((elements.shapes[0].moments - spherical(h * h / 12)).norm(), round_off);
+  EXPECT_LT((nodes.shapes[0].moments - spherical(h * h / 48)).norm(), round_off);
+  EXPECT_LT((elements.shapes[0].surface - Vector::Constant(-h * h)).norm(), round_off);
+  EXPECT_LT((nodes.shapes[0].surface - Vector::Constant(-h * h / 4)).norm(), round_off);
+}
+
+int joints_shared(const PointCloud& cloud, int i, int j) {
+  std::vector<std::int64_t> shared;
+  std::set_intersection(cloud.joints[i].begin(), cloud.joints[i].end(), cloud.joints[j].begin(), cloud.joints[j].end(),
+                        std::back_inserter(shared));
+  return static_cast<int>(shared.size());
+}
+
+TEST(SquarePrism, NeighboursHaveJointsInCommon) {
+  const PointCloud elements = square_prism(2, PointsAt::elements), nodes = square_prism(2, PointsAt::nodes);
+  EXPECT_EQ(joints_shared(elements, 0, 0), 8);
+  EXPECT_EQ(joints_shared(elements, 0, 1), 4);
+  EXPECT_EQ(joints_shared(elements, 0, 3), 2);
+  EXPECT_EQ(joints_shared(elements, 0, 7), 1);
+  EXPECT_EQ(joints_shared(elements, 0, 8), 0);
+  EXPECT_EQ(joints_shared(nodes, 0, 0), 1);
+  EXPECT_EQ(joints_shared(nodes, 13, 13), 8);  // in the middle of the second layer
+  EXPECT_EQ(joints_shared(nodes, 13, 22), 4);
+  EXPECT_EQ(joints_shared(nodes, 0, 2), 0);
+}
+
+// Parts of a cell that the surface cuts are in or out as a whole, at random places: measured 9e-4 of the volume, 1.8e-3
+// of volume times thickness, 5e-3 of the moments, most of it from the ends of cylinders along an axis of the grid.
+TEST(RoundCylinder, CutCellsHaveTheIntegralsOfACylinder) {
+  for (const int across : {3, 4}) {
+    for (const Placement& placement : random_placements(20)) {
+      const Sums sums = sums_over(round_cylinder(across, placement, Cells::cut));
+      const double volume = std::numbers::pi / 4 * length;
+      EXPECT_NEAR(sums.volume, volume, 2e-3 * volume);
+      EXPECT_LT(sums.first.norm(), 4e-3 * volume);
+      EXPECT_LT(sums.surface.norm(), 1e-12);
+      expect_moments(sums, placement.axis, volume * length * length / 12, volume / 16, 1e-2);
+    }
+  }
+}
+
+TEST(RoundCylinder, WholeCellsAreCubes) {
+  const PointCloud cloud = round_cylinder(4, random_placements(1)[0], Cells::whole);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_NEAR(cloud.volumes[i], 1.0 / 64, round_off);
+    EXPECT_LT((cloud.shapes[i].moments - spherical(1.0 / 16 / 12)).norm(), 1e-11);  // differences of second moments
+    EXPECT_EQ(cloud.joints[i].size(), 8);
+  }
+}
+
+TEST(RoundCylinder, NoCellIsBelowThirtyPercent) {
+  for (const Placement& placement : random_placements(20)) {
+    const PointCloud cloud = round_cylinder(3, placement, Cells::cut);
+    EXPECT_GE(*std::min_element(cloud.volumes.begin(), cloud.volumes.end()), 0.3 / 27 - round_off);
+  }
+}
+
+TEST(Merging, GivesSmallCellsToTheLargestNeighbourAndKeepsTheirSums) {
+  // Four cells of 2³ along x with 8, 1, 6 and 1 small cubes, and one of 1 apart from them.
+  const auto is_filled = [](const Place& p) {
+    if ((p[1] < 0) || (p[2] < 0) || (p[1] > 1) || (p[2] > 1)) return false;
+    const int cell = p[0] >> 1, left = p[0] & 1, corner = left + 2 * p[1] + 4 * p[2];
+    constexpr std::array<int, 6> filled = {8, 1, 6, 1, 0, 1};
+    return p[0] >= 0 && cell < 6 && corner < filled[cell];
+  };
+  std::vector<Cell> cells =
+      gathered({1, {0, 0, 0}, {12, 2, 2}, is_filled}, [](const Place& p) { return Place(p / 2); });
+  ASSERT_EQ(cells.size(), 5);
+  const auto sum = [&] {
+    return std::accumulate(cells.begin(), cells.end(), Cell{}, [](Cell all, const Cell& one) {
+      all.take(one);
+      return all;
+    });
+  };
+  const Cell before = sum();
+  merge_small(cells, 3);
+  ASSERT_EQ(cells.size(), 3);
+  EXPECT_EQ(cells[0].cubes, 9);
+  EXPECT_EQ(cells[1].cubes, 7);
+  EXPECT_EQ(cells[2].cubes, 1);
+  EXPECT_EQ(sum().first, before.first);
+  EXPECT_EQ(sum().second, before.second);
+  EXPECT_EQ(sum().surface, before.surface);
+}
+
+TEST(Placements, AreTheSameEverywhere) {
+  const std::vector<Placement> placements = random_placements(20);
+  for (const Placement& placement : placements) EXPECT_NEAR(placement.axis.norm(), 1, round_off);
+  EXPECT_NEAR(placements[0].axis[2], 0.176261590, 1e-8);
+  EXPECT_NEAR(placements[19].offset[0], 0.268134172, 1e-8);
+  Vector mean = Vector::Zero();
+  for (const Placement& placement : placements) mean += placement.offset / 20;
+  EXPECT_LT((mean - Vector::Constant(0.5)).norm(), 3 * std::sqrt(3.0 / 12 / 20));  // three deviations
+}
+
+// ---- Stiffness and modes -------------------------------------------------------------------------------------------
+
+Body body_of(const PointCloud& cloud) {
+  const Communicator world;
+  return body_by(schemes[0], cloud, elastic(1, frequencies_poisson), world);
+}
+
+Eigen::VectorXd field(const Body& body, const Tensor& gradient) {
+  Eigen::VectorXd u(3 * body.owned());
+  for (int i = 0; i < body.owned(); ++i) u.segment<3>(3 * i) = gradient * body.domain.reference(i);
+  return u;
+}
+
+// Linear displacements are seen exactly at surfaces, too, and leave no energy of stabilisation.
+TEST(Stiffness, HasHookesEnergyOfUniaxialStress) {
+  Body body = body_of(square_prism(3, PointsAt::elements));
+  const SparseMatrix K = stiffness_matrix(body);
+  const double nu = frequencies_poisson;
+  const Eigen::VectorXd u = field(body, Vector(-nu, -nu, 1).asDiagonal());
+  EXPECT_NEAR(u.dot(K * u), length, 1e-11 * length);
+  Tensor turn = Tensor::Zero();
+  turn(0, 2) = 1, turn(2, 0) = -1;
+  const Eigen::VectorXd v = field(body, turn);
+  EXPECT_LT((K * v).norm(), 1e-11 * v.norm());
+}
+
+// All columns one by one, which takes no reach for granted.
+TEST(Stiffness, GroupsOfPointsAreColumnsOnTheirOwn) {
+  Body body = body_of(square_prism(2, PointsAt::nodes));
+  const SparseMatrix grouped = stiffness_matrix(body), alone = stiffness_matrix(body, 100);
+  EXPECT_LT((grouped - alone).norm(), 1e-13 * alone.norm());
+}
+
+TEST(Stiffness, ATooShortReachIsNoticed) {
+  Body body = body_of(square_prism(2, PointsAt::nodes));
+  EXPECT_THROW(stiffness_matrix(body, 1), Error);
+}
+
+TEST(Vibration, IsWhatADenseSolverFinds) {
+  Body body = body_of(round_cylinder(3, random_placements(1)[0], Cells::cut));
+  const SparseMatrix A = by_mass(stiffness_matrix(body), masses_of(body));
+  const Vibration found = vibration_of(A, 6);
+  const Eigen::VectorXd all = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(A)).eigenvalues();
+  EXPECT_EQ(found.zeros, 6);
+  for (int m = 0; m < 6; ++m) EXPECT_NEAR(found.frequencies[m], std::sqrt(all[6 + m]), 1e-6 * std::sqrt(all[6 + m]));
+  EXPECT_NEAR(found.highest, std::sqrt(all[all.size() - 1]), 1e-3 * found.highest);
+}
+
+// The errors of a strut three and six points thick against Ritz. Of first order at the surface, of higher inside:
+// measured 0.34 to 0.55 of them are left at half the spacing.
+TEST(Vibration, ComesNearTheExactOneWithTheSpacing) {
+  const auto errors = [](int across) {
+    Body body = body_of(square_prism(across, PointsAt::elements));
+    const Vibration found = vibration_of(by_mass(stiffness_matrix(body), masses_of(body)), 6);
+    std::array<double, 6> all{};
+    for (int m = 0; m < 6; ++m) all[m] = std::abs(std::pow(found.frequencies[m] / square_frequencies[m], 2) - 1);
+    return all;
+  };
+  const auto coarse = errors(3), fine = errors(6);
+  for (int m = 0; m < 6; ++m) EXPECT_LT(fine[m], 0.6 * coarse[m]) << "mode " << m;
+}
+
+}  // namespace
+}  // namespace strut::reference

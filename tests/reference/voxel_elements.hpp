@@ -1,0 +1,58 @@
+// Finite elements on voxels, without a matrix: cubes with eight nodes, linear elastic, fully integrated. All cubes have
+// the same stiffness; what differs is which nodes they take.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+#include "base/lanes.hpp"
+#include "io/exodus.hpp"
+
+namespace strut::reference {
+
+// Corner c of a cube lies at bit 0 of c along x, bit 1 along y, bit 2 along z.
+using Corners = std::array<int, 8>;
+
+struct VoxelMesh {
+  double edge = 0;            // m
+  std::vector<Vector> nodes;  // those that a voxel has
+  std::vector<Corners> voxels;
+};
+
+// Of all blocks. Throws Error where an element is not a cube along the axes, as large as the others.
+VoxelMesh voxels_of(const io::Mesh& mesh);
+// The whole cells that these points at elements stand for, with their joints for corners (thin_members.hpp).
+VoxelMesh voxels_of(const PointCloud& elements);
+
+// N/m; component c of corner n is number 3 n + c.
+using VoxelStiffness = Eigen::Matrix<double, 24, 24>;
+VoxelStiffness voxel_stiffness(double edge, double young, double poisson);
+// Of all nodes.
+Eigen::SparseMatrix<double> matrix_of(const VoxelMesh& mesh, const VoxelStiffness& stiffness);
+// Of the nodes, an eighth of each voxel around them; kg.
+Eigen::VectorXd masses_of(const VoxelMesh& mesh, double density);
+
+// Of the nodes, a vector and a number that is not looked at; and a last one that no node has.
+using NodeField = std::vector<Eigen::Array4d>;
+
+// Forces of displacements. A cube is its own mirror image across three planes: in sums and differences of its corners'
+// displacements, its stiffness falls into eight blocks of three rows, 72 products instead of 576. As many voxels as a
+// register has lanes are taken side by side.
+class VoxelForces {
+ public:
+  VoxelForces(const VoxelMesh& mesh, const VoxelStiffness& stiffness);
+
+  NodeField field() const { return NodeField(nodes_ + 1, Eigen::Array4d::Zero()); }
+  // force += K displacement
+  void add(const NodeField& displacement, NodeField& force) const;
+
+ private:
+  using Side = std::array<small::Indices, 8>;  // [corner][lane]; lanes without a voxel take the last number of a field
+
+  std::size_t nodes_;
+  std::vector<Side> sides_;
+  std::array<Eigen::Matrix3d, 8> blocks_;
+};
+
+}  // namespace strut::reference
