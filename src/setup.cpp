@@ -9,6 +9,7 @@
 #include "base/timing.hpp"
 #include "crossings.hpp"
 #include "deck/problems.hpp"
+#include "mechanics/quadratic_fit.hpp"
 #include "io/exodus.hpp"
 #include "io/grid.hpp"
 #include "points/common_box.hpp"
@@ -306,15 +307,15 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 // Owned points whose family cannot carry a shape tensor; `text` tells of the first.
 std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, std::string& text) {
   std::vector<int> found;
-  std::vector<char> needs_shape;  // of blocks: cells without enough neighbours carry no stress and stay
+  std::vector<char> by_cells;  // of blocks
   for (const std::string& name : domain.cloud.block_names) {
-    needs_shape.push_back(!is_quadratic(deck.materials[section_of(deck, name)->material]));
+    by_cells.push_back(is_quadratic(deck.materials[section_of(deck, name)->material]));
   }
   for (int i = 0; i < domain.owned; ++i) {
-    if (!needs_shape[domain.cloud.blocks[i]]) continue;
     const LatticeFamilies* stencil = domain.families.lattice(i);
     if (stencil && stencil->spans_space(i)) continue;  // without a sum over the family
     const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
+    if (!reason && by_cells[domain.cloud.blocks[i]] && !spans_cell(domain, i)) reason = "they hardly span space";
     if (!reason) continue;
     found.push_back(i);
     if (found.size() > 1) continue;

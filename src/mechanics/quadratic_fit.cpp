@@ -25,8 +25,8 @@ constexpr double least_for_stress = 0.02, least_for_second = 0.1;
 
 // Of the consistency correction: what is asked for is met as far as it does not cost more than this, in units of the
 // operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularisation.
-constexpr double regularization = 0.1, inner_diagonal = 23;
-constexpr int iterations = 24;
+constexpr double regularization = 0.5, inner_diagonal = 23;
+constexpr int iterations = 16;
 
 constexpr int state_width = sizeof(QuadraticState) / sizeof(double);
 
@@ -54,6 +54,11 @@ void over_family(const Body& body, int i, const Visit& visit) {
   });
 }
 
+// In the direction in which it is the least.
+double least_square(const Tensor& spread) {
+  return Eigen::SelfAdjointEigenSolver<Tensor>(spread, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
 // P, B, Q of a point. False where its neighbours do not span space.
 bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
   const double h = body.domain.cloud.spacings[i];
@@ -66,7 +71,7 @@ bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
   });
   if (!(weight > 0)) return false;
   M /= weight;
-  const double least = Eigen::SelfAdjointEigenSolver<Tensor>(M.topLeftCorner<3, 3>(), Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least = least_square(M.topLeftCorner<3, 3>());
   if (least < least_for_stress) return false;
   Matrix9 inverse = Matrix9::Zero();
   if (least < least_for_second) {
@@ -355,6 +360,13 @@ double steepness_of(const Body& body, int i, const Eigen::Array4d* multipliers, 
 }
 
 }  // namespace
+
+bool spans_cell(const Domain& domain, int i) {
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+  const double h = domain.cloud.spacings[i];
+  return volume > 0 && least_square(family_spread(domain, i) / (volume * h * h)) >= least_for_stress;
+}
 
 QuadraticFits::QuadraticFits(Body& body)
     : number_(body.owned(), -1), multipliers_(body.domain.sites.size(), Eigen::Array4d::Zero()) {

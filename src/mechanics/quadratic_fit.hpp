@@ -39,6 +39,9 @@ static_assert(sizeof(QuadraticFit) == QuadraticFit::size * sizeof(double));
 // Place q of a cell is offset + L t_q.
 inline constexpr double cell_places[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
 
+// Whether the neighbours of an owned point span space well enough for a deformation gradient over its cell.
+bool spans_cell(const Domain& domain, int i);
+
 class QuadraticFits {
  public:
   // Collective. Of all owned points of the blocks by quadratic correspondence.

@@ -26,7 +26,10 @@ Cell of_one_cube(const SmallCubes& body, const Place& cube) {
   const Vector middle = cube.cast<double>().matrix() + Vector::Constant(0.5);
   Cell cell{Place::Zero(), 1, middle, middle * middle.transpose()};
   for (const Place& face : faces) {
-    if (!body.is_filled(cube + face)) cell.surface += face.cast<double>().matrix();
+    if (body.is_filled(cube + face)) continue;
+    const Vector n = face.cast<double>().matrix();
+    cell.surface += n;
+    cell.surface_moments += n * (middle + 0.5 * n).transpose();
   }
   return cell;
 }
@@ -35,7 +38,9 @@ CellShape shape_of(const Cell& cell, double edge, const Vector& position) {
   const Vector centroid = cell.first / cell.cubes;
   Tensor moments = cell.second / cell.cubes - centroid * centroid.transpose();
   moments.diagonal().array() += 1.0 / 12;  // those of the small cubes themselves
-  return {edge * centroid - position, edge * edge * symmetric_part(moments), edge * edge * cell.surface};
+  const Tensor surface_moments = cell.surface_moments - cell.surface * position.transpose() / edge;
+  return {edge * centroid - position, edge * edge * symmetric_part(moments), edge * edge * cell.surface,
+          edge * edge * edge * surface_moments};
 }
 
 }  // namespace
@@ -45,6 +50,7 @@ void Cell::take(const Cell& other) {
   first += other.first;
   second += other.second;
   surface += other.surface;
+  surface_moments += other.surface_moments;
 }
 
 std::vector<Cell> gathered(const SmallCubes& body, const std::function<Place(const Place&)>& cell_of) {
@@ -95,6 +101,7 @@ std::int64_t number_of(const Place& place) {
 PointCloud cloud_of(const std::vector<Cell>& cells, double edge, double spacing, bool at_grid) {
   PointCloud cloud;
   cloud.block_names = {"strut"};
+  cloud.joined = true;
   for (const Cell& cell : cells) {
     const Vector centroid = edge * cell.first / cell.cubes;
     const Vector position = at_grid ? Vector(spacing * cell.place.cast<double>().matrix()) : centroid;

@@ -26,6 +26,7 @@ struct Cell {
   Vector first = Vector::Zero();    // Σ x
   Tensor second = Tensor::Zero();   // Σ x xᵀ, x of the middles
   Vector surface = Vector::Zero();  // Σ n over the faces that have no cube behind them
+  Tensor surface_moments = Tensor::Zero();  // Σ n ⊗ x over them, x of their middles
 
   void take(const Cell& other);
 };

@@ -16,7 +16,8 @@ struct Scheme {
   Formulation formulation = Formulation::correspondence;
 };
 
-inline const std::array<Scheme, 3> schemes = {{
+inline const std::array<Scheme, 4> schemes = {{
+    {.name = "quadratic", .horizon = 1.75, .formulation = Formulation::quadratic},
     {.name = "mean gradient 0.01, horizon 1.75", .horizon = 1.75, .mean_stabilization = 0.01},
     {.name = "Silling 0.0005, horizon 3.015", .horizon = 3.015, .stabilization = 0.0005},
     {.name = "no stabilisation, horizon 1.75", .horizon = 1.75},
@@ -30,8 +31,9 @@ inline Body body_by(const Scheme& scheme, const PointCloud& cloud, const materia
                                .stabilization = scheme.stabilization,
                                .formulation = scheme.formulation,
                                .mean_stabilization = scheme.mean_stabilization};
-  return make_body(make_domain(partitioned(cloud, world), {BlockBonds::per_spacing(scheme.horizon)}, world),
-                   Influence::one, {material});
+  BlockBonds bonds = BlockBonds::per_spacing(scheme.horizon);
+  if (scheme.formulation == Formulation::quadratic) bonds.touching = true, bonds.families = FamilyKind::lists;
+  return make_body(make_domain(partitioned(cloud, world), {bonds}, world), Influence::one, {material});
 }
 
 }  // namespace strut::reference
