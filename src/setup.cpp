@@ -9,9 +9,9 @@
 #include "base/timing.hpp"
 #include "crossings.hpp"
 #include "deck/problems.hpp"
-#include "mechanics/quadratic_fit.hpp"
 #include "io/exodus.hpp"
 #include "io/grid.hpp"
+#include "mechanics/quadratic_fit.hpp"
 #include "points/common_box.hpp"
 #include "points/partition.hpp"
 

@@ -193,8 +193,8 @@ Material material(const Values& values, Problems& problems) {
                     .stabilization_coefficient = values.real("Stabilization Coefficient")};
   for (const LawEntry& law : laws()) {
     if (law.schema.name != values.text("Material Model")) continue;
-    const bool by_cells = law.formulation == Formulation::correspondence &&
-                          values.text("Formulation") == "Quadratic Correspondence";
+    const bool by_cells =
+        law.formulation == Formulation::correspondence && values.text("Formulation") == "Quadratic Correspondence";
     material.formulation = by_cells ? Formulation::quadratic : law.formulation;
     if (by_cells) material.stabilization = StabilizationType::none;
     material.law = law.make(values, problems);
@@ -270,9 +270,8 @@ std::vector<Block> blocks(const Values& values, const std::vector<Material>& mat
                    .horizon = real_if_given(section, "Horizon"),
                    .horizon_factor = real_if_given(section, "Horizon Factor"),
                    .separate_body = section.flag("Separate Body"),
-                   .across_voids = section.has("Bonds Across Voids")
-                                       ? std::optional(section.flag("Bonds Across Voids"))
-                                       : std::nullopt});
+                   .across_voids = section.has("Bonds Across Voids") ? std::optional(section.flag("Bonds Across Voids"))
+                                                                     : std::nullopt});
   }
   check_overlaps(all, problems);
   return all;

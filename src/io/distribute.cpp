@@ -1,7 +1,7 @@
 #include "io/distribute.hpp"
 
-#include <numeric>
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 

@@ -48,8 +48,7 @@ void check_cell(const PartialCell& cell, const Mesh::Block& block, std::size_t n
   std::ostringstream problem;
   if (!(cell.volume > 0) || !std::isfinite(cell.volume)) {
     problem << "volume " << cell.volume << " m³, expected a positive one";
-  } else if (!cell.centroid.allFinite() || !cell.surface.allFinite() ||
-             !cell.surface_moments.allFinite()) {
+  } else if (!cell.centroid.allFinite() || !cell.surface.allFinite() || !cell.surface_moments.allFinite()) {
     problem << "centroid (" << cell.centroid.transpose() << ") m and surface (" << cell.surface.transpose()
             << ") m², expected finite numbers";
   } else if (!is_of_a_body(cell.moments)) {

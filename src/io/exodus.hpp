@@ -78,18 +78,35 @@ int nodes_per_element(const std::string& type);
 
 // The material in an element that is only partly filled, or that has taken over what is in a neighbour.
 struct PartialCell {
-  double volume = 0;                      // m³
-  Vector centroid = Vector::Zero();       // m
-  Symmetric moments = Symmetric::Zero();  // central second moments per volume, m² (xx yy zz xy yz zx)
+  double volume = 0;                        // m³
+  Vector centroid = Vector::Zero();         // m
+  Symmetric moments = Symmetric::Zero();    // central second moments per volume, m² (xx yy zz xy yz zx)
   Vector surface = Vector::Zero();          // ∫ n dA over the material's surface, n outward, m²
   Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − centroid) dA over it, m³
 };
 // The names of the attributes in the file, in the order of the members.
-inline constexpr std::array<const char*, 22> partial_cell_attributes{
-    "volume",    "centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz",
-    "moment_xy", "moment_yz",  "moment_zx",  "surface_x",  "surface_y", "surface_z",
-    "surface_moment_xx", "surface_moment_xy", "surface_moment_xz", "surface_moment_yx", "surface_moment_yy",
-    "surface_moment_yz", "surface_moment_zx", "surface_moment_zy", "surface_moment_zz"};
+inline constexpr std::array<const char*, 22> partial_cell_attributes{"volume",
+                                                                     "centroid_x",
+                                                                     "centroid_y",
+                                                                     "centroid_z",
+                                                                     "moment_xx",
+                                                                     "moment_yy",
+                                                                     "moment_zz",
+                                                                     "moment_xy",
+                                                                     "moment_yz",
+                                                                     "moment_zx",
+                                                                     "surface_x",
+                                                                     "surface_y",
+                                                                     "surface_z",
+                                                                     "surface_moment_xx",
+                                                                     "surface_moment_xy",
+                                                                     "surface_moment_xz",
+                                                                     "surface_moment_yx",
+                                                                     "surface_moment_yy",
+                                                                     "surface_moment_yz",
+                                                                     "surface_moment_zx",
+                                                                     "surface_moment_zy",
+                                                                     "surface_moment_zz"};
 
 // A mesh as a tool makes it, for tools/ and tests.
 struct Mesh {

@@ -163,12 +163,12 @@ struct Body {
 
   // Owned points.
   std::vector<MaterialPoint> points;
-  Repeated<Symmetric> shape_inverse;      // K⁻¹, 1/m⁵
+  Repeated<Symmetric> shape_inverse;          // K⁻¹, 1/m⁵
   std::shared_ptr<const QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
-  std::vector<double> density;            // kg/m³
-  std::vector<Vector> velocity;           // at mid-step, m/s
-  std::vector<Vector> previous_velocity;  // at the mid-step before, m/s
-  std::vector<Vector> force_density;      // N/m³ of reference volume
+  std::vector<double> density;                // kg/m³
+  std::vector<Vector> velocity;               // at mid-step, m/s
+  std::vector<Vector> previous_velocity;      // at the mid-step before, m/s
+  std::vector<Vector> force_density;          // N/m³ of reference volume
   // Where some points are stepped alone (subcycles.hpp), ghosts too: how often the step of a point's stress is halved.
   // Empty: no point's.
   std::vector<std::uint8_t> halvings;

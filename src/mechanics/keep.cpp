@@ -69,8 +69,9 @@ void keep_block(Archive& archive, const Body& body, std::size_t number, Material
   const int columns =
       std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
   if (columns > 0) {
-    archive.field("state", columns * places,
-                  [&](std::size_t k, int c) -> double& { return block.state_at(c / places, block.place(k, c % places)); });
+    archive.field("state", columns * places, [&](std::size_t k, int c) -> double& {
+      return block.state_at(c / places, block.place(k, c % places));
+    });
   }
   if (block.is_quadratic()) keep_cells(archive, block);
   if (block.is_ordinary()) {

@@ -210,7 +210,8 @@ struct LawUpdate {
   Lanes stiffness_of(const LawPoints& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
-      for (int l = 0; l < LawPoints::width; ++l) modulus[l] = law.moduli(block.template state_of<L>(g.places[l])).longitudinal();
+      for (int l = 0; l < LawPoints::width; ++l)
+        modulus[l] = law.moduli(block.template state_of<L>(g.places[l])).longitudinal();
     }
     return modulus / (3 * block.material.density);
   }

@@ -234,8 +234,8 @@ ForceState tangent_state(const Symmetric& shape_inverse, double C, const PointTa
 
 // The moduli of a law point as it is now.
 materials::Moduli moduli_at(const MaterialBlock& block, std::size_t place) {
-  return std::visit(
-      [&]<class L>(const L& law) { return materials::moduli_of(law, block.state_of<L>(place)); }, block.material.law);
+  return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, block.state_of<L>(place)); },
+                    block.material.law);
 }
 
 // The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.

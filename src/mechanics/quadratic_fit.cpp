@@ -14,9 +14,10 @@ namespace {
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 using Basis = Eigen::Matrix<double, 9, 1>;
 
-// The penalty on H beside the mean square of the bonds, in spacings. It decides where a family cannot tell F from H (its
-// bonds across a surface are all of one length), and fades where it can. Smaller is more accurate and stiffer to the
-// step: bending of round struts four cells thick −10, −6, −5 % at 1e-2, 3e-3, 1e-3, largest frequency 3.9, 5, 7 c/h.
+// The penalty on H beside the mean square of the bonds, in spacings. It decides where a family cannot tell F from H
+// (its bonds across a surface are all of one length), and fades where it can. Smaller is more accurate and stiffer to
+// the step: bending of round struts four cells thick −10, −6, −5 % at 1e-2, 3e-3, 1e-3, largest frequency 3.9, 5, 7
+// c/h.
 constexpr double penalty = 3e-3;
 
 // The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
@@ -140,9 +141,9 @@ struct LinearFit {
 }  // namespace
 
 // Finds μ: of all corrections that make the forces of a uniform stress those on the surface, about the smallest one.
-// With r_j = ∂/∂y_j of Σ ∫ div u dV − ∮ n·u dA, which is to be zero, K μ = −r; K = Σ_i V_i² R_iᵀ W R_i with what is left
-// over by the linear fits, R_i. It is solved by Chebyshev's iteration: so many steps give the same bits on any number of
-// ranks.
+// With r_j = ∂/∂y_j of Σ ∫ div u dV − ∮ n·u dA, which is to be zero, K μ = −r; K = Σ_i V_i² R_iᵀ W R_i with what is
+// left over by the linear fits, R_i. It is solved by Chebyshev's iteration: so many steps give the same bits on any
+// number of ranks.
 class ConsistencyCorrection {
  public:
   ConsistencyCorrection(Body& body, QuadraticFits& fits) : body_(body), fits_(fits) {
@@ -155,6 +156,7 @@ class ConsistencyCorrection {
     set_missing();
     set_operator();
     solve();
+    exchange_multipliers();
     for_each_point(0, count(), [&](int p) { add_to_fit(points_[p]); });
   }
 
@@ -162,6 +164,7 @@ class ConsistencyCorrection {
   int count() const { return static_cast<int>(points_.size()); }
   bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
   Halo& halo() const { return body_.domain.halo; }
+  void exchange_multipliers() { halo().exchange(fits_.multipliers_.data()->data(), 4, 3); }
 
   void set_missing();
   void set_operator();
@@ -178,12 +181,12 @@ class ConsistencyCorrection {
 
   Body& body_;
   QuadraticFits& fits_;
-  std::vector<int> points_;                 // owned, by quadratic correspondence
-  std::vector<Vector> missing_;             // −r, of owned points, m²
-  std::vector<Eigen::Matrix4d> moments_;    // of (ξ, 1) over the family and the point, of owned points; its inverse
-  std::vector<double> diagonal_, ridge_;    // a bound of K's diagonal; the regularisation, m⁹
-  std::vector<Share> shares_;               // of owned points and ghosts
-  std::vector<Vector> image_;               // K μ, of owned points
+  std::vector<int> points_;               // owned, by quadratic correspondence
+  std::vector<Vector> missing_;           // −r, of owned points, m²
+  std::vector<Eigen::Matrix4d> moments_;  // of (ξ, 1) over the family and the point, of owned points; its inverse
+  std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularisation, m⁹
+  std::vector<Share> shares_;             // of owned points and ghosts
+  std::vector<Vector> image_;             // K μ, of owned points
 };
 
 void ConsistencyCorrection::set_missing() {
@@ -202,7 +205,8 @@ void ConsistencyCorrection::set_missing() {
     for_each_point(0, count(), [&, weight](int p) {
       const int i = points_[p];
       const bonds::OfPoint family{body_.domain.families, i};
-      const auto far = bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
+      const auto far =
+          bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
       const Vector force = Vector(far.c[0], far.c[1], far.c[2]) + bonds::quadratic_own_force(states[i], fits_[i]);
       bool all = true;  // beside a block of another formulation the surface is not all of it
       body_.domain.families.for_each(i, [&](int j) { all = all && states[j].padding > 0; });
@@ -233,7 +237,8 @@ void ConsistencyCorrection::set_operator() {
   for (const int i : points_) {
     const double volume = body_.domain.volume(i);
     double sum = shares_[i].weight;
-    over_family(body_, i, [&](int j, double w, const Vector&) { sum += shares_[j].weight * w / body_.domain.volume(j); });
+    over_family(body_, i,
+                [&](int j, double w, const Vector&) { sum += shares_[j].weight * w / body_.domain.volume(j); });
     diagonal_[i] = volume * sum;
     ridge_[i] = regularization * inner_diagonal * std::pow(body_.domain.cloud.spacings[i], 9);
   }
@@ -253,7 +258,7 @@ LinearFit ConsistencyCorrection::fit_of(int i) const {
 }
 
 void ConsistencyCorrection::apply_operator() {
-  halo().exchange(fits_.multipliers_.data()->data(), 4, 3);
+  exchange_multipliers();
   for_each_point(0, count(), [&](int p) {
     const int i = points_[p];
     if (!carries_stress(i)) return;
@@ -267,8 +272,7 @@ void ConsistencyCorrection::apply_operator() {
     const Vector mu = fits_.multipliers_[i].head<3>().matrix();
     const auto left = [&](int j, const Vector& xi) -> Vector {
       const Share& there = shares_[j];
-      return there.weight *
-             (mu - Eigen::Map<const Vector>(there.c) - Eigen::Map<const Tensor>(there.C) * xi);
+      return there.weight * (mu - Eigen::Map<const Vector>(there.c) - Eigen::Map<const Tensor>(there.C) * xi);
     };
     Vector sum = left(i, Vector::Zero());
     over_family(body_, i, [&](int j, double w, const Vector& xi) { sum += w / body_.domain.volume(j) * left(j, -xi); });
@@ -386,7 +390,6 @@ QuadraticFits::QuadraticFits(Body& body)
   }
   const double known = body.domain.cloud.shapes.empty() ? 0 : 1;
   if (body.domain.communicator.max(known) > 0) ConsistencyCorrection(body, *this).apply();
-  body.domain.halo.exchange(multipliers_.data()->data(), 4, 3);
   for_each_point(0, body.owned(), [&](int i) {
     if (number_[i] < 0 || !fit(i).carries_stress()) return;
     set_sums(body, i, multipliers(), fit(i));

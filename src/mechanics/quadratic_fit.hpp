@@ -22,14 +22,14 @@ namespace strut {
 // The constants of one point. With N = Σ ω V_j (y_j − y_i) ⊗ (ξ, q, μ_j) and q = (ξx²/2, ξy²/2, ξz²/2, ξx ξy, ξy ξz,
 // ξz ξx): F = N_ξ P + N_q B + V (N_μ − Σ ω V_j (y_j − y_i) ⊗ c), H = N_ξ Bᵀ + N_q Q.
 struct QuadraticFit {
-  double linear[9] = {};     // P, rows of ξ: [3 ξ + F], 1/m⁵
-  double mixed[18] = {};     // B, rows of q: [3 q + F], 1/m⁶; before the correction its transpose gives H from ξ
-  double second[21] = {};    // Q, the upper triangle by rows, 1/m⁷
-  double center[3] = {};     // c, as μ
-  double sums[13] = {};      // Σ ω V_j (1, ξ, q, μ_j) over the family
-  double offset[3] = {};     // from the point to the centroid of its cell, m
-  double factor[6] = {};     // L: the cell's second moments per volume are L Lᵀ; rows of the lower triangle, m
-  double steepness = 0;      // mean over the places of Σ |∂F_q/∂y_j|²/V_j, the point itself counted: as tr K⁻¹, 1/m⁵
+  double linear[9] = {};   // P, rows of ξ: [3 ξ + F], 1/m⁵
+  double mixed[18] = {};   // B, rows of q: [3 q + F], 1/m⁶; before the correction its transpose gives H from ξ
+  double second[21] = {};  // Q, the upper triangle by rows, 1/m⁷
+  double center[3] = {};   // c, as μ
+  double sums[13] = {};    // Σ ω V_j (1, ξ, q, μ_j) over the family
+  double offset[3] = {};   // from the point to the centroid of its cell, m
+  double factor[6] = {};   // L: the cell's second moments per volume are L Lᵀ; rows of the lower triangle, m
+  double steepness = 0;  // mean over the places of Σ |∂F_q/∂y_j|²/V_j, the point itself counted: as tr K⁻¹, 1/m⁵
   static constexpr int size = 74;
 
   bool carries_stress() const { return steepness > 0; }

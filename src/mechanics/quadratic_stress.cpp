@@ -29,7 +29,8 @@ struct Update {
   double advance(const Group& group) const {
     const std::vector<Site>& sites = body().domain.sites;
     QuadraticCells cells(group, *body().fits, sites);
-    cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body().fits->multipliers(), weight));
+    cells.take(
+        bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body().fits->multipliers(), weight));
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
     const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
     Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
@@ -114,7 +115,8 @@ void view_cells(Body& body, const MaterialBlock& block, const Groups& groups) {
       const Group group = groups[g];
       const std::vector<Site>& sites = body.domain.sites;
       QuadraticCells cells(group, *body.fits, sites);
-      cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body.fits->multipliers(), weight));
+      cells.take(
+          bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body.fits->multipliers(), weight));
       for (int l = 0; l < group.count; ++l) {
         const bool carries = (*body.fits)[group.i[l]].carries_stress();
         view_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));

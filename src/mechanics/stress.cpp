@@ -16,8 +16,8 @@ LaneSymmetric shape_inverses(const Group& g, const Body& body) {
 
 // A = P K⁻¹ − C F, times the share of the step.
 LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric& shape_inverse, const Lanes& share) {
-  LaneTensor A = small::product(piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J),
-                                small::full(shape_inverse));
+  LaneTensor A =
+      small::product(piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J), small::full(shape_inverse));
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) A.c[i][j] = share * (A.c[i][j] - C * now.F.c[i][j]);
   }

@@ -45,7 +45,7 @@ struct Pool {
   std::vector<std::int64_t> ids;
   std::vector<double> horizons;
   std::vector<int> bodies;
-  std::vector<char> asks;  // for bonds through material, or (2) for those that touch
+  std::vector<char> asks;      // for bonds through material, or (2) for those that touch
   std::vector<double> deltas;  // δ, m: horizons are those of the search
 };
 
@@ -209,7 +209,8 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
       if ((pool.asks[i] || pool.asks[j]) && j > i) asked.push_back(j);  // of two owned points one is enough
     });
     apart.clear();
-    const auto by_touch = std::stable_partition(asked.begin(), asked.end(), [&](int j) { return std::max(pool.asks[i], pool.asks[j]) < 2; });
+    const auto by_touch = std::stable_partition(asked.begin(), asked.end(),
+                                                [&](int j) { return std::max(pool.asks[i], pool.asks[j]) < 2; });
     std::copy_if(by_touch, asked.end(), std::back_inserter(apart), [&](int j) { return !material.touch(i, j); });
     asked.erase(by_touch, asked.end());
     if (!asked.empty()) {

@@ -21,11 +21,11 @@ struct SmallCubes {
 
 // Sums over the small cubes of a cell, lengths in edges of a small cube, places from its grid's origin.
 struct Cell {
-  Place place;                      // in the coarse grid
-  int cubes = 0;                    // how many
-  Vector first = Vector::Zero();    // Σ x
-  Tensor second = Tensor::Zero();   // Σ x xᵀ, x of the middles
-  Vector surface = Vector::Zero();  // Σ n over the faces that have no cube behind them
+  Place place;                              // in the coarse grid
+  int cubes = 0;                            // how many
+  Vector first = Vector::Zero();            // Σ x
+  Tensor second = Tensor::Zero();           // Σ x xᵀ, x of the middles
+  Vector surface = Vector::Zero();          // Σ n over the faces that have no cube behind them
   Tensor surface_moments = Tensor::Zero();  // Σ n ⊗ x over them, x of their middles
 
   void take(const Cell& other);

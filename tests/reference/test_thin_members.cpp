@@ -165,9 +165,11 @@ TEST(Placements, AreTheSameEverywhere) {
 
 // ---- Stiffness and modes -------------------------------------------------------------------------------------------
 
-Body body_of(const PointCloud& cloud) {
+Body body_of(const PointCloud& cloud, const std::string& scheme = "mean gradient") {
   const Communicator world;
-  return body_by(schemes[0], cloud, elastic(1, frequencies_poisson), world);
+  const auto found = std::find_if(schemes.begin(), schemes.end(),
+                                  [&](const Scheme& s) { return std::string(s.name).starts_with(scheme); });
+  return body_by(*found, cloud, elastic(1, frequencies_poisson), world);
 }
 
 Eigen::VectorXd field(const Body& body, const Tensor& gradient) {
@@ -178,15 +180,19 @@ Eigen::VectorXd field(const Body& body, const Tensor& gradient) {
 
 // Linear displacements are seen exactly at surfaces, too, and leave no energy of stabilisation.
 TEST(Stiffness, HasHookesEnergyOfUniaxialStress) {
-  Body body = body_of(square_prism(3, PointsAt::elements));
-  const SparseMatrix K = stiffness_matrix(body);
-  const double nu = frequencies_poisson;
-  const Eigen::VectorXd u = field(body, Vector(-nu, -nu, 1).asDiagonal());
-  EXPECT_NEAR(u.dot(K * u), length, 1e-11 * length);
-  Tensor turn = Tensor::Zero();
-  turn(0, 2) = 1, turn(2, 0) = -1;
-  const Eigen::VectorXd v = field(body, turn);
-  EXPECT_LT((K * v).norm(), 1e-11 * v.norm());
+  for (const char* scheme : {"mean gradient", "quadratic"}) {
+    for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {
+      Body body = body_of(square_prism(3, at), scheme);
+      const SparseMatrix K = stiffness_matrix(body);
+      const double nu = frequencies_poisson;
+      const Eigen::VectorXd u = field(body, Vector(-nu, -nu, 1).asDiagonal());
+      EXPECT_NEAR(u.dot(K * u), length, 1e-11 * length) << scheme;
+      Tensor turn = Tensor::Zero();
+      turn(0, 2) = 1, turn(2, 0) = -1;
+      const Eigen::VectorXd v = field(body, turn);
+      EXPECT_LT((K * v).norm(), 1e-11 * v.norm()) << scheme;
+    }
+  }
 }
 
 // All columns one by one, which takes no reach for granted.
@@ -223,6 +229,22 @@ TEST(Vibration, ComesNearTheExactOneWithTheSpacing) {
   };
   const auto coarse = errors(3), fine = errors(6);
   for (int m = 0; m < 6; ++m) EXPECT_LT(fine[m], 0.6 * coarse[m]) << "mode " << m;
+}
+
+// Errors of the stiffness of the first six modes of round struts in any direction, of cells that know their moments.
+// The mean sizes over twenty struts are 7.2, 5.7 % with three and four cells across (bench_thin_members); over the
+// first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
+TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStruts) {
+  for (const auto& [across, limit] : {std::pair(3, 0.09), {4, 0.07}}) {
+    double sum = 0;
+    for (const Placement& placement : random_placements(6)) {
+      Body body = body_of(round_cylinder(across, placement, Cells::cut), "quadratic");
+      const Vibration found = vibration_of(by_mass(stiffness_matrix(body), masses_of(body)), 6);
+      EXPECT_EQ(found.zeros, 6);
+      for (int m = 0; m < 6; ++m) sum += std::abs(std::pow(found.frequencies[m] / round_frequencies[m], 2) - 1) / 36;
+    }
+    EXPECT_LT(sum, limit) << across;
+  }
 }
 
 }  // namespace

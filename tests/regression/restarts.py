@@ -143,7 +143,15 @@ def press():
     return [text.replace('name="Separate Body" type="bool" value="true"', 'name="Separate Body" type="bool" value="false"')]
 
 
-SCENES = {"impact": impact, "press": press}
+def cells():
+    """The impact, its copper by quadratic correspondence: law points of their own."""
+    text = "\n".join(impact()).replace("impact.", "cells.")
+    model = 'value="Elastic Plastic Correspondence"/>'
+    assert model in text
+    return [text.replace(model, model + '<Parameter name="Formulation" type="string" value="Quadratic Correspondence"/>')]
+
+
+SCENES = {"impact": impact, "press": press, "cells": cells}
 
 
 class Test:
