@@ -12,6 +12,7 @@
 #include "io/exodus.hpp"
 #include "io/grid.hpp"
 #include "mechanics/quadratic_fit.hpp"
+#include "mechanics/thin_members.hpp"
 #include "points/common_box.hpp"
 #include "points/partition.hpp"
 
@@ -464,6 +465,31 @@ Cuts cuts(const deck::Deck& deck, const PointCloud& cloud, const std::vector<dou
           lengths_for_cuts(interactions_of(deck, cloud), bonds, costs.by_stencils, cloud, communicator)};
 }
 
+// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness.
+std::string thin_members(const Body& body) {
+  constexpr double worth_saying = 0.9;
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    const double thickness = thickness_of(body.domain, static_cast<int>(b));
+    const double spacing = body.domain.blocks[b].spacing;
+    const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
+    const Formulation formulation = block.material.formulation;
+    const double kept = bending_stiffness_kept(formulation, horizon, thickness);
+    if (kept >= worth_saying) continue;
+    text << "block '" << block.name << "': members are " << thickness
+         << " spacings thick (4 volume/surface); so thin they keep about " << 100 * kept
+         << " % of their bending stiffness";
+    if (formulation == Formulation::correspondence) {
+      text << ", by Formulation 'Quadratic Correspondence' some "
+           << 100 * bending_stiffness_kept(Formulation::quadratic, horizon, thickness) << " %";
+    }
+    text << "\n";
+  }
+  return text.str();
+}
+
 std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
   if (!solver.quasi_static) return std::nullopt;
   const auto& [with_tangent, load_steps, tolerance, most_iterations] = *solver.quasi_static;
@@ -515,6 +541,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   const std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
   scene.contact = contact::Contact(interactions, scene.body.domain);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
+  scene.warnings += thin_members(scene.body);
   scene.warnings += paths_that_cross(scene, interactions, deck.solver.initial_time,
                                      deck.solver.final_time - deck.solver.initial_time);
   return scene;

@@ -82,17 +82,19 @@ std::vector<double> horizons_of(const PointCloud& cloud, const std::vector<Block
 std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::vector<double>& horizons,
                                           const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
   constexpr double none = -std::numeric_limits<double>::infinity();
-  std::vector<double> bounds(2 * bonds.size(), none);  // the largest of each block, and the smallest, negated
+  std::vector<double> bounds(3 * bonds.size(), none);  // of each block the largest, the smallest, negated; the spacing
   for (std::size_t i = 0; i < horizons.size(); ++i) {
-    double* of_block = &bounds[2 * cloud.blocks[i]];
+    double* of_block = &bounds[3 * cloud.blocks[i]];
     of_block[0] = std::max(of_block[0], horizons[i]);
     of_block[1] = std::max(of_block[1], -horizons[i]);
+    of_block[2] = std::max(of_block[2], cloud.spacings[i]);
   }
   communicator.max(bounds);
   std::vector<BlockHorizons> blocks;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const bool empty = bounds[2 * b] == none;
-    blocks.push_back({empty ? 0 : -bounds[2 * b + 1], empty ? 0 : bounds[2 * b], bonds[b].body});
+    const double* of_block = &bounds[3 * b];
+    const bool empty = of_block[0] == none;
+    blocks.push_back({empty ? 0 : -of_block[1], empty ? 0 : of_block[0], empty ? 0 : of_block[2], bonds[b].body});
   }
   return blocks;
 }

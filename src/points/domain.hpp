@@ -51,6 +51,7 @@ bool bonded(double one_horizon, double other_horizon, const Vector& xi);
 // What the horizons of a block's points turned out to be, over all ranks.
 struct BlockHorizons {
   double smallest = 0, largest = 0;  // m; 0 where the block has no points
+  double spacing = 0;                // of the points, the largest, m
   int body = 0;
 };
 

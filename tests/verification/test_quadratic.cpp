@@ -128,26 +128,6 @@ TEST(Quadratic, ForcesKeepMomentumAndAngularMomentum) {
   for (int c = 3; c < 6; ++c) EXPECT_LT(std::abs(sums[c]), 1e-12 * sums[6] * 6e-3);
 }
 
-// A uniform stress that leaves the surface free has no force, but for what the correction leaves. On flat faces of a
-// lattice it is exact without correction but at edges; points out of line show what it does.
-TEST(Quadratic, TheCorrectionFreesSurfacesOfForces) {
-  const Communicator world;
-  const auto forces_of = [&](bool known) {
-    const LatticeSpec spec = block(elastic(110e9, 0.3), 0.2);
-    Body body = body_of(spec, world, known);
-    deform(body, [](const Vector& X) -> Vector { return X + 1e-6 * Vector(X[0], -0.3 * X[1], -0.3 * X[2]); });
-    advance_stress_and_force(body, 1, false);
-    double sum[] = {0};
-    for (int i = 0; i < body.owned(); ++i) {
-      const double x = body.domain.reference(i)[0] / spec.spacing;
-      if (x > 2 && x < 4) sum[0] += body.force_density[i].squaredNorm();  // away from the ends, which are pulled
-    }
-    world.sum(sum);
-    return std::sqrt(sum[0]);
-  };
-  EXPECT_LT(forces_of(true), 0.6 * forces_of(false));  // 0.4 measured
-}
-
 // No stabilisation: noise keeps its energy over ten thousand steps, and the displacements stay noise.
 TEST(Quadratic, NoiseDoesNotGrow) {
   const Communicator world;
