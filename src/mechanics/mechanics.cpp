@@ -238,49 +238,25 @@ materials::Moduli moduli_at(const MaterialBlock& block, std::size_t place) {
                     block.material.law);
 }
 
-// ∂P/∂F of the law points of a cell, applied to changes of F: with one volume a cell (quadratic_stress.cpp), less terms
-// of the order stress times the differences of strain in the cell. `tangents`: of law points, or the elastic ones.
-std::array<Tensor, 4> change_of_cell(const Body& body, const MaterialBlock& block, int k, std::array<Tensor, 4> dF,
-                                     const std::vector<PointTangent>* tangents) {
-  const auto point = [&](int q) -> const MaterialPoint& { return block.cells[block.place(k, q)]; };
-  std::array<Tensor, 4> inverse, dP;
-  std::array<double, 4> numbers;
-  const auto less_mean = [&numbers](int q) {
-    return (numbers[0] + numbers[1] + numbers[2] + numbers[3]) / 4 - numbers[q];
-  };
-  for (int q = 0; q < 4; ++q) {
-    inverse[q] = point(q).deformation_gradient.inverse();
-    numbers[q] = (inverse[q] * dF[q]).trace() / 3;
-  }
-  for (int q = 0; q < 4; ++q) {
-    dF[q] += less_mean(q) * point(q).deformation_gradient;
-    const std::size_t place = block.place(k, q);
-    dP[q] = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(dF[q])
-                     : elastic_change(point(q), moduli_at(block, place), dF[q]);
-  }
-  for (int q = 0; q < 4; ++q) numbers[q] = dP[q].cwiseProduct(point(q).deformation_gradient).sum() / 3;
-  for (int q = 0; q < 4; ++q) dP[q] += less_mean(q) * inverse[q].transpose();
-  return dP;
-}
-
-// The states of cells under a change of their motion, `field`.
+// The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
 template <class Weight>
 void set_tangent_cells(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
                        Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
   QuadraticCells cells(group, *body.fits, body.domain.sites);
   cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, field, body.fits->multipliers(), weight));
-  std::array<small::Tensor3<Lanes>, 4> dF, dP;
-  for (int q = 0; q < 4; ++q) dF[q] = cells.gradient_at(q), dP[q] = bonds::zero_tensor<Lanes>();
-  for (int l = 0; l < group.count; ++l) {
-    const auto change =
-        change_of_cell(body, block, group.k[l], {at(dF[0], l), at(dF[1], l), at(dF[2], l), at(dF[3], l)}, tangents);
-    for (int q = 0; q < 4; ++q) {
+  for (int q = 0; q < 4; ++q) {
+    const small::Tensor3<Lanes> dF = cells.gradient_at(q);
+    small::Tensor3<Lanes> dP = bonds::zero_tensor<Lanes>();
+    for (int l = 0; l < group.count; ++l) {
+      const std::size_t place = block.place(group.k[l], q);
+      const Tensor change = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(at(dF, l))
+                                     : elastic_change(block.cells[place], moduli_at(block, place), at(dF, l));
       for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) dP[q].c[r][c][l] = change[q](r, c);
+        for (int c = 0; c < 3; ++c) dP.c[r][c][l] = change(r, c);
       }
     }
+    cells.add_stress(q, dP);
   }
-  for (int q = 0; q < 4; ++q) cells.add_stress(q, dP[q]);
   const Lanes share = small::lanes_of([&](int l) { return body.share(group.i[l]) * body.share(group.i[l]); });
   cells.store(group, share, result);
 }
