@@ -10,7 +10,7 @@ from .runs import parameter, section
 @dataclasses.dataclass(frozen=True)
 class Method:
     points: str          # Elements or Nodes
-    stabilisation: str   # "none", "Silling 0.02", "Mean Gradient 0.01", "ordinary"
+    stabilisation: str   # "none", "Silling 0.02", "Mean Gradient 0.01", "ordinary"; "quadratic": needs none
     horizon: float       # in spacings
     influence: str = "One"
 
@@ -48,6 +48,7 @@ def recipe(**keys):
 
 PLAIN = [Method(points, kind, horizon) for points in ("Elements", "Nodes") for kind in
          ("none", "Silling 0.02", "Mean Gradient 0.01") for horizon in (1.75, 3.015)]
+PLAIN += [Method(points, "quadratic", 1.75) for points in ("Elements", "Nodes")]
 
 
 class Case:

@@ -28,6 +28,8 @@ def section(name, *content):
 def method_keys(method):
     if method.stabilisation == "ordinary":
         return parameter("Material Model", "Elastic")
+    if method.stabilisation == "quadratic":
+        return parameter("Formulation", "Quadratic Correspondence")
     kind, coefficient = method.kind()
     return parameter("Stabilization", kind) + (parameter("Stabilization Coefficient", coefficient) if coefficient else "")
 
