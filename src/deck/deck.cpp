@@ -184,6 +184,16 @@ StabilizationType stabilization(const std::string& name) {
   return name == "Silling" ? StabilizationType::silling : StabilizationType::mean_gradient;
 }
 
+void check_needs_no_stabilization(const Values& values, Material& material, Problems& problems) {
+  material.stabilization = StabilizationType::none;
+  for (const char* key : {"Stabilization", "Stabilization Coefficient"}) {
+    if (!values.given(key) || values.text("Stabilization") == "None") continue;
+    problems.add(values.path() + " > " + key,
+                 "given, but Formulation 'Quadratic Correspondence' has no zero-energy modes and takes none; expected no "
+                 "such key");
+  }
+}
+
 Material material(const Values& values, Problems& problems) {
   Material material{.name = values.name(),
                     .density = values.real("Density"),
@@ -196,7 +206,7 @@ Material material(const Values& values, Problems& problems) {
     const bool by_cells =
         law.formulation == Formulation::correspondence && values.text("Formulation") == "Quadratic Correspondence";
     material.formulation = by_cells ? Formulation::quadratic : law.formulation;
-    if (by_cells) material.stabilization = StabilizationType::none;
+    if (by_cells) check_needs_no_stabilization(values, material, problems);
     material.law = law.make(values, problems);
   }
   return material;

@@ -29,6 +29,27 @@ TEST(Deck, ReadsPoints) {
   EXPECT_EQ(deck.node_sets[0].where(0, 0, 2e-3, 0), 0);
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(Deck, ReadsFormulationAndBondsAcrossVoids) {
+  const DeckFolder folder;
+  EXPECT_EQ(folder.read(full_deck).materials[0].formulation, Formulation::correspondence);
+  EXPECT_FALSE(folder.read(full_deck).blocks[0].across_voids.has_value());
+  const std::string cells =
+      replaced(replaced(full_deck, R"("Stabilization Coefficient" type="double" value="0.05"/>)",
+                        R"("Formulation" type="string" value="Quadratic Correspondence"/>)"),
+               R"(<Parameter name="Material" )",
+               R"(<Parameter name="Bonds Across Voids" type="bool" value="false"/> <Parameter name="Material" )");
+  const Deck deck = folder.read(cells);
+  EXPECT_EQ(deck.materials[0].formulation, Formulation::quadratic);
+  EXPECT_EQ(deck.materials[0].stabilization, StabilizationType::none);
+  EXPECT_EQ(deck.blocks[0].across_voids, std::optional(false));
+}
+
 TEST(Deck, ReadsMaterials) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);

@@ -175,6 +175,11 @@ const std::vector<Case> names = {
       <Parameter name="Hourglass Coefficient" type="double" value="0.02"/>)",
      "Materials > copper > Hourglass Coefficient: unknown key; 'Stabilization Coefficient' is its counterpart, but "
      "another quantity: in units of (λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},
+    {"StabilizationOfCells", R"("Stabilization Coefficient" type="double" value="0.05"/>)",
+     R"("Stabilization Coefficient" type="double" value="0.05"/>
+      <Parameter name="Formulation" type="string" value="Quadratic Correspondence"/>)",
+     "Materials > copper > Stabilization Coefficient: given, but Formulation 'Quadratic Correspondence' has no "
+     "zero-energy modes and takes none; expected no such key"},
     {"StabilizationOfOrdinaryBonds", R"(value="Elastic Correspondence")", R"(value="Elastic")",
      "Materials > steel > Stabilization: unknown key for Material Model 'Elastic'; it belongs to 'Elastic "
      "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence'"},
