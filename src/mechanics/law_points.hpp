@@ -228,4 +228,14 @@ inline Lanes squared_speed(const Deformed& now) { return now.stiffness * now.J *
 #define STRUT_INLINE_ALL
 #endif
 
+// Advances a block's groups of points by an update, which has its law and advances a group, and reports the largest
+// pace, damping and the worst failure.
+template <class Update>
+void advance_groups(const Update& update, const Groups& groups, StepReport& report) {
+  const auto advance = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };
+  report.pace = std::max(report.pace, std::sqrt(largest(0, groups.count(), 0, advance)));
+  add_damping(update.law.block, update.law.pass, groups, report);
+  take_worse(update.law.failure.found(update.law.block), report.failure);
+}
+
 }  // namespace strut

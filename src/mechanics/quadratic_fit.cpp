@@ -383,8 +383,7 @@ QuadraticFits::QuadraticFits(Body& body)
       if (fit_motion(body, i, fit)) {
         fit.steepness = 1;
       } else {
-        fit = QuadraticFit{};
-        ++without_stress_;
+        fit = QuadraticFit{};  // carries no stress, and moves with the others
       }
     }
   }

@@ -50,8 +50,6 @@ class QuadraticFits {
   const QuadraticFit& operator[](int i) const { return fits_[number_[i]]; }
   // μ of owned points and ghosts, zero of other formulations.
   const Eigen::Array4d* multipliers() const { return multipliers_.data(); }
-  // Points that carry no stress of their own: their neighbours do not span space. They move with the others.
-  int without_stress() const { return without_stress_; }
   double bytes() const;
 
  private:
@@ -61,7 +59,6 @@ class QuadraticFits {
   std::vector<int> number_;  // of owned points, in fits_; −1 of other formulations
   std::vector<QuadraticFit> fits_;
   std::vector<Eigen::Array4d> multipliers_;
-  int without_stress_ = 0;
 };
 
 }  // namespace strut

@@ -107,18 +107,6 @@ struct Update {
   }
 };
 
-template <class L, class Weight>
-void advance_points(Body& body, MaterialBlock& block, const L& law, Weight weight, const StressPass& pass,
-                    const Groups& groups, StepReport& report) {
-  WorstFailure failure;
-  const Update<L, Weight> update{{body, block, law, pass, failure}, weight};
-  const auto advance_group = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };
-  const double fastest = largest(0, groups.count(), 0, advance_group);
-  report.pace = std::max(report.pace, std::sqrt(fastest));
-  add_damping(block, pass, groups, report);
-  take_worse(failure.found(block), report.failure);
-}
-
 }  // namespace
 
 void add_damping(const MaterialBlock& block, const StressPass& pass, const Groups& groups, StepReport& report) {
@@ -137,8 +125,11 @@ void add_damping(const MaterialBlock& block, const StressPass& pass, const Group
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const Groups& groups,
                     StepReport& report) {
   bonds::with_influence(body.influence, [&](auto weight) {
-    std::visit([&](const auto& law) { advance_points(body, block, law, weight, pass, groups, report); },
-               block.material.law);
+    const auto advance = [&]<class L>(const L& law) {
+      WorstFailure failure;
+      advance_groups(Update<L, decltype(weight)>{{body, block, law, pass, failure}, weight}, groups, report);
+    };
+    std::visit(advance, block.material.law);
   });
 }
 
