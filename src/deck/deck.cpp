@@ -188,9 +188,10 @@ void check_needs_no_stabilization(const Values& values, Material& material, Prob
   material.stabilization = StabilizationType::none;
   for (const char* key : {"Stabilization", "Stabilization Coefficient"}) {
     if (!values.given(key) || values.text("Stabilization") == "None") continue;
-    problems.add(values.path() + " > " + key,
-                 "given, but Formulation 'Quadratic Correspondence' has no zero-energy modes and takes none; expected no "
-                 "such key");
+    problems.add(
+        values.path() + " > " + key,
+        "given, but Formulation 'Quadratic Correspondence' has no zero-energy modes and takes none; expected no "
+        "such key");
   }
 }
 

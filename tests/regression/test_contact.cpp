@@ -1,10 +1,9 @@
 // Whole runs in which bodies meet.
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include <algorithm>
 #include <limits>
+#include <sstream>
 
 #include "bodies.hpp"
 #include "report.hpp"

@@ -144,8 +144,8 @@ TEST_F(Arrays, WrongContent) {
 // A stream of one cube with what it holds.
 struct CellStream {
   std::string header = "cells cube 1\n";
-  std::vector<double> numbers = {0.25, 0.5, 0.4, 0.3, 0.01, 0.02, 0.03, 0.001, -0.002, 0.003, 0, -0.5, 1,
-                                 0.1,  0.2, 0.3, 0.4, 0.5,  0.6,  0.7,  0.8,   0.9};
+  std::vector<double> numbers = {0.25, 0.5, 0.4, 0.3, 0.01, 0.02, 0.03, 0.001, -0.002, 0.003, 0,
+                                 -0.5, 1,   0.1, 0.2, 0.3,  0.4,  0.5,  0.6,   0.7,    0.8,   0.9};
   std::string text() const {
     const Stream cube;
     return cube.magic + cube.nodes_header + bytes(cube.nodes) + cube.cube_header + bytes(cube.cube) + header +
