@@ -340,6 +340,7 @@ Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Ve
 }
 
 void set_sums(const Body& body, int i, const Eigen::Array4d* multipliers, QuadraticFit& fit) {
+  std::fill(std::begin(fit.sums), std::end(fit.sums), 0.0);
   over_family(body, i, [&](int j, double w, const Vector& xi) {
     const std::array<double, 6> q = bonds::squares(bonds::Vector3<double>{{xi[0], xi[1], xi[2]}});
     fit.sums[0] += w;
@@ -387,11 +388,17 @@ QuadraticFits::QuadraticFits(Body& body)
       }
     }
   }
+  const auto set_all_sums = [&] {
+    for_each_point(0, body.owned(), [&](int i) {
+      if (number_[i] >= 0 && fit(i).carries_stress()) set_sums(body, i, multipliers(), fit(i));
+    });
+  };
+  set_all_sums();  // the correction looks at forces
   const double known = body.domain.cloud.shapes.empty() ? 0 : 1;
   if (body.domain.communicator.max(known) > 0) ConsistencyCorrection(body, *this).apply();
+  set_all_sums();
   for_each_point(0, body.owned(), [&](int i) {
     if (number_[i] < 0 || !fit(i).carries_stress()) return;
-    set_sums(body, i, multipliers(), fit(i));
     fit(i).steepness = steepness_of(body, i, multipliers(), fit(i));
   });
 }
