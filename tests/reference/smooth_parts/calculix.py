@@ -9,31 +9,43 @@ import numpy
 MM = 1e3  # CalculiX has no units: mm, N and N/mm² leave no very small numbers in its files
 
 
+def node_set(name, chosen):
+    return [f"*NSET, NSET={name}", ",\n".join(str(k + 1) for k in numpy.flatnonzero(chosen))]
+
+
+def body(nodes, tets):
+    lines = ["*NODE, NSET=ALL"]
+    lines += [f"{k + 1}, {x[0]:.12g}, {x[1]:.12g}, {x[2]:.12g}" for k, x in enumerate(nodes * MM)]
+    lines += ["*ELEMENT, TYPE=C3D10, ELSET=FOAM"]
+    return lines + [", ".join(map(str, (k + 1, *t))) for k, t in enumerate(tets + 1)]
+
+
+def metal(young, poisson):
+    return ["*MATERIAL, NAME=METAL", "*ELASTIC", f"{young * 1e-6:.12g}, {poisson:.12g}"]
+
+
 def deck(nodes, tets, height, young, poisson, solver):
-    def rows(table, form):
-        return "\n".join(form(k + 1, row) for k, row in enumerate(table))
-
-    def node_set(name, chosen):
-        return f"*NSET, NSET={name}\n" + ",\n".join(str(k + 1) for k in numpy.flatnonzero(chosen))
-
     return "\n".join([
-        "*NODE, NSET=ALL", rows(nodes * MM, lambda k, x: f"{k}, {x[0]:.12g}, {x[1]:.12g}, {x[2]:.12g}"),
-        "*ELEMENT, TYPE=C3D10, ELSET=FOAM", rows(tets + 1, lambda k, t: ", ".join(map(str, (k, *t)))),
-        node_set("FOOT", nodes[:, 2] < 1e-9 * height), node_set("TOP", nodes[:, 2] > (1 - 1e-9) * height),
-        "*MATERIAL, NAME=METAL", "*ELASTIC", f"{young * 1e-6:.12g}, {poisson:.12g}",
+        *body(nodes, tets), *node_set("FOOT", nodes[:, 2] < 1e-9 * height),
+        *node_set("TOP", nodes[:, 2] > (1 - 1e-9) * height), *metal(young, poisson),
         "*SOLID SECTION, ELSET=FOAM, MATERIAL=METAL", "*STEP", f"*STATIC, SOLVER={solver}", "*BOUNDARY",
         "FOOT, 1, 3, 0", "TOP, 1, 2, 0", "TOP, 3, 3, 1e-3", "*NODE PRINT, NSET=TOP, TOTALS=ONLY", "RF", "*END STEP",
         ""])
 
 
-def stiffness(nodes, tets, height, young, poisson, solver="SPOOLES"):
-    """N/m."""
+def reactions(deck):
+    """Runs a deck; the sums of forces that it prints on sets of nodes, one row for each time and set."""
     with tempfile.TemporaryDirectory() as folder:
-        (pathlib.Path(folder) / "foam.inp").write_text(deck(nodes, tets, height, young, poisson, solver))
-        done = subprocess.run(["ccx", "foam"], cwd=folder, capture_output=True, text=True)
-        results = pathlib.Path(folder) / "foam.dat"
+        (pathlib.Path(folder) / "deck.inp").write_text(deck)
+        done = subprocess.run(["ccx", "deck"], cwd=folder, capture_output=True, text=True)
+        results = pathlib.Path(folder) / "deck.dat"
         if done.returncode != 0 or not results.exists():
             raise SystemExit(done.stdout[-2000:] + done.stderr[-2000:])
         number = r"(-?\d\.\d+E[+-]\d+)"
-        forces = re.findall(rf"^\s*{number}\s+{number}\s+{number}\s*$", results.read_text(), re.M)
-    return abs(float(forces[-1][2])) / (1e-3 / MM)
+        rows = re.findall(rf"^\s*{number}\s+{number}\s+{number}\s*$", results.read_text(), re.M)
+    return [[float(force) for force in row] for row in rows]
+
+
+def stiffness(nodes, tets, height, young, poisson, solver="SPOOLES"):
+    """N/m."""
+    return abs(reactions(deck(nodes, tets, height, young, poisson, solver))[-1][2]) / (1e-3 / MM)
