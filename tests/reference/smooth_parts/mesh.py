@@ -88,7 +88,7 @@ def inner_parts(tets, signs, cut, first):
     numbers = coo_matrix((numpy.arange(len(cut)) + first, cut.T), shape=(first, first)).tocsr()
 
     def crossing(t, i, j):
-        return numpy.asarray(numbers[t[:, i], t[:, j]]).ravel()
+        return numpy.asarray(numbers[t[:, i], t[:, j]]).ravel() if len(t) else t[:, 0]
 
     def of(inners, outers):
         return tets[(inner == inners) & (outer == outers)]
