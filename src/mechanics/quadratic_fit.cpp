@@ -16,13 +16,13 @@ using Basis = Eigen::Matrix<double, 9, 1>;
 
 // The penalty on H beside the mean square of the bonds, in spacings. It decides where a family cannot tell F from H
 // (its bonds across a surface are all of one length), and fades where it can. Smaller is more accurate and stiffer to
-// the step: bending of round struts four cells thick −10, −6, −5 % at 1e-2, 3e-3, 1e-3, largest frequency 3.9, 5, 7
-// c/h.
-constexpr double penalty = 3e-3;
+// the step; so each point has the smallest of these with which it does not ask for more than the bound: of
+// V h² κ, h spacing and κ the steepness, where 1.2 to 3 are usual inside of a body.
+constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 8;
 
 // The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
-// carries no stress; below the second F is known and H is not.
-constexpr double least_for_stress = 0.02, least_for_second = 0.1;
+// carries no stress.
+constexpr double least_for_stress = 0.02;
 
 // Of the consistency correction: what is asked for is met as far as it does not cost more than this, in units of the
 // operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularisation.
@@ -60,38 +60,6 @@ double least_square(const Tensor& spread) {
   return Eigen::SelfAdjointEigenSolver<Tensor>(spread, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
-// P, B, Q of a point. False where its neighbours do not span space.
-bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
-  const double h = body.domain.cloud.spacings[i];
-  Matrix9 M = Matrix9::Zero();
-  double weight = 0;
-  over_family(body, i, [&](int, double w, const Vector& xi) {
-    const Basis b = basis(xi, h);
-    M += w * b * b.transpose();
-    weight += w;
-  });
-  if (!(weight > 0)) return false;
-  M /= weight;
-  const double least = least_square(M.topLeftCorner<3, 3>());
-  if (least < least_for_stress) return false;
-  Matrix9 inverse = Matrix9::Zero();
-  if (least < least_for_second) {
-    inverse.topLeftCorner<3, 3>() = M.topLeftCorner<3, 3>().inverse() / weight;
-  } else {
-    M.diagonal().tail<6>().array() += penalty;
-    inverse = M.ldlt().solve(Matrix9::Identity()) / weight;
-  }
-  for (int c = 0; c < 3; ++c) {
-    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] = 0.5 * (inverse(c, b) + inverse(b, c)) / (h * h);
-  }
-  double* second = fit.second;
-  for (int k = 0; k < 6; ++k) {
-    for (int b = 0; b < 3; ++b) fit.mixed[3 * k + b] = 0.5 * (inverse(3 + k, b) + inverse(b, 3 + k)) / (h * h * h);
-    for (int l = k; l < 6; ++l) *second++ = 0.5 * (inverse(3 + k, 3 + l) + inverse(3 + l, 3 + k)) / (h * h * h * h);
-  }
-  return true;
-}
-
 void set_cell(const CellShape& shape, QuadraticFit& fit) {
   Tensor moments = to_tensor(shape.moments);
   moments.diagonal().array() += 1e-9 * moments.trace();  // a flat cell has a square root, too
@@ -104,6 +72,76 @@ void set_cell(const CellShape& shape, QuadraticFit& fit) {
 Vector place_of(const QuadraticFit& fit, int q) {
   const double *t = cell_places[q], *s = fit.offset, *L = fit.factor;
   return {s[0] + L[0] * t[0], s[1] + L[1] * t[0] + L[2] * t[1], s[2] + L[3] * t[0] + L[4] * t[1] + L[5] * t[2]};
+}
+
+// Sums over a family, in spacings: of (1, b bᵀ) with ω V_j, of b b ᵀ with (ω V_j)²/V_j, and of b with ω V_j.
+struct FamilySums {
+  double weight = 0;
+  Matrix9 moments = Matrix9::Zero(), squares = Matrix9::Zero();
+  Basis first = Basis::Zero();
+};
+
+FamilySums sums_of_family(const Body& body, int i) {
+  const double h = body.domain.cloud.spacings[i];
+  FamilySums sums;
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    const Basis b = basis(xi, h);
+    const Matrix9 product = b * b.transpose();
+    sums.weight += w;
+    sums.moments += w * product;
+    sums.squares += w * w / body.domain.volume(j) * product;
+    sums.first += w * b;
+  });
+  return sums;
+}
+
+// (M + penalty)⁻¹.
+Matrix9 inverse_with(const FamilySums& sums, double penalty) {
+  Matrix9 M = sums.moments;
+  M.diagonal().tail<6>().array() += penalty * sums.weight;
+  return M.ldlt().solve(Matrix9::Identity());
+}
+
+// V h² κ of a point of so much volume whose fit has this inverse: V Σ |∂F_q/∂y_j|²/V_j, the point itself counted, mean
+// over the places.
+double steepness_with(const FamilySums& sums, const Matrix9& inverse, double volume, const QuadraticFit& fit,
+                      double h) {
+  const Matrix9 squares = inverse * (sums.squares + sums.first * sums.first.transpose() / volume) * inverse;
+  double sum = 0;
+  for (int q = 0; q < 4; ++q) {
+    const Vector s = place_of(fit, q) / h;
+    Eigen::Matrix<double, 3, 9> at = Eigen::Matrix<double, 3, 9>::Zero();  // F at s, of (F, H)
+    at.leftCols<3>().setIdentity();
+    at(0, 3) = at(1, 6) = at(2, 8) = s[0];
+    at(1, 4) = at(0, 6) = at(2, 7) = s[1];
+    at(2, 5) = at(1, 7) = at(0, 8) = s[2];
+    sum += (at * squares * at.transpose()).trace();
+  }
+  return volume * sum / 4;
+}
+
+// P, B, Q of a point, whose cell is set. False where its neighbours do not span space.
+bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
+  const double h = body.domain.cloud.spacings[i], volume = body.domain.volume(i);
+  const FamilySums sums = sums_of_family(body, i);
+  if (!(sums.weight > 0) || least_square(sums.moments.topLeftCorner<3, 3>() / sums.weight) < least_for_stress) {
+    return false;
+  }
+  double penalty = least_penalty;
+  Matrix9 inverse = inverse_with(sums, penalty);
+  while (penalty < largest_penalty && steepness_with(sums, inverse, volume, fit, h) > steepness_bound) {
+    penalty *= 2;
+    inverse = inverse_with(sums, penalty);
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] = 0.5 * (inverse(c, b) + inverse(b, c)) / (h * h);
+  }
+  double* second = fit.second;
+  for (int k = 0; k < 6; ++k) {
+    for (int b = 0; b < 3; ++b) fit.mixed[3 * k + b] = 0.5 * (inverse(3 + k, b) + inverse(b, 3 + k)) / (h * h * h);
+    for (int l = k; l < 6; ++l) *second++ = 0.5 * (inverse(3 + k, 3 + l) + inverse(3 + l, 3 + k)) / (h * h * h * h);
+  }
+  return true;
 }
 
 // The state of a point under a stress that gives V (mean : ∂F + moments : ∂H) to the energy's change.

@@ -11,7 +11,7 @@ namespace strut {
 namespace {
 
 // The third argument of a bench.
-enum Model { elastic_correspondence, plastic_correspondence, ordinary, plastic_mean_gradient };
+enum Model { elastic_correspondence, plastic_correspondence, ordinary, plastic_mean_gradient, plastic_quadratic };
 
 BlockMaterial copper(std::int64_t model) {
   const auto e = std::get<materials::Elastic>(elastic(110e9, 0.296));
@@ -19,6 +19,7 @@ BlockMaterial copper(std::int64_t model) {
   if (model == ordinary) return {8960, e, 0, Formulation::ordinary};
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
   const materials::J2 law{e.bulk, e.shear, flow};
+  if (model == plastic_quadratic) return {8960, law, 0, Formulation::quadratic};
   if (model == plastic_mean_gradient) return {8960, law, 0, Formulation::correspondence, 0.01};
   return {8960, law, 0.02};
 }
@@ -186,6 +187,7 @@ BENCHMARK(step)
     ->Args({40, 6015, plastic_correspondence, 0})
     ->Args({50, 1750, plastic_mean_gradient, 1})
     ->Args({50, 1750, plastic_mean_gradient, 0})
+    ->Args({50, 1750, plastic_quadratic, 1})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
