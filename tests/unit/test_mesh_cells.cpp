@@ -350,6 +350,15 @@ TEST(MeshCells, OfAPlateOneCellThickAreTwoLayers) {
   expect_same(moments_of(cells), moments_of(plate));
 }
 
+// However small a cell may be: one layer of voxels has no halves.
+TEST(MeshCells, OfAPlateOneVoxelThickStay) {
+  const Body plate = drawn({20, 20, 4}, {20, 20, 4}, [](const Eigen::Array3i& at) { return at[2] == 1; });
+  const Cells cells = gathered(plate.voxels, {}, plate.grid, {4, 0.01});
+  EXPECT_EQ(cells.cut, 0u);
+  EXPECT_EQ(cells.parts.size(), 25u);
+  EXPECT_EQ(cells.flat, 25u);
+}
+
 // A block of 3 × 3 × 3 cells with a bar of two cells on a side, half a cell thick: the outer one has one neighbour, and
 // becomes part of it.
 TEST(MeshCells, AThinTipBecomesPartOfWhatHoldsIt) {

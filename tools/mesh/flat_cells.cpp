@@ -79,7 +79,8 @@ bool FlatCells::is_cut(int cell) const {
   const int axis = normal_[cell];
   if (axis < 0) return false;
   const double thickness = std::sqrt(12 * cells_.parts[cell].moments[axis]) / cells_.grid.spacing()[axis];
-  return gathering_.factor > 1 && thickness >= 2 * gathering_.smallest;
+  const double one_layer = 1.0 / gathering_.factor;  // of voxels: it has no halves
+  return thickness >= std::max(2 * gathering_.smallest, 1.5 * one_layer);
 }
 
 bool FlatCells::cut() {
