@@ -195,7 +195,7 @@ TEST_F(Arrays, WrongCells) {
 // Two layers of a box of 4 × 4 × 3 voxels, not cubes, in cells of 2³.
 struct VoxelStream {
   std::string nodes = "nodes 0\n";
-  std::string header = "voxels foam 32 4 4 3 2 0.3 solid\n";
+  std::string header = "voxels foam 32 4 4 3 2 0 solid\n";
   std::vector<double> place = {0.1, 0.2, 0.3, 5, 6, 7};
   std::vector<int> voxels;
   std::vector<double> fills;
@@ -223,10 +223,15 @@ TEST_F(Arrays, VoxelsAreGatheredInCells) {
   ASSERT_EQ(mesh.node_sets.size(), 5u);                                                  // none at zmax
   EXPECT_EQ(mesh.node_sets[0].name, "foam_zmin");
 
-  stream.header = "voxels foam 32 4 4 3 2 0.3 grey\n";
+  stream.header = "voxels foam 32 4 4 3 2 0 grey\n";
   stream.fills.assign(32, 0.5);
   ASSERT_EQ(make(stream.text()).status, 0);
   EXPECT_NEAR(io::read_mesh(path("mesh.g")).blocks[0].cells[0].volume, 4 * 0.006, 1e-15);
+
+  stream = VoxelStream();  // with a limit for small cells, the plate has two layers
+  stream.header = "voxels foam 32 4 4 3 2 0.3 solid\n";
+  ASSERT_EQ(make(stream.text()).status, 0);
+  EXPECT_EQ(io::read_mesh(path("mesh.g")).blocks[0].cells.size(), 8u);
 }
 
 TEST_F(Arrays, NodesOfVoxelsAreNotThoseOfTheStream) {

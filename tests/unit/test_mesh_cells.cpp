@@ -1,6 +1,7 @@
 // Fine voxels gathered in cells: nothing of the body is lost, cells hang together where its material does.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <map>
 #include <set>
@@ -26,8 +27,8 @@ Body drawn(const Vector& size, const Eigen::Array3i& cells, const Inside& inside
   return body;
 }
 
-Body foam(int factor) {
-  const VoxelGrid grid = grid_of({1, 1.1, 0.9}, 0.04, factor);
+Body foam(int factor, double spacing = 0.04) {
+  const VoxelGrid grid = grid_of({1, 1.1, 0.9}, spacing, factor);
   const Skeleton skeleton = foam_skeleton(grid.size, 0.45, 0.5, 3);
   const auto wanted = static_cast<std::size_t>(0.1 * static_cast<double>(grid.count()));
   return {grid, struts_around(skeleton.edges, grid, wanted).voxels};
@@ -216,9 +217,10 @@ TEST(MeshCells, AreAsLargeAsAskedForWhereTheyHaveNeighbours) {
     const double limit = smallest * cells.grid.spacing().prod();
     std::size_t small = 0;
     for (const io::PartialCell& part : cells.parts) small += part.volume < limit * (1 - 1e-12) ? 1 : 0;
-    EXPECT_EQ(small, cells.small);
+    EXPECT_LE(small, cells.small + 2 * cells.cut);  // halves are as thick as a small cell, not as large
     // Those that alone join cells whose places do not touch: 1 in 1000 at 0.3 was measured, 1 in 140 at 0.6.
-    EXPECT_LE(static_cast<double>(small), (smallest < 0.5 ? 0.003 : 0.02) * static_cast<double>(cells.parts.size()));
+    EXPECT_LE(static_cast<double>(cells.small),
+              (smallest < 0.5 ? 0.003 : 0.02) * static_cast<double>(cells.parts.size()));
   }
 }
 
@@ -287,6 +289,97 @@ TEST(MeshCells, AThinWireStaysOne) {
     expect_same(moments_of(cells), moments_of(wire));
     EXPECT_EQ(bodies_in(cell_mesh(cells)), 1u);
   }
+}
+
+// ---- Cells whose neighbours hardly span space -----------------------------------------------------------------------
+
+// What a run asks for: four neighbours, and a mean square distance of 0.02 spacings² in each direction.
+bool spans_space(const Cells& cells, const std::vector<int>& near, int cell) {
+  Tensor sum = Tensor::Zero();
+  double volume = 0;
+  for (const int j : near) {
+    const Vector xi = (cells.parts[j].centroid - cells.parts[cell].centroid).cwiseQuotient(cells.grid.spacing());
+    sum += cells.parts[j].volume * xi * xi.transpose();
+    volume += cells.parts[j].volume;
+  }
+  if (near.size() < 4) return false;
+  return Eigen::SelfAdjointEigenSolver<Tensor>(sum / volume, Eigen::EigenvaluesOnly).eigenvalues()[0] >= 0.02;
+}
+
+// Of the volume, by the mesh that a run reads.
+double part_that_is_flat(const Cells& cells) {
+  std::vector<std::vector<int>> near(cells.parts.size());
+  for (const auto& [a, b] : touching(cell_mesh(cells))) {
+    if (a != b) near[a].push_back(b);
+  }
+  double flat = 0;
+  for (int n = 0; n < static_cast<int>(near.size()); ++n) {
+    if (!spans_space(cells, near[n], n)) flat += cells.parts[n].volume;
+  }
+  return flat / cells.volume();
+}
+
+// The walls cut some struts along their length: slivers a cell thick and less. In seven foams 0.05 to 0.21 % of the
+// volume were left in thin tips of them, of 0.2 to 0.75 % in cells that are not mended.
+TEST(MeshCells, OfAFoamHaveNeighboursThatSpanSpace) {
+  const Body body = foam(4, 0.0225);
+  const Cells cells = gathered(body.voxels, {}, body.grid, {4, 0.3});
+  EXPECT_GT(cells.cut, 0u);
+  EXPECT_GT(cells.flat_merged, 0u);
+  EXPECT_LT(part_that_is_flat(cells), 0.0025);
+  expect_same(moments_of(cells), moments_of(body));
+  EXPECT_EQ(bodies_in(cell_mesh(cells)), 1u);
+  // What is left is told, with that which has too few neighbours where a run has left it out.
+  EXPECT_GE(cells.flat_volume / cells.volume(), part_that_is_flat(cells) * (1 - 1e-9));
+  EXPECT_LT(cells.flat_volume / cells.volume(), 0.0025);
+}
+
+// 5 × 5 × 1 cells, 4 of 5 voxels thick: two layers of 2 voxels each, with the surface of a plate.
+TEST(MeshCells, OfAPlateOneCellThickAreTwoLayers) {
+  const Body plate = drawn({25, 25, 5}, {25, 25, 5}, [](const Eigen::Array3i& at) { return at[2] < 4; });
+  const Cells cells = gathered(plate.voxels, {}, plate.grid, {5, 0.3});
+  EXPECT_EQ(cells.cut, 25u);
+  ASSERT_EQ(cells.parts.size(), 50u);
+  for (const io::PartialCell& part : cells.parts) {
+    EXPECT_EQ(part.volume, 50);
+    EXPECT_NEAR(part.moments[2], 4.0 / 12, 1e-14);
+    EXPECT_EQ(part.surface[2], part.centroid[2] < 2 ? -25 : 25);
+  }
+  EXPECT_EQ(part_that_is_flat(cells), 0);
+  EXPECT_EQ(cell_mesh(cells).nodes.size(), 6 * 6 * 2u);  // both layers have the nodes of their place
+  expect_same(moments_of(cells), moments_of(plate));
+}
+
+// However small a cell may be: one layer of voxels has no halves.
+TEST(MeshCells, OfAPlateOneVoxelThickStay) {
+  const Body plate = drawn({20, 20, 4}, {20, 20, 4}, [](const Eigen::Array3i& at) { return at[2] == 1; });
+  const Cells cells = gathered(plate.voxels, {}, plate.grid, {4, 0.01});
+  EXPECT_EQ(cells.cut, 0u);
+  EXPECT_EQ(cells.parts.size(), 25u);
+  EXPECT_EQ(cells.flat, 25u);
+}
+
+// A block of 3 × 3 × 3 cells with a bar of two cells on a side, half a cell thick: the outer one has one neighbour, and
+// becomes part of it.
+TEST(MeshCells, AThinTipBecomesPartOfWhatHoldsIt) {
+  const Body body = drawn({20, 12, 12}, {20, 12, 12},
+                          [](const Eigen::Array3i& at) { return at[0] < 12 || (at[1] < 2 && at[2] < 4); });
+  const Cells cells = gathered(body.voxels, {}, body.grid, {4, 0.3});
+  EXPECT_EQ(cells.cut, 0u);
+  EXPECT_EQ(cells.flat_merged, 1u);
+  EXPECT_EQ(cells.flat, 0u);
+  EXPECT_EQ(cells.parts.size(), 28u);
+  EXPECT_EQ(part_that_is_flat(cells), 0);
+  expect_same(moments_of(cells), moments_of(body));
+}
+
+// There is nothing that it could become part of, and cells three times as long would not be better ones.
+TEST(MeshCells, AWireIsLeftAsItIs) {
+  const Body wire = drawn({40, 4, 4}, {40, 4, 4}, [](const Eigen::Array3i& at) { return at[1] < 2; });
+  const Cells cells = gathered(wire.voxels, {}, wire.grid, {4, 0.3});
+  EXPECT_EQ(cells.parts.size(), 10u);
+  EXPECT_EQ(cells.flat, 10u);
+  EXPECT_NEAR(cells.flat_volume, cells.volume(), 1e-9);
 }
 
 }  // namespace

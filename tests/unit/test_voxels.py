@@ -287,9 +287,15 @@ class Cells(ToolTest):
         self.assertEqual(set(mesh.sets), {"foam_xmax", "foam_ymin", "foam_zmin"})
 
     def test_small_cells_are_kept_where_none_is_too_small(self):
-        image = box((8, 8, 8), (0, 8), (0, 5), (0, 8))
-        self.assertEqual(len(self.cells(image, "--cells", 4)[2]), 4)  # a quarter of a cell is merged
-        self.assertEqual(len(self.cells(image, "--cells", 4, "--smallest-cell", 0.2)[2]), 8)
+        image = box((8, 12, 8), (0, 8), (0, 9), (0, 8))
+        self.assertEqual(len(self.cells(image, "--cells", 4)[2]), 8)  # a quarter of a cell is merged
+        self.assertEqual(len(self.cells(image, "--cells", 4, "--smallest-cell", 0.2)[2]), 12)
+
+    def test_a_plate_one_cell_thick_gets_two_layers(self):
+        said, mesh, cells = self.cells(box((8, 8, 8), (0, 8), (0, 4), (0, 8)), "--cells", 4)
+        self.assertIn("4 cut in two layers", said["cells"])
+        self.assertEqual(len(cells), 8)
+        np.testing.assert_allclose(np.unique(cells[:, 2] / np.ptp(cells[:, 2])), (0.5, 1.5))
 
     def test_grey_voxels_are_solid_in_part(self):
         image = np.full((12, 12, 12), 50, "u1")

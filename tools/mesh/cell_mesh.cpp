@@ -44,6 +44,27 @@ void add_hexahedra(io::Mesh& mesh, const Cells& cells) {
 
 }  // namespace
 
+std::vector<std::vector<int>> neighbours_of(const Cells& cells) {
+  Groups corners = joined_corners(cells);
+  std::vector<std::vector<int>> users(8 * cells.places.size());
+  for (int corner = 0; corner < static_cast<int>(users.size()); ++corner) {
+    users[corners.first(corner)].push_back(corner / 8);
+  }
+  std::vector<std::vector<int>> neighbours(cells.places.size());
+  for (const std::vector<int>& around : users) {
+    for (const int a : around) {
+      for (const int b : around) {
+        if (a != b) neighbours[a].push_back(b);
+      }
+    }
+  }
+  for (std::vector<int>& near : neighbours) {
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+  }
+  return neighbours;
+}
+
 io::Mesh cell_mesh(const Cells& cells) {
   io::Mesh mesh = empty_mesh("HEX8");
   mesh.blocks[0].cells = cells.parts;
@@ -56,13 +77,16 @@ std::string summary_of(const Cells& cells, const Gathering& gathering) {
   const double lost = cells.dropped == 0 ? 0 : cells.dropped_volume / (cells.dropped_volume + kept);
   const int n = gathering.factor;
   const Triple& places = cells.grid.cells;
-  char text[500];
+  char text[700];
   std::snprintf(text, sizeof text,
                 "  %d x %d x %d voxels to a cell: %zu cells in %d x %d x %d places, volume %.6g m^3\n"
                 "  pieces of less than %g of a cell: %zu merged into neighbours, %zu kept that alone join others,\n"
-                "    %zu without neighbours dropped (%.3g %% of the volume)\n",
+                "    %zu without neighbours dropped (%.3g %% of the volume)\n"
+                "  cells whose neighbours hardly span space: %zu cut in two layers, %zu merged,\n"
+                "    %zu kept that a run by quadratic correspondence leaves out (%.3g %% of the volume)\n",
                 n, n, n, cells.parts.size(), places[0], places[1], places[2], kept, gathering.smallest, cells.merged,
-                cells.small, cells.dropped, 100 * lost);
+                cells.small, cells.dropped, 100 * lost, cells.cut, cells.flat_merged, cells.flat,
+                100 * cells.flat_volume / kept);
   return text;
 }
 

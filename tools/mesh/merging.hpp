@@ -1,0 +1,62 @@
+// Pieces of a body that become parts of their neighbours, one by one.
+#pragma once
+
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "mesh/pieces.hpp"
+
+namespace strut::mesh {
+
+// Nodes can join cells only whose places touch: what would tear material apart, because a merged cell has a contact
+// beyond, is not done.
+class Merging {
+ public:
+  // `links`: of each piece those that it can be merged into.
+  Merging(Pieces& pieces, std::vector<std::set<int>> links, const VoxelGrid& grid);
+
+  // Merges a piece into the one of its links that is `allowed` and leaves the two most compact, no longer than
+  // `longest` cells. The result is at the place of the latter or, where only this keeps its neighbours, of the former.
+  // Returns the piece that holds both, -1: none.
+  template <class Allowed>
+  int merge(int piece, double longest, const Allowed& allowed) {
+    candidates_.clear();
+    for (const int other : links_[piece]) {
+      if (allowed(other)) candidates_.push_back(other);
+    }
+    return merge_into_best(piece, longest);
+  }
+  int merge(int piece) {
+    return merge(piece, std::numeric_limits<double>::infinity(), [](int) { return true; });
+  }
+  void drop(int piece) { alive_[piece] = false; }
+
+  bool alive(int piece) const { return alive_[piece]; }
+  const std::set<int>& links(int piece) const { return links_[piece]; }
+
+  // Gives the voxels of merged pieces to those that hold them.
+  void finish();
+
+ private:
+  struct Choice {
+    int into = -1;  // a piece; -1: none is possible
+    int place = 0;  // of both, merged
+  };
+
+  int merge_into_best(int piece, double longest);
+  bool reaches(int place, int piece, int other) const;
+  template <class Place>
+  Choice most_compact(int piece, double longest, const Place& place_with) const;
+  void join(int piece, const Choice& choice);
+
+  Pieces& pieces_;
+  std::vector<Piece>& list_;
+  std::vector<std::set<int>> links_;
+  const VoxelGrid& grid_;
+  std::vector<char> alive_;
+  std::vector<int> into_;  // what a merged piece became part of
+  std::vector<int> candidates_;
+};
+
+}  // namespace strut::mesh
