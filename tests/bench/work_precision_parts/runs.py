@@ -3,6 +3,7 @@ import csv
 import dataclasses
 import pathlib
 import re
+import resource
 import subprocess
 
 import numpy as np
@@ -13,7 +14,7 @@ STEPPING = ("Deformation and stress", "Stabilisation", "Force", "Halo exchange",
 
 
 def build(root):
-    subprocess.run([root / "tools/prepare", "release", "--target", "strut", "strut-mesh"], check=True,
+    subprocess.run([root / "tools/prepare", "release", "--target", "strut", "strut-mesh", "bench_voxel_elements"], check=True,
                    stdout=subprocess.DEVNULL)
 
 
@@ -23,6 +24,10 @@ def parameter(name, value, kind="string"):
 
 def section(name, *content):
     return f'<ParameterList name="{name}">\n{"".join(content)}</ParameterList>\n'
+
+
+VERLET = section("Verlet", parameter("Safety Factor", 0.8, "double"))
+ONE_EQUILIBRIUM = section("QuasiStatic", parameter("Number of Load Steps", 1, "int"))
 
 
 def method_keys(method):
@@ -36,7 +41,7 @@ def method_keys(method):
 
 @dataclasses.dataclass
 class Result:
-    seconds: float  # of the steps, on one core
+    seconds: float  # of the steps, on one core: what the processor gave, not the clock
     number: int     # of points
     history: dict   # columns
     path: pathlib.Path
@@ -49,7 +54,9 @@ class Result:
 
 class Runner:
     def __init__(self, root, work):
-        self.program, self.mesh_program, self.work = root / "build/release/strut", root / "build/release/tools/strut-mesh", work
+        programs = root / "build/release"
+        self.program, self.mesh_program, self.work = programs / "strut", programs / "tools/strut-mesh", work
+        self.voxel_program = programs / "tests/reference/bench_voxel_elements"
 
     def mesh(self, name, recipe):
         """The mesh of a recipe, made anew."""
@@ -60,7 +67,14 @@ class Runner:
                        stdout=subprocess.DEVNULL)
         return path.name
 
-    def run(self, name, mesh, method, material, conditions, final_time, interval, variables):
+    def voxel_elements(self, mesh, young, poisson):
+        """Linear finite elements between clamped ends: elements, stiffness in N/m, s an element and explicit step."""
+        report = subprocess.run([self.voxel_program, mesh, str(young), str(poisson)], cwd=self.work, check=True,
+                                capture_output=True, text=True).stdout
+        found = re.search(r"(\d+) elements.* stiffness (\S+) N/m.*: (\S+) ns an element and step", report, re.S)
+        return int(found[1]), float(found[2]), 1e-9 * float(found[3])
+
+    def run(self, name, mesh, method, material, conditions, final_time, interval, variables, solver=VERLET):
         """None where the run fails."""
         model = method_keys(method)
         if method.stabilisation != "ordinary":
@@ -74,28 +88,28 @@ class Runner:
             section("Blocks", section("all", parameter("Block Names", "all"), parameter("Material", "solid"),
                                       parameter("Horizon Factor", method.horizon, "double"))),
             section("Boundary Conditions", *conditions),
-            section("Solver", parameter("Final Time", final_time, "double"),
-                    section("Verlet", parameter("Safety Factor", 0.8, "double"))),
+            section("Solver", parameter("Final Time", final_time, "double"), solver),
             section("Output", parameter("Output Filename", f"{name}.e"),
                     parameter("Output Interval", final_time, "double"),
                     section("Output Variables", parameter("Velocity", "true", "bool"))),
             section("History", parameter("Filename", f"{name}.csv"), parameter("Interval", interval, "double"),
                     section("Variables", *(parameter(v, "true", "bool") for v in variables))))
         (self.work / f"{name}.xml").write_text(deck)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         done = subprocess.run([self.program, f"{name}.xml"], cwd=self.work, capture_output=True, text=True)
+        taken = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
         if done.returncode != 0:
             return None
         with open(self.work / f"{name}.csv", newline="") as file:
             rows = list(csv.DictReader(file))
         history = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
         number = int(re.search(r"(\d+) points,", done.stdout).group(1))
-        return Result(seconds(done.stdout), number, history, self.work / f"{name}.e")
+        return Result(taken * share_of_steps(done.stdout), number, history, self.work / f"{name}.e")
 
 
-def seconds(report):
-    """Of the steps alone: start-up and output are not the method's."""
-    total = 0.0
-    for phase in STEPPING:
+def share_of_steps(report):
+    """Of the time on the clock; start-up and output are not the method's."""
+    def taken(phase):
         found = re.search(rf"^{phase} +([0-9.]+)", report, re.M)
-        total += float(found.group(1)) if found else 0.0
-    return total
+        return float(found.group(1)) if found else 0.0
+    return sum(taken(phase) for phase in STEPPING) / max(taken("whole run"), 1e-9)
