@@ -144,7 +144,7 @@ def press():
 
 
 def cells():
-    """The impact, its copper by quadratic correspondence: law points of their own."""
+    """The impact, its copper by quadratic correspondence: law points of their own. None of its points limits the step."""
     text = "\n".join(impact()).replace("impact.", "cells.")
     model = 'value="Elastic Plastic Correspondence"/>'
     assert model in text
@@ -376,7 +376,7 @@ class Test:
         if self.failures:
             return
         self.seconds[name] = time.monotonic() - began
-        if name in ("impact", "cells") and "stepped alone" not in log:
+        if name == "impact" and "stepped alone" not in log:
             self.fail("no point of the impact is stepped alone", whole / "log")
         self.setup[name] = 0.1
         self.terminated(name, whole)
