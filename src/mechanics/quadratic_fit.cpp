@@ -74,24 +74,26 @@ Vector place_of(const QuadraticFit& fit, int q) {
   return {s[0] + L[0] * t[0], s[1] + L[1] * t[0] + L[2] * t[1], s[2] + L[3] * t[0] + L[4] * t[1] + L[5] * t[2]};
 }
 
-// Sums over a family, in spacings: of (1, b bᵀ) with ω V_j, of b b ᵀ with (ω V_j)²/V_j, and of b with ω V_j.
+// Sums over a family, in spacings: of (1, b bᵀ) with ω V_j, and of g gᵀ/V_j, g = ω V_j b being what y_j gives to the
+// fit; the point itself, which gives −Σ g, is counted.
 struct FamilySums {
   double weight = 0;
   Matrix9 moments = Matrix9::Zero(), squares = Matrix9::Zero();
-  Basis first = Basis::Zero();
 };
 
 FamilySums sums_of_family(const Body& body, int i) {
   const double h = body.domain.cloud.spacings[i];
   FamilySums sums;
+  Basis first = Basis::Zero();
   over_family(body, i, [&](int j, double w, const Vector& xi) {
     const Basis b = basis(xi, h);
     const Matrix9 product = b * b.transpose();
     sums.weight += w;
     sums.moments += w * product;
     sums.squares += w * w / body.domain.volume(j) * product;
-    sums.first += w * b;
+    first += w * b;
   });
+  sums.squares += first * first.transpose() / body.domain.volume(i);
   return sums;
 }
 
@@ -106,7 +108,7 @@ Matrix9 inverse_with(const FamilySums& sums, double penalty) {
 // over the places.
 double steepness_with(const FamilySums& sums, const Matrix9& inverse, double volume, const QuadraticFit& fit,
                       double h) {
-  const Matrix9 squares = inverse * (sums.squares + sums.first * sums.first.transpose() / volume) * inverse;
+  const Matrix9 squares = inverse * sums.squares * inverse;
   double sum = 0;
   for (int q = 0; q < 4; ++q) {
     const Vector s = place_of(fit, q) / h;
@@ -433,8 +435,10 @@ QuadraticFits::QuadraticFits(Body& body)
   };
   set_all_sums();  // the correction looks at forces
   const double known = body.domain.cloud.shapes.empty() ? 0 : 1;
-  if (body.domain.communicator.max(known) > 0) ConsistencyCorrection(body, *this).apply();
-  set_all_sums();
+  if (body.domain.communicator.max(known) > 0) {
+    ConsistencyCorrection(body, *this).apply();
+    set_all_sums();  // of μ
+  }
   for_each_point(0, body.owned(), [&](int i) {
     if (number_[i] < 0 || !fit(i).carries_stress()) return;
     fit(i).steepness = steepness_of(body, i, multipliers(), fit(i));

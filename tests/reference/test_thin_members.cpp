@@ -290,7 +290,7 @@ TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
 }
 
 // Errors of the stiffness of the first six modes of round struts in any direction, of cells that know their moments.
-// The mean sizes over twenty struts are 6.9, 5.2 % with three and four cells across (bench_thin_members); over the
+// The mean sizes over twenty struts are 5.6, 4.4 % with three and four cells across (bench_thin_members); over the
 // first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
 TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStruts) {
   for (const auto& [across, limit] : {std::pair(3, 0.09), {4, 0.07}}) {

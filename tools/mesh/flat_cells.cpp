@@ -56,8 +56,9 @@ void FlatCells::find() {
     const Vector squares = eigen.eigenvalues();  // ascending
     if (neighbours >= static_cast<std::ptrdiff_t>(least_neighbours) && squares[0] >= least_spread) continue;
     flat_.push_back(n);
-    if (squares[0] < least_spread && squares[1] >= least_spread)
+    if (squares[0] < least_spread && squares[1] >= least_spread) {
       eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&normal_[n]);
+    }
   }
 }
 

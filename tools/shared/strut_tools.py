@@ -4,6 +4,7 @@ import contextlib
 import difflib
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -223,6 +224,19 @@ def write_stream(path, parts):
         said = errors.decode(errors="replace").strip().splitlines() or [f"exit status {run.returncode}"]
         fail(said[0] if said[0].startswith("strut-mesh") else f"strut-mesh: {said[0]}")
     print(out.decode(), end="")
+
+
+def with_core_seconds(run):
+    """What run() returns, and the processor's time of the programs that it has run."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    result = run()
+    return result, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def seconds_of_phase(report, phase):
+    """On the clock, as strut's closing table has it; 0 where it has no such row."""
+    found = re.search(rf"^{phase} +([0-9.]+)", report, re.M)
+    return float(found.group(1)) if found else 0.0
 
 
 def put_into_page(page, name, body):

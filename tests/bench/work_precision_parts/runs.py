@@ -3,10 +3,10 @@ import csv
 import dataclasses
 import pathlib
 import re
-import resource
 import subprocess
 
 import numpy as np
+from strut_tools import seconds_of_phase, with_core_seconds
 from picture_parts import result as picture_result
 
 STEPPING = ("Deformation and stress", "Stabilisation", "Force", "Halo exchange", "Agreement of ranks", "Stable step",
@@ -95,9 +95,8 @@ class Runner:
             section("History", parameter("Filename", f"{name}.csv"), parameter("Interval", interval, "double"),
                     section("Variables", *(parameter(v, "true", "bool") for v in variables))))
         (self.work / f"{name}.xml").write_text(deck)
-        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        done = subprocess.run([self.program, f"{name}.xml"], cwd=self.work, capture_output=True, text=True)
-        taken = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+        command = [self.program, f"{name}.xml"]
+        done, taken = with_core_seconds(lambda: subprocess.run(command, cwd=self.work, capture_output=True, text=True))
         if done.returncode != 0:
             return None
         with open(self.work / f"{name}.csv", newline="") as file:
@@ -109,7 +108,5 @@ class Runner:
 
 def share_of_steps(report):
     """Of the time on the clock; start-up and output are not the method's."""
-    def taken(phase):
-        found = re.search(rf"^{phase} +([0-9.]+)", report, re.M)
-        return float(found.group(1)) if found else 0.0
-    return sum(taken(phase) for phase in STEPPING) / max(taken("whole run"), 1e-9)
+    stepping = sum(seconds_of_phase(report, phase) for phase in STEPPING)
+    return stepping / max(seconds_of_phase(report, "whole run"), 1e-9)

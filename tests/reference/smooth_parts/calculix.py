@@ -24,6 +24,12 @@ def metal(young, poisson):
     return ["*MATERIAL, NAME=METAL", "*ELASTIC", f"{young * 1e-6:.12g}, {poisson:.12g}"]
 
 
+def boundary(motions):
+    """Of nodes (a mask), direction and displacement; where two say something of the same, the last one holds."""
+    placed = {(node + 1, axis): value for chosen, axis, value in motions for node in numpy.flatnonzero(chosen)}
+    return ["*BOUNDARY", *[f"{node}, {axis}, {axis}, {value:.12g}" for (node, axis), value in placed.items()]]
+
+
 def deck(nodes, tets, height, young, poisson, solver):
     return "\n".join([
         *body(nodes, tets), *node_set("FOOT", nodes[:, 2] < 1e-9 * height),
