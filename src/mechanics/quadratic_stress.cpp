@@ -21,6 +21,7 @@ struct Update {
     for (int l = 0; l < Group::width; ++l) {
       g.places[l] = static_cast<int>(block().place(group.k[l], q));
       g.points[l] = &block().cells[g.places[l]];
+      if (law.pass.order == 0) fetch_ahead(block().cells.data(), g.places[l]);
     }
     return g;
   }
@@ -28,6 +29,9 @@ struct Update {
   // The largest pace² of the points of a group.
   double advance(const Group& group) const {
     const std::vector<Site>& sites = body().domain.sites;
+    for (const int i : group.i) {
+      if (law.pass.order == 0) fetch_ahead(&(*body().fits)[i], 0);
+    }
     QuadraticCells cells(group, *body().fits, sites);
     cells.take(
         bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body().fits->multipliers(), weight));
