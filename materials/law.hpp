@@ -10,6 +10,8 @@
 //   moduli    the elastic moduli that bound the stable step, of the Cauchy stress; of the state, where they change.
 //   energies  elastic_energy and dissipation feed the ledger of a run.
 //   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
+//   has_flowed  of a law whose flow keeps the volume: whether the point ever did. Where several law points follow one
+//             motion, they then share their change of volume (volumetric locking: src/mechanics/quadratic.md).
 //   side by side  a law may take points side by side, a lane each: its step and its StateOf<T> are then templates over
 //             the number, double or RawLanes, and State is StateOf<double>. All lanes are computed; those where J is
 //             not positive are thrown away.
@@ -76,6 +78,12 @@ inline constexpr bool takes_lanes = requires(const L law, const StepOf<RawLanes>
 template <class L>
 inline constexpr bool has_changing_moduli = requires(const L law, const typename L::State& state) {
   law.moduli(state);
+};
+
+// Whether a law flows at constant volume, and says where it has.
+template <class L>
+inline constexpr bool tells_flow = requires(const L law, const typename L::State& state) {
+  { law.has_flowed(state) } -> std::same_as<bool>;
 };
 
 template <class L>

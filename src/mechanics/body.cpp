@@ -32,7 +32,7 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
       block.lattice = domain.families.lattice_of[block.points[0]];
     }
     if (block.is_ordinary()) block.ordinary.resize(block.points.size());
-    if (block.is_quadratic()) block.cells.resize(block.law_points());
+    if (block.is_quadratic()) block.cells.resize(block.law_points()), block.flowed.assign(block.points.size(), 0);
     block.first_law_point = cells;
     cells += block.cells.size();
   }

@@ -113,6 +113,7 @@ struct MaterialBlock {
   int interior = 0;                     // so many of them need no ghost
   std::vector<double> state;            // state[column * law_points() + place] of a law point
   std::vector<MaterialPoint> cells;     // law points of quadratic correspondence; of others body.points are these
+  std::vector<std::uint8_t> flowed;     // of cells, whether their metal had flowed when the last step began
   std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
   std::vector<ViscousPoint> viscous;    // of law points; empty without viscosity
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.

@@ -89,8 +89,11 @@ inline LaneTensor piola_kirchhoff(const LaneSymmetric& stress, const Polar<Lanes
 struct Deformed {
   LaneTensor F;
   Polar<Lanes> polar;
-  LaneSymmetric inverse_stretch, stress;  // stress: unrotated, with the viscous pressure
-  Lanes J, stiffness;                     // det F; M/(3ρ), m²/s², 0 of those that have failed
+  LaneSymmetric inverse_stretch;
+  Lanes J;
+  LaneSymmetric rates;   // of a step of no length: not set
+  LaneSymmetric stress;  // unrotated, with the viscous pressure
+  Lanes stiffness;       // M/(3ρ), m²/s², 0 of those that have failed
 };
 
 // The law of one block, called for law points side by side.
@@ -104,21 +107,32 @@ struct LawUpdate {
 
   // Advances stress and state to the deformation gradients F over the pass' step.
   Deformed advance(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
+    Deformed now = deformed(g, F, share);
+    set_stress(g, share, now);
+    return now;
+  }
+
+  // All of it but what follows from the law.
+  Deformed deformed(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
     const Polar<Lanes> polar = polar_of(g, F, pass.of_any_size);
-    Deformed now{F, polar, small::inverse(polar.stretch), {}, small::determinant(F), stiffness_of(g)};
+    Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F), {}, {}, {}};
+    if (pass.dt > 0) now.rates = strain_rate(g, polar.stretch, pass.dt * share);
+    return now;
+  }
+
+  void set_stress(const LawPoints& g, const Lanes& share, Deformed& now) const {
+    now.stiffness = stiffness_of(g);
     if (!(pass.dt > 0)) {
       now.stress = stresses(g);
-      return now;
+      return;
     }
     const Lanes dt = pass.dt * share;
-    const LaneSymmetric rates = strain_rate(g, polar.stretch, dt);
-    now.stress = advance_laws(g, rates, polar.stretch, dt, now.J);
+    now.stress = advance_laws(g, now.rates, now.polar.stretch, dt, now.J);
     if constexpr (materials::has_changing_moduli<L>) now.stiffness = stiffness_of(g);
     if (!block.viscous.empty()) {
-      const Lanes viscous = viscous_pressure(g, rates, now.inverse_stretch, now.stiffness, now.J, dt);
+      const Lanes viscous = viscous_pressure(g, now.rates, now.inverse_stretch, now.stiffness, now.J, dt);
       for (int c = 0; c < 3; ++c) now.stress[c] -= viscous;
     }
-    return now;
   }
 
   void store(const LawPoints& g, int l, const Deformed& now) const {

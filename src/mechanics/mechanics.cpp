@@ -1,12 +1,14 @@
 #include "mechanics/mechanics.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <sstream>
 
 #include "base/timing.hpp"
 #include "mechanics/ordinary_bonds.hpp"
 #include "mechanics/quadratic_cell.hpp"
+#include "mechanics/shared_volume.hpp"
 #include "mechanics/stress.hpp"
 #include "mechanics/tangent.hpp"
 
@@ -238,25 +240,41 @@ materials::Moduli moduli_at(const MaterialBlock& block, std::size_t place) {
                     block.material.law);
 }
 
+// δP at the places of the cell of block.points[k], for δF there.
+CellTensors change_of_cell(const Body& body, const MaterialBlock& block, int k, CellTensors dF,
+                           const std::vector<PointTangent>* tangents) {
+  std::optional<SharedVolume> shared;
+  if (block.flowed[k]) shared.emplace(block, k);
+  if (shared) shared->share_gradients(dF);
+  CellTensors dP;
+  for (int q = 0; q < 4; ++q) {
+    const std::size_t place = block.place(k, q);
+    dP[q] = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(dF[q])
+                     : elastic_change(block.cells[place], moduli_at(block, place), dF[q]);
+  }
+  if (shared) shared->share_stresses(dP);
+  return dP;
+}
+
 // The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
 template <class Weight>
 void set_tangent_cells(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
                        Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
   QuadraticCells cells(group, *body.fits, body.domain.sites);
   cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, field, body.fits->multipliers(), weight));
-  for (int q = 0; q < 4; ++q) {
-    const small::Tensor3<Lanes> dF = cells.gradient_at(q);
-    small::Tensor3<Lanes> dP = bonds::zero_tensor<Lanes>();
-    for (int l = 0; l < group.count; ++l) {
-      const std::size_t place = block.place(group.k[l], q);
-      const Tensor change = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(at(dF, l))
-                                     : elastic_change(block.cells[place], moduli_at(block, place), at(dF, l));
+  std::array<small::Tensor3<Lanes>, 4> dF, dP;
+  for (int q = 0; q < 4; ++q) dF[q] = cells.gradient_at(q), dP[q] = bonds::zero_tensor<Lanes>();
+  for (int l = 0; l < group.count; ++l) {
+    CellTensors changes;
+    for (int q = 0; q < 4; ++q) changes[q] = at(dF[q], l);
+    changes = change_of_cell(body, block, group.k[l], changes, tangents);
+    for (int q = 0; q < 4; ++q) {
       for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) dP.c[r][c][l] = change(r, c);
+        for (int c = 0; c < 3; ++c) dP[q].c[r][c][l] = changes[q](r, c);
       }
     }
-    cells.add_stress(q, dP);
   }
+  for (int q = 0; q < 4; ++q) cells.add_stress(q, dP[q]);
   const Lanes share = small::lanes_of([&](int l) { return body.share(group.i[l]) * body.share(group.i[l]); });
   cells.store(group, share, result);
 }

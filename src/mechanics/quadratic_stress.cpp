@@ -1,7 +1,9 @@
 // By quadratic correspondence, from the places of the points to the states of their bonds: F at four places of each
 // cell, rotation, law and first Piola–Kirchhoff stress there.
-#include "mechanics/law_points.hpp"
+#include <array>
+
 #include "mechanics/quadratic_cell.hpp"
+#include "mechanics/shared_volume.hpp"
 
 namespace strut {
 
@@ -26,6 +28,19 @@ struct Update {
     return g;
   }
 
+  // 1 for cells whose metal has flowed, 0 for others.
+  Lanes flowed(const std::array<LawPoints, 4>& points) const {
+    if constexpr (materials::tells_flow<L>) {
+      const auto has_flowed = [&](int place) { return law.law.has_flowed(block().template state_of<L>(place)); };
+      for (int l = 0; l < points[0].group.count; ++l) {
+        std::uint8_t& known = block().flowed[points[0].group.k[l]];
+        for (int q = 0; q < 4 && !known; ++q) known = has_flowed(points[q].places[l]);
+      }
+      return lanes_of([&](int l) { return block().flowed[points[0].group.k[l]] ? 1.0 : 0.0; });
+    }
+    return Lanes::Zero();
+  }
+
   // The largest pace² of the points of a group.
   double advance(const Group& group) const {
     const std::vector<Site>& sites = body().domain.sites;
@@ -37,16 +52,24 @@ struct Update {
         bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, sites.data(), body().fits->multipliers(), weight));
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
     const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
-    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
+    const std::array<LawPoints, 4> points{places(group, 0), places(group, 1), places(group, 2), places(group, 3)};
+    const Lanes has_flowed = flowed(points);
+    std::array<Deformed, 4> at;
     for (int q = 0; q < 4; ++q) {
-      const LawPoints g = places(group, q);
       LaneTensor F = cells.gradient_at(q);
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
-      const Deformed now = law.advance(g, F, share);
+      at[q] = law.deformed(points[q], F, share);
+    }
+    if (law.pass.dt > 0) share_traces(at, &Deformed::rates, has_flowed);
+    for (int q = 0; q < 4; ++q) law.set_stress(points[q], share, at[q]);
+    share_traces(at, &Deformed::stress, has_flowed);
+    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
+    for (int q = 0; q < 4; ++q) {
+      const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
       for (int l = 0; l < group.count; ++l) {
         if (now.J[l] > 0 && now.stiffness[l] > 0) {
-          law.store(g, l, now);
+          law.store(points[q], l, now);
           continue;
         }
         for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // failed, or NaN
