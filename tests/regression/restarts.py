@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Runs that are ended in every way go on to the same end.
 
   restarts.py [--kills N] [--seed S] strut strut-compare mpirun [its options]
