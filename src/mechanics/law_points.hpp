@@ -91,7 +91,7 @@ struct Deformed {
   Polar<Lanes> polar;
   LaneSymmetric inverse_stretch;
   Lanes J;
-  LaneSymmetric rates;   // of a step of no length: not set
+  LaneSymmetric rates;   // of a step of no length: zero
   LaneSymmetric stress;  // unrotated, with the viscous pressure
   Lanes stiffness;       // M/(3ρ), m²/s², 0 of those that have failed
 };
@@ -116,7 +116,11 @@ struct LawUpdate {
   Deformed deformed(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
     const Polar<Lanes> polar = polar_of(g, F, pass.of_any_size);
     Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F), {}, {}, {}};
-    if (pass.dt > 0) now.rates = strain_rate(g, polar.stretch, pass.dt * share);
+    if (pass.dt > 0) {
+      now.rates = strain_rate(g, polar.stretch, pass.dt * share);
+    } else {
+      for (int c = 0; c < 6; ++c) now.rates.c[c].setZero();
+    }
     return now;
   }
 

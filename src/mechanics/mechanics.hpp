@@ -35,8 +35,8 @@ struct StepReport {
 // own points until the one sum_forces that is to follow.
 StepReport advance_stress(Body& body, double dt, bool with_views);
 
-// Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is stepped
-// alone, the part of its stress that acts at the end of a whole step.
+// Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is
+// stepped alone, the part of its stress that acts at the end of a whole step.
 void sum_forces(Body& body, bool with_views);
 
 // Both.

@@ -2,6 +2,7 @@
 // cell, rotation, law and first Piola–Kirchhoff stress there.
 #include <array>
 
+#include "mechanics/law_points.hpp"
 #include "mechanics/quadratic_cell.hpp"
 #include "mechanics/shared_volume.hpp"
 
@@ -60,9 +61,10 @@ struct Update {
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
       at[q] = law.deformed(points[q], F, share);
     }
-    if (law.pass.dt > 0) share_traces(at, &Deformed::rates, has_flowed);
+    const std::array<Lanes, 4> J{at[0].J, at[1].J, at[2].J, at[3].J};
+    share_traces(J, {&at[0].rates, &at[1].rates, &at[2].rates, &at[3].rates}, has_flowed);
     for (int q = 0; q < 4; ++q) law.set_stress(points[q], share, at[q]);
-    share_traces(at, &Deformed::stress, has_flowed);
+    share_traces(J, {&at[0].stress, &at[1].stress, &at[2].stress, &at[3].stress}, has_flowed);
     Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
     for (int q = 0; q < 4; ++q) {
       const Deformed& now = at[q];

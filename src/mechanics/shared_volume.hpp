@@ -1,14 +1,16 @@
 // Against volumetric locking. Plastic flow keeps the volume, and at the four law points of a cell that would be four
 // conditions on the motion of one point: what it cannot meet, pressures of opposite sign would take up, as energy that
-// never flows. So in a cell whose metal has flowed the rate of the volume is the mean over its places (B-bar: Hughes,
-// Int. J. Numer. Methods Eng. 15, 1980), and so is the pressure in its forces. Both with J as weight: the one is the
-// other's adjoint, and the work of the forces stays what the law points take.
+// never flows. So in a cell whose metal has flowed the rate of the volume is brought to its mean over the places
+// (B-bar: Hughes, Int. J. Numer. Methods Eng. 15, 1980), and so is the pressure in its forces. Both with J as weight:
+// the one is the other's adjoint, and the work of the forces stays what the law points take.
 #pragma once
 
 #include <algorithm>
 #include <array>
 
-#include "mechanics/law_points.hpp"
+#include "base/lanes.hpp"
+#include "base/small_tensors.hpp"
+#include "mechanics/body.hpp"
 
 namespace strut {
 
@@ -20,20 +22,22 @@ T kept_part(const T& least, const T& most, const T& mean) {
   return spread * spread;
 }
 
-// Brings the traces of the rates, or of the stresses, at the places of a cell to their mean.
-inline void share_traces(std::array<Deformed, 4>& at, LaneSymmetric Deformed::*what, const Lanes& where) {
+// Brings the traces of tensors (rates, or stresses) at the places of cells near their mean, weighted with J. `where`: 1
+// of cells that have flowed, 0 of others.
+inline void share_traces(const std::array<small::Lanes, 4>& J,
+                         const std::array<small::Symmetric3<small::Lanes>*, 4>& tensors, const small::Lanes& where) {
+  using small::Lanes;
   if (!(where > 0).any()) return;
-  Lanes sum = Lanes::Zero(), volume = Lanes::Zero(), least = at[0].J, most = at[0].J;
-  for (const Deformed& now : at) {
-    sum += now.J * small::trace(now.*what);
-    volume += now.J;
-    least = least.min(now.J), most = most.max(now.J);
+  Lanes sum = Lanes::Zero(), volume = Lanes::Zero(), least = J[0], most = J[0];
+  for (int q = 0; q < 4; ++q) {
+    sum += J[q] * small::trace(*tensors[q]);
+    volume += J[q];
+    least = least.min(J[q]), most = most.max(J[q]);
   }
   const Lanes mean = sum / volume, shared = 1 - kept_part<Lanes>(least, most, 0.25 * volume).min(1);
-  for (Deformed& now : at) {
-    LaneSymmetric& s = now.*what;
-    const Lanes change = shared / 3 * (mean - small::trace(s));
-    for (int c = 0; c < 3; ++c) s.c[c] = (where > 0).select(s.c[c] + change, s.c[c]);
+  for (auto* s : tensors) {
+    const Lanes change = shared / 3 * (mean - small::trace(*s));
+    for (int c = 0; c < 3; ++c) s->c[c] = (where > 0).select(s->c[c] + change, s->c[c]);
   }
 }
 

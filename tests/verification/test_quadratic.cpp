@@ -3,10 +3,13 @@
 
 #include "lattice.hpp"
 #include "mechanics/quadratic_fit.hpp"
+#include "mechanics/shared_volume.hpp"
 #include "solvers/central_difference.hpp"
 
 namespace strut {
 namespace {
+
+using small::Lanes, small::lanes_of;
 
 // A block with surfaces known, of cells that are cubes.
 PointCloud cells(const LatticeSpec& spec, const Communicator& world) {
@@ -126,6 +129,83 @@ TEST(Quadratic, ForcesKeepMomentumAndAngularMomentum) {
   world.sum(sums);
   for (int c = 0; c < 3; ++c) EXPECT_LT(std::abs(sums[c]), 1e-12 * sums[6]);
   for (int c = 3; c < 6; ++c) EXPECT_LT(std::abs(sums[c]), 1e-12 * sums[6] * 6e-3);
+}
+
+// ---- Volumetric locking
+// ----------------------------------------------------------------------------------------------
+
+// Rates and stresses of cells that have flowed: what the forces do by the rates that they see is what the laws take by
+// those that they are told. Cells that have not flowed keep theirs.
+TEST(SharedVolume, ForcesDoTheWorkThatLawsTake) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto random = [&] { return lanes_of([&](int) { return number(engine); }); };
+  std::array<Lanes, 4> J;
+  std::array<small::Symmetric3<Lanes>, 4> rates, stresses;
+  for (int q = 0; q < 4; ++q) {
+    J[q] = 1 + 0.3 * random();
+    for (int c = 0; c < 6; ++c) rates[q].c[c] = random(), stresses[q].c[c] = random();
+  }
+  auto shared_rates = rates, shared_stresses = stresses;
+  const Lanes where = lanes_of([](int l) { return l % 2; });
+  share_traces(J, {&shared_rates[0], &shared_rates[1], &shared_rates[2], &shared_rates[3]}, where);
+  share_traces(J, {&shared_stresses[0], &shared_stresses[1], &shared_stresses[2], &shared_stresses[3]}, where);
+  Lanes by_forces = Lanes::Zero(), by_laws = Lanes::Zero(), before = Lanes::Zero(), after = Lanes::Zero();
+  for (int q = 0; q < 4; ++q) {
+    by_forces += J[q] * small::trace(shared_stresses[q]) * small::trace(rates[q]);
+    by_laws += J[q] * small::trace(stresses[q]) * small::trace(shared_rates[q]);
+    before += small::square(rates[q]), after += small::square(shared_rates[q]);
+  }
+  for (int l = 0; l < small::lane_count; ++l) {
+    EXPECT_NEAR(by_forces[l], by_laws[l], 1e-14 * 4 * 9);  // round-off of a few terms of 9 at most
+    EXPECT_EQ(before[l] == after[l], l % 2 == 0) << l;
+  }
+}
+
+// One cell; its last place is left with so much of its volume.
+MaterialBlock cell_of(double last) {
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<double> number(-0.1, 0.1);
+  MaterialBlock block;
+  block.material.formulation = Formulation::quadratic;
+  block.points = {0};
+  block.cells.resize(4);
+  for (MaterialPoint& at : block.cells) {
+    at.deformation_gradient += Tensor::NullaryExpr([&] { return number(engine); });
+  }
+  block.cells[3].deformation_gradient.col(0) *= last;
+  return block;
+}
+
+CellTensors random_tensors(unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  CellTensors result;
+  for (Tensor& t : result) t = Tensor::NullaryExpr([&] { return number(engine); });
+  return result;
+}
+
+double product(const CellTensors& a, const CellTensors& b) {
+  double sum = 0;
+  for (int q = 0; q < 4; ++q) sum += a[q].cwiseProduct(b[q]).sum();
+  return sum;
+}
+
+TEST(SharedVolume, StressesAreTheAdjointOfGradients) {
+  const MaterialBlock block = cell_of(1);
+  const CellTensors dF = random_tensors(5), P = random_tensors(6);
+  CellTensors shared_gradients = dF, shared_stresses = P;
+  const SharedVolume shared(block, 0);
+  shared.share_gradients(shared_gradients), shared.share_stresses(shared_stresses);
+  EXPECT_NEAR(product(P, shared_gradients), product(shared_stresses, dF), 1e-14 * 36);  // round-off of 36 terms
+  EXPECT_GT(std::abs(product(P, shared_gradients) - product(P, dF)), 0.01);
+}
+
+TEST(SharedVolume, IsNotSharedWhereAPlaceIsNearlyFlat) {
+  const CellTensors dF = random_tensors(5);
+  CellTensors shared = dF;
+  SharedVolume(cell_of(0.01), 0).share_gradients(shared);
+  EXPECT_EQ(product(shared, shared), product(dF, dF));
 }
 
 // No stabilisation: noise keeps its energy over ten thousand steps, and the displacements stay noise.
