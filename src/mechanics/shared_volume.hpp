@@ -50,7 +50,7 @@ class SharedVolume {
   SharedVolume(const MaterialBlock& block, int k) {
     for (int q = 0; q < 4; ++q) {
       F_[q] = block.cells[block.place(k, q)].deformation_gradient;
-      inverse_[q] = F_[q].inverse();
+      inverse_transposed_[q] = F_[q].inverse().transpose();
       J_[q] = F_[q].determinant();
       volume_ += J_[q];
     }
@@ -58,20 +58,24 @@ class SharedVolume {
     shared_ = 1 - std::min(1.0, kept_part(*least, *most, 0.25 * volume_));
   }
   void share_gradients(CellTensors& dF) const {
-    double mean = 0;
-    for (int q = 0; q < 4; ++q) mean += J_[q] * (dF[q] * inverse_[q]).trace() / volume_;
-    for (int q = 0; q < 4; ++q) dF[q] += shared_ / 3 * (mean - (dF[q] * inverse_[q]).trace()) * F_[q];
+    double rate[4], mean = 0;  // of the volume: F⁻ᵀ : δF
+    for (int q = 0; q < 4; ++q) {
+      rate[q] = inverse_transposed_[q].cwiseProduct(dF[q]).sum();
+      mean += J_[q] * rate[q] / volume_;
+    }
+    for (int q = 0; q < 4; ++q) dF[q] += shared_ / 3 * (mean - rate[q]) * F_[q];
   }
   void share_stresses(CellTensors& dP) const {
-    double mean = 0;
-    for (int q = 0; q < 4; ++q) mean += dP[q].cwiseProduct(F_[q]).sum() / volume_;
+    double pull[4], mean = 0;  // δP : F
     for (int q = 0; q < 4; ++q) {
-      dP[q] += shared_ / 3 * (J_[q] * mean - dP[q].cwiseProduct(F_[q]).sum()) * inverse_[q].transpose();
+      pull[q] = dP[q].cwiseProduct(F_[q]).sum();
+      mean += pull[q] / volume_;
     }
+    for (int q = 0; q < 4; ++q) dP[q] += shared_ / 3 * (J_[q] * mean - pull[q]) * inverse_transposed_[q];
   }
 
  private:
-  CellTensors F_, inverse_;
+  CellTensors F_, inverse_transposed_;
   double J_[4], volume_ = 0, shared_ = 1;
 };
 

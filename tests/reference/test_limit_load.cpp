@@ -10,7 +10,7 @@ namespace {
 
 // F over 2 M_p/L of refined finite elements (README.md, C3D20R): 0.925 at the deflection 1; 1.155 at 5, by the same
 // extrapolation as 1.158 at 10. From 5 to 10 theirs rise by 0.3 %.
-//  0.02 at 1: elastic stiffness of a strut four points thick
+//   0.02 at 1: elastic stiffness of a strut four points thick
 //   0.07 at 5 and 10: hinges one point long; 5.0 and 6.0 % were measured. With a volume of its own at each law point
 //   (volumetric locking) it was 8.6 and 11 %, and rose by 2.8 % in between
 TEST(QuadraticCorrespondence, PlasticHingesCarryTheLimitLoadAndNoMore) {

@@ -131,8 +131,7 @@ TEST(Quadratic, ForcesKeepMomentumAndAngularMomentum) {
   for (int c = 3; c < 6; ++c) EXPECT_LT(std::abs(sums[c]), 1e-12 * sums[6] * 6e-3);
 }
 
-// ---- Volumetric locking
-// ----------------------------------------------------------------------------------------------
+// ---- Volumetric locking --------------------------------------------------------------------------------------------
 
 // Rates and stresses of cells that have flowed: what the forces do by the rates that they see is what the laws take by
 // those that they are told. Cells that have not flowed keep theirs.
