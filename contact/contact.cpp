@@ -37,71 +37,71 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
   for (const Interaction& interaction : interactions) {
     const auto [first, second, model] = interaction;
     const bool one_body = domain.blocks[first].body == domain.blocks[second].body;
-    Parties parties{first, second, one_body, points_of(domain, first, second)};
+    BlockPair blocks{first, second, one_body, points_of(domain, first, second)};
     const double horizon = std::min(domain.blocks[first].smallest, domain.blocks[second].smallest);
-    meetings_.push_back({model, std::move(parties), skin_share / 2 * horizon});
+    contact_pairs_.push_back({model, std::move(blocks), skin_share / 2 * horizon});
   }
 }
 
-void Contact::search(const Crowd& crowd, double dt, Meeting& meeting) {
-  const Parties& parties = meeting.parties;
-  meeting.places.clear();
-  for (const int i : parties.points) meeting.places.push_back(crowd.domain.current(i));
-  meeting.skins = skins_by_speed(crowd, parties, meeting.mean_velocity, meeting.skin, dt);
-  meeting.pairs = find_pairs(crowd, parties, meeting.model, meeting.skins);
-  meeting.frame = frame_of(crowd, parties, meeting.pairs);
-  meeting.searched = true;
-  meeting.used = 0;
-  meeting.tally = {};
-  meeting.friction.clear();
+void Contact::search(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
+  const BlockPair& blocks = contact_pair.blocks;
+  contact_pair.places.clear();
+  for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
+  contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
+  contact_pair.pairs = find_pairs(kinematics, blocks, contact_pair.model, contact_pair.skins);
+  contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
+  contact_pair.searched = true;
+  contact_pair.used = 0;
+  contact_pair.result = {};
+  contact_pair.friction.clear();
   ++searches_;
 }
 
 // Collective. The bound grows with every tremble. How far points have really gone is looked at before a search, which
 // costs many times as much.
-void Contact::look(const Crowd& crowd, double dt, Meeting& meeting) {
+void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
-  meeting.due = false;
-  if (!meeting.searched) meeting.frame = frame_of(crowd, meeting.parties, meeting.pairs);
-  meeting.mean_velocity = mean_velocity(crowd, meeting.parties, meeting.frame);
-  if (meeting.searched) meeting.used = part_used(crowd, meeting.parties, meeting.frame, meeting.places, meeting.skins);
-  if (!meeting.searched || meeting.used > most_used) search(crowd, dt, meeting);
+  contact_pair.due = false;
+  if (!contact_pair.searched) contact_pair.frame = frame_of(kinematics, contact_pair.blocks, contact_pair.pairs);
+  contact_pair.mean_velocity = mean_velocity(kinematics, contact_pair.blocks, contact_pair.frame);
+  if (contact_pair.searched) contact_pair.used = part_used(kinematics, contact_pair.blocks, contact_pair.frame, contact_pair.places, contact_pair.skins);
+  if (!contact_pair.searched || contact_pair.used > most_used) search(kinematics, dt, contact_pair);
 }
 
-void Contact::add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density) {
-  Pairs& pairs = meeting.pairs;
+void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair, std::vector<Vector>& force_density) {
+  Pairs& pairs = contact_pair.pairs;
   if (pairs.empty() && !pairs.halo) return;
   static Teuchos::Time& timer = phase("Contact forces");
   const Timed timed(timer);
-  const Model& model = meeting.model;
-  meeting.tally = add_normal_forces(crowd, model, pairs, force_density);
-  if (model.friction > 0 && dt > 0) add_friction(crowd, model, dt, pairs, force_density, meeting.friction);
+  const Model& model = contact_pair.model;
+  contact_pair.result = add_normal_forces(kinematics, model, pairs, force_density);
+  if (model.friction > 0 && dt > 0) add_friction(kinematics, model, dt, pairs, force_density, contact_pair.friction);
 }
 
-void Contact::add_forces(const Crowd& crowd, double dt, std::vector<Vector>& force_density) {
-  for (Meeting& meeting : meetings_) {
-    if (meeting.due) look(crowd, dt, meeting);
-    add_forces(crowd, dt, meeting, force_density);
+void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
+  for (ContactPair& contact_pair : contact_pairs_) {
+    if (contact_pair.due) look(kinematics, dt, contact_pair);
+    add_forces(kinematics, dt, contact_pair, force_density);
   }
 }
 
 void Contact::add_stiffness(std::span<const Vector> field, std::span<Vector> result) {
-  for (Meeting& meeting : meetings_) {
-    if (meeting.pairs.empty() && !meeting.pairs.halo) continue;
-    contact::add_stiffness(meeting.model, meeting.pairs, field, result);
+  for (ContactPair& contact_pair : contact_pairs_) {
+    if (contact_pair.pairs.empty() && !contact_pair.pairs.halo) continue;
+    contact::add_stiffness(contact_pair.model, contact_pair.pairs, field, result);
   }
 }
 
 void Contact::add_springs(std::span<Tensor> springs) const {
-  for (const Meeting& meeting : meetings_) contact::add_springs(meeting.model, meeting.pairs, springs);
+  for (const ContactPair& contact_pair : contact_pairs_) contact::add_springs(contact_pair.model, contact_pair.pairs, springs);
 }
 
-void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const {
+void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const {
   if (!any()) return;
-  for (const Meeting& meeting : meetings_) {
-    numbers.push_back(meeting.tally.stiffness);
-    numbers.push_back(largest_use(crowd, meeting.parties, meeting.mean_velocity, meeting.skins));
+  for (const ContactPair& contact_pair : contact_pairs_) {
+    numbers.push_back(contact_pair.result.stiffness);
+    numbers.push_back(largest_use(kinematics, contact_pair.blocks, contact_pair.mean_velocity, contact_pair.skins));
   }
   numbers.push_back(deepest().penetration);
 }
@@ -109,46 +109,46 @@ void Contact::append_to_agree(const Crowd& crowd, std::vector<double>& numbers) 
 void Contact::take_agreed(std::span<const double> numbers, double dt) {
   if (!any()) return;
   double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
-  for (std::size_t m = 0; m < meetings_.size(); ++m) {
-    Meeting& meeting = meetings_[m];
+  for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
+    ContactPair& contact_pair = contact_pairs_[m];
     stiffness += numbers[2 * m];
     const double use = dt * numbers[2 * m + 1];
-    meeting.used += use;
-    meeting.due = !meeting.searched || !(meeting.used + forecast * use < 1);
+    contact_pair.used += use;
+    contact_pair.due = !contact_pair.searched || !(contact_pair.used + forecast * use < 1);
   }
   stiffness_ = std::max(stiffness, decay * stiffness_);
   penetration_ = numbers.back();
 }
 
-void Contact::keep(Archive& archive, const Crowd& crowd, double dt) {
+void Contact::serialize(Archive& archive, const Kinematics& kinematics, double dt) {
   archive.number("contact_stiffness", stiffness_);
   archive.number("penetration", penetration_);
-  if (!archive.restores()) return;
-  std::vector<Vector> forces(crowd.domain.owned, Vector::Zero());  // the solver has them; here are pairs and friction
-  for (Meeting& meeting : meetings_) meeting.searched = false, meeting.due = true;
-  add_forces(crowd, dt, forces);
-  for (Meeting& meeting : meetings_) meeting.due = true;  // how far points may go in the next step, nobody has asked
+  if (!archive.loading()) return;
+  std::vector<Vector> forces(kinematics.domain.owned, Vector::Zero());  // the solver has them; here are pairs and friction
+  for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.due = true;
+  add_forces(kinematics, dt, forces);
+  for (ContactPair& contact_pair : contact_pairs_) contact_pair.due = true;  // how far points may go in the next step, nobody has asked
 }
 
 double Contact::energy() const {
   double sum = 0;
-  for (const Meeting& meeting : meetings_) sum += meeting.tally.energy;
+  for (const ContactPair& contact_pair : contact_pairs_) sum += contact_pair.result.energy;
   return sum;
 }
 
-Deepest Contact::deepest() const {
-  Deepest deepest;
-  for (const Meeting& meeting : meetings_) deepest.take(meeting.tally.deepest);
+DeepestPenetration Contact::deepest() const {
+  DeepestPenetration deepest;
+  for (const ContactPair& contact_pair : contact_pairs_) deepest.take(contact_pair.result.deepest);
   return deepest;
 }
 
 FrictionWork Contact::friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const {
   FrictionWork work;
-  for (const Meeting& meeting : meetings_) {
-    for (std::size_t k = 0; k < meeting.friction.size(); ++k) {
-      const int i = meeting.pairs.owned[k];
-      work.before += 0.5 * kick * meeting.friction[k].dot(before[i]);
-      work.after += 0.5 * kick * meeting.friction[k].dot(after[i]);
+  for (const ContactPair& contact_pair : contact_pairs_) {
+    for (std::size_t k = 0; k < contact_pair.friction.size(); ++k) {
+      const int i = contact_pair.pairs.owned[k];
+      work.before += 0.5 * kick * contact_pair.friction[k].dot(before[i]);
+      work.after += 0.5 * kick * contact_pair.friction[k].dot(after[i]);
     }
   }
   return work;

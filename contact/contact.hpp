@@ -7,8 +7,8 @@
 
 #include "base/archive.hpp"
 #include "contact/forces.hpp"
-#include "contact/search.hpp"
-#include "contact/skins.hpp"
+#include "contact/search/search.hpp"
+#include "contact/search/skin_distances.hpp"
 
 namespace strut::contact {
 
@@ -28,11 +28,11 @@ class Contact {
   Contact() = default;  // none: every call is free
   Contact(const std::vector<Interaction>& interactions, const Domain& domain);
 
-  bool any() const { return !meetings_.empty(); }
+  bool any() const { return !contact_pairs_.empty(); }
 
   // Collective. Adds the forces of contact at the present places to force_density (N/m³). `dt`: of the step that led
   // here (s), 0 at the start.
-  void add_forces(const Crowd& crowd, double dt, std::vector<Vector>& force_density);
+  void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
   // Collective, after add_forces. Adds the stiffness of what touches, times a field of the owned points, to result (N/m
   // times the field's unit). Without friction.
@@ -41,11 +41,11 @@ class Contact {
 
   // Collective. What forces leave behind. Of a restored run, `crowd` and `dt` are those of its last forces; pairs are
   // searched for anew, which does not change what they do.
-  void keep(Archive& archive, const Crowd& crowd, double dt);
+  void serialize(Archive& archive, const Kinematics& kinematics, double dt);
 
   // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
   // with its own, and hands it back.
-  void append_to_agree(const Crowd& crowd, std::vector<double>& numbers) const;
+  void append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const;
   void take_agreed(std::span<const double> numbers, double dt);
 
   double stiffness() const { return stiffness_; }  // a bound of ω² of all touching points, 1/s²; as last agreed
@@ -53,7 +53,7 @@ class Contact {
 
   // Of the last forces: over all ranks, as last agreed, and of this rank's points.
   double penetration() const { return penetration_; }
-  Deepest deepest() const;
+  DeepestPenetration deepest() const;
 
   // Of the last forces of friction on this rank's points, over a kick of length `kick` (s) from the velocities `before`
   // to those `after`.
@@ -63,28 +63,28 @@ class Contact {
 
  private:
   // One interaction as it goes on.
-  struct Meeting {
+  struct ContactPair {
     Model model;
-    Parties parties;
+    BlockPair blocks;
     double skin = 0;  // m: the usual one of a point
     // As of the last search.
     Frame frame = {};
     std::vector<Vector> places = {};  // of parties.points, m
-    Skins skins = {};
+    SkinDistances skins = {};
     Pairs pairs = {};
     bool searched = false;
     // As of the last look.
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;  // a bound of the part of its skin that any point has used since the last search
     bool due = true;  // that has come near 1
-    Tally tally = {};
+    ForceResult result = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
   };
-  void search(const Crowd& crowd, double dt, Meeting& meeting);
-  void look(const Crowd& crowd, double dt, Meeting& meeting);
-  void add_forces(const Crowd& crowd, double dt, Meeting& meeting, std::vector<Vector>& force_density);
+  void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
+  void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
+  void add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair, std::vector<Vector>& force_density);
 
-  std::vector<Meeting> meetings_;
+  std::vector<ContactPair> contact_pairs_;
   double stiffness_ = 0, penetration_ = 0;
   int searches_ = 0;
 };

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int site_stride = sizeof(Site) / sizeof(double);
 
-void bring_to_present(const Crowd& crowd, Pairs& pairs) {
+void bring_to_present(const Kinematics& kinematics, Pairs& pairs) {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k)
-    pairs.sites[k].current = crowd.domain.sites[pairs.owned[k]].current;
+    pairs.sites[k].current = kinematics.domain.sites[pairs.owned[k]].current;
   if (!pairs.halo) return;
   double* places = pairs.sites.empty() ? nullptr : pairs.sites.data()->current.data();
   pairs.halo->exchange(places, site_stride, 3);
@@ -65,10 +65,10 @@ struct Slider {
 };
 constexpr int slider_width = sizeof(Slider) / sizeof(double);
 
-std::vector<Slider> sliders(const Crowd& crowd, const Model& model, Pairs& pairs) {
+std::vector<Slider> sliders(const Kinematics& kinematics, const Model& model, Pairs& pairs) {
   std::vector<Slider> all(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    all[k].velocity = crowd.velocities[pairs.owned[k]];
+    all[k].velocity = kinematics.velocities[pairs.owned[k]];
     for_each_touch(pairs, model, k, [&](const Touch& touch) {
       all[k].push -= touch.force() * touch.direction;
       all[k].contacts += 1;
@@ -94,30 +94,30 @@ double largest_eigenvalue(const Tensor& springs, double floor) {
 
 }  // namespace
 
-Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, std::vector<Vector>& force_density) {
-  bring_to_present(crowd, pairs);
-  Tally tally;
+ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs, std::vector<Vector>& force_density) {
+  bring_to_present(kinematics, pairs);
+  ForceResult result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector force = Vector::Zero();
     Tensor springs = Tensor::Zero();
     for_each_touch(pairs, model, k, [&](const Touch& touch) {
       force -= touch.force() * touch.direction;
-      tally.deepest.take({1 - touch.distance / touch.touching, pairs.owned[k]});
-      tally.energy += 0.5 * stored_energy(touch.stiffness, touch.touching, touch.distance);
+      result.deepest.take({1 - touch.distance / touch.touching, pairs.owned[k]});
+      result.energy += 0.5 * stored_energy(touch.stiffness, touch.touching, touch.distance);
       const double mass = pairs.masses[k];
       const double weight = touch.stiffness * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
       springs += weight * touch.direction * touch.direction.transpose();
     });
     force_density[pairs.owned[k]] += force / pairs.sites[k].reference[3];
-    tally.stiffness = std::max(tally.stiffness, largest_eigenvalue(springs, tally.stiffness));
+    result.stiffness = std::max(result.stiffness, largest_eigenvalue(springs, result.stiffness));
   }
-  return tally;
+  return result;
 }
 
-void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
+void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
                   std::vector<Vector>& friction) {
   friction.assign(pairs.owned.size(), Vector::Zero());
-  const std::vector<Slider> all = sliders(crowd, model, pairs);
+  const std::vector<Slider> all = sliders(kinematics, model, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const Slider& here = all[k];
     for_each_touch(pairs, model, k, [&](const Touch& touch) {

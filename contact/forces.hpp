@@ -3,24 +3,24 @@
 
 #include <vector>
 
-#include "contact/search.hpp"
+#include "contact/search/search.hpp"
 
 namespace strut::contact {
 
 // The owned point that another has come nearest to, as a part of the distance at which the two touch: 0 where none
 // touches, 1 at the same place.
-struct Deepest {
+struct DeepestPenetration {
   double penetration = 0;
   int point = -1;  // local index in the body
 
-  void take(const Deepest& other) {
+  void take(const DeepestPenetration& other) {
     if (other.penetration > penetration) *this = other;
   }
 };
 
 // Of this rank's points.
-struct Tally {
-  Deepest deepest;
+struct ForceResult {
+  DeepestPenetration deepest;
   double energy = 0;  // stored by the penalty, J: half of each pair
   // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n. For a
   // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)².
@@ -28,11 +28,11 @@ struct Tally {
 };
 
 // Collective. Brings the pairs to the present places and adds the penalty to force_density (N/m³).
-Tally add_normal_forces(const Crowd& crowd, const Model& model, Pairs& pairs, std::vector<Vector>& force_density);
+ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs, std::vector<Vector>& force_density);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
 // pairs.owned[k] (N), so that its work can be counted. dt: the length of the step (s).
-void add_friction(const Crowd& crowd, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
+void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
                   std::vector<Vector>& friction);
 
 // Collective, after add_normal_forces. Adds the stiffness of the touching pairs, times a field of the body's owned

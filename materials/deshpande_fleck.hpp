@@ -15,7 +15,7 @@
 #include <limits>
 #include <string_view>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/elastic.hpp"
 #include "materials/law.hpp"
 #include "materials/step_work.hpp"

@@ -11,7 +11,7 @@
 #include <array>
 #include <string_view>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/elastic.hpp"
 #include "materials/flow_stress.hpp"
 #include "materials/law.hpp"

@@ -7,7 +7,7 @@
 //             not ask for is not computed.
 //   State     a struct of doubles only; state_names names them in order, as they appear in output. State{} is that of
 //             an undeformed point; a law whose output should begin with other numbers says so in virgin_state().
-//   moduli    the elastic moduli that bound the stable step, of the Cauchy stress; of the state, where they change.
+//   moduli    the elastic moduli that bound the critical time step, of the Cauchy stress; of the state, where they change.
 //   energies  elastic_energy and dissipation feed the ledger of a run.
 //   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
 //   has_flowed  of a law whose flow keeps the volume: whether the point ever did. Where several law points follow one

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "base/small_tensors.hpp"
-#include "base/tensors.hpp"
+#include "base/math/small_tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut::materials {
 

@@ -1,7 +1,7 @@
 // Symmetric tensors by their principal values.
 #pragma once
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut::materials {
 

@@ -1,7 +1,7 @@
 // The work that a step does on a point, as the forces of the scheme do it: what laws count their dissipation against.
 #pragma once
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/law.hpp"
 
 namespace strut::materials {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "base/small_tensors.hpp"
+#include "base/math/small_tensors.hpp"
 #include "materials/law.hpp"
 
 namespace strut::materials {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/build_facts.hpp"
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
-#include "simulation.hpp"
+#include "run/simulation.hpp"
 
 namespace {
 

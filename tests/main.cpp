@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace {
 

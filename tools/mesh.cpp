@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/errors.hpp"
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
 #include "mesh/recipe.hpp"

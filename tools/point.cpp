@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
 #include "point/request.hpp"

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/law.hpp"
 #include "materials/spectral.hpp"
 

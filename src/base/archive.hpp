@@ -30,11 +30,11 @@ struct Snapshot {
 
 class Archive {
  public:
-  static Archive saving(Snapshot& into) { return {into, false}; }
+  static Archive saving_to(Snapshot& into) { return {into, false}; }
   // From a snapshot that has all that was saved; throws std::logic_error where it has not.
-  static Archive restoring(Snapshot& from) { return {from, true}; }
+  static Archive loading_from(Snapshot& from) { return {from, true}; }
 
-  bool restores() const { return restores_; }
+  bool loading() const { return restores_; }
 
   // What the next fields are of.
   void points(const std::string& group, const std::vector<std::int64_t>& ids);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

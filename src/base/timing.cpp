@@ -6,7 +6,7 @@
 #include <span>
 #include <sstream>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

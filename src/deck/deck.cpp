@@ -5,12 +5,12 @@
 #include <map>
 #include <sstream>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "deck/check.hpp"
 #include "deck/laws.hpp"
 #include "deck/numbers.hpp"
-#include "deck/peridigm.hpp"
+#include "deck/peridigm/peridigm.hpp"
 
 namespace strut::deck {
 
@@ -51,7 +51,7 @@ void check_source(const Values& values, Problems& problems) {
   if (grid && !values.given(shape)) {
     report(
         shape,
-        "missing; expected 'Spherical': without it Peridigm takes boxes for neighbourhoods, which are not known here");
+        "missing; expected 'Spherical': without it Peridigm takes boxes for neighborhoods, which are not known here");
   }
 }
 

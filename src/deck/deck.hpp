@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/function.hpp"
-#include "base/tensors.hpp"
+#include "base/math/function.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/laws.hpp"
 
 namespace strut {
@@ -128,7 +128,7 @@ struct Solver {
   double initial_time = 0, final_time = 0;  // s
   bool verbose = false;                     // each iteration of an equilibrium is told
   std::optional<QuasiStatic> quasi_static;  // else explicit steps:
-  std::optional<double> fixed_dt;           // s; else from the stable step
+  std::optional<double> fixed_dt;           // s; else from the critical time step
   double safety_factor = 0.8;
   bool subcycling = true;
 };

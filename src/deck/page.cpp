@@ -1,6 +1,6 @@
 // The reference page of all keys, from the schema.
 #include "base/errors.hpp"
-#include "base/function.hpp"
+#include "base/math/function.hpp"
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"

@@ -83,7 +83,7 @@ Section discretization() {
                {.name = "NeighborhoodType",
                 .kind = Kind::choice,
                 .choices = {"Spherical"},
-                .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighbourhoods."},
+                .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighborhoods."},
                without_effect({.name = "Verbose", .kind = Kind::boolean, .fallback = "false"}, verbose.no_effect),
                without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
                               "the mesh is not kept"),
@@ -104,7 +104,7 @@ Section discretization() {
                 .kind = Kind::choice,
                 .choices = {"Error", "Drop"},
                 .fallback = "Error",
-                .meaning = "What to do with points that have too few neighbours, or coplanar ones, for a deformation "
+                .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
                            "gradient."}},
       .sections = {grid()},
       .hints = {{"Bond Filters",
@@ -159,13 +159,13 @@ Section blocks() {
                     {.name = "Horizon",
                      .unit = "m",
                      .range = positive,
-                     .meaning = "δ: points closer than this are neighbours. Either this or Horizon Factor."},
+                     .meaning = "δ: points closer than this are neighbors. Either this or Horizon Factor."},
                     {.name = "Horizon Factor",
                      .range = {.low = 1, .high = 20},
                      .meaning =
                          "δ of each point in local spacings: the edge of a cube with the volume of its "
                          "element, or with the mean volume of the elements around its node (six times "
-                         "that of tetrahedra). Points i and j are neighbours when they are closer than (δ_i + δ_j)/2."},
+                         "that of tetrahedra). Points i and j are neighbors when they are closer than (δ_i + δ_j)/2."},
                     {.name = "Separate Body",
                      .kind = Kind::boolean,
                      .fallback = "false",

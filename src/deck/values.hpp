@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/function.hpp"
+#include "base/math/function.hpp"
 
 namespace strut::deck {
 

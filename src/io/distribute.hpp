@@ -1,7 +1,7 @@
 // From a reader on rank 0 to slices on all ranks.
 #pragma once
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "points/cloud.hpp"
 
 namespace strut::io {

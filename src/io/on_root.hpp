@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 
 namespace strut::io {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "mechanics/groups.hpp"
-#include "mechanics/quadratic_fit.hpp"
-#include "points/parallel.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/formulation/quadratic_fit.hpp"
+#include "points/parallel_for.hpp"
 
 namespace strut {
 
@@ -73,10 +73,10 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   }
 }
 
-void set_shapes(Body& body, MaterialBlock& block, const Groups& groups, std::vector<Symmetric>& inverses) {
+void set_shapes(Body& body, MaterialBlock& block, const LaneGroups& groups, std::vector<Symmetric>& inverses) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
-      const Group group = groups[g];
+      const LaneGroup group = groups[g];
       const auto K = shapes(group, body.domain.sites.data(), weight);
       for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l), inverses[group.i[l]]);
     });
@@ -88,18 +88,18 @@ void set_shapes(Body& body) {
   for (MaterialBlock& block : body.blocks) {
     if (block.lattice >= 0) continue;
     for (const Part part : {Part::interior, Part::boundary}) {
-      set_shapes(body, block, Groups(body, block, part), inverses);
+      set_shapes(body, block, LaneGroups(body, block, part), inverses);
     }
   }
   for (const LatticeFamilies& lattice : body.domain.families.lattices) {
     const auto set = [&, number = static_cast<int>(body.lattice_sums.size())](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
-        if (block.lattice == number) set_shapes(body, block, Groups(block, chunk), inverses);
+        if (block.lattice == number) set_shapes(body, block, LaneGroups(block, chunk), inverses);
       }
     };
     body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, set));
   }
-  body.shape_inverse = Repeated<Symmetric>(std::move(inverses));
+  body.shape_inverse = Deduplicated<Symmetric>(std::move(inverses));
 }
 
 void set_what_blocks_feel(Body& body) {
@@ -142,13 +142,13 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .velocity = {},
             .previous_velocity = {},
             .force_density = {},
-            .halvings = {},
+            .time_levels = {},
             .residual = {},
             .mean_work = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
   for (const BlockMaterial& m : materials) {
-    if (m.stabilization > 0 && m.mean_stabilization > 0) throw std::logic_error("a block has one stabilisation");
+    if (m.stabilization > 0 && m.mean_stabilization > 0) throw std::logic_error("a block has one stabilization");
   }
   body.force_states = zero_states(body.domain.sites.size(), materials);
   body.points.resize(owned);

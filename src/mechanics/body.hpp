@@ -11,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-#include "base/repeated.hpp"
-#include "base/rotation.hpp"
-#include "base/tensors.hpp"
+#include "base/deduplicated.hpp"
+#include "base/math/rotation.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/laws.hpp"
 #include "points/domain.hpp"
 #include "points/site.hpp"
@@ -54,7 +54,7 @@ struct ForceStates {
   std::vector<ForceState> tensors;
   std::vector<ScalarState> scalars;
   // F (columns), in the fourth lane of the first column C̄ and in that of the second the share of the step: what the
-  // stabilisation by the mean gradient reads of an end. Empty where no block of the scene has it.
+  // stabilization by the mean gradient reads of an end. Empty where no block of the scene has it.
   std::vector<ForceState> gradients;
   std::vector<QuadraticState> quadratics;
 };
@@ -71,7 +71,7 @@ struct MaterialPoint {
 struct OrdinaryPoint {
   double weighted_volume = 0;  // m = Σ ω |ξ|² V = tr K, m⁵
   double dilatation = 0;       // θ
-  double energy = 0;           // W, J/m³; current after a step with views
+  double energy = 0;           // W, J/m³; current after a step with diagnostics
 };
 
 // What the artificial viscosity of a block keeps of a point.
@@ -119,9 +119,9 @@ struct MaterialBlock {
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
   bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
-  // Its body moves as a whole, without strain (undisturbed.hpp): there is nothing to compute.
-  bool undisturbed = false;
-  double resting_pace = 0;  // 1/s, the largest of its points, as a part of their steps, undisturbed
+  // Its body moves as a whole, without strain (in rigid motion.hpp): there is nothing to compute.
+  bool in_rigid_motion = false;
+  double rest_frequency_bound = 0;  // 1/s, the largest of its points, as a part of their steps, in rigid motion
 
   int lattice = -1;  // in domain.families.lattices, where its points sit on one
 
@@ -145,7 +145,7 @@ struct MaterialBlock {
   bool is_quadratic() const { return material.formulation == Formulation::quadratic; }
   bool has_mean_gradient() const { return material.mean_stabilization > 0; }
   bool has_springs() const { return material.stabilization > 0; }
-  // C of the springs of one of its points, which has none where it is stabilised by the mean gradient.
+  // C of the springs of one of its points, which has none where it is stabilized by the mean gradient.
   double springs_of(const MaterialPoint& point) const { return has_mean_gradient() ? 0 : point.stabilization; }
 };
 
@@ -164,7 +164,7 @@ struct Body {
 
   // Owned points.
   std::vector<MaterialPoint> points;
-  Repeated<Symmetric> shape_inverse;          // K⁻¹, 1/m⁵
+  Deduplicated<Symmetric> shape_inverse;          // K⁻¹, 1/m⁵
   std::shared_ptr<const QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
   std::vector<double> density;                // kg/m³
   std::vector<Vector> velocity;               // at mid-step, m/s
@@ -172,18 +172,18 @@ struct Body {
   std::vector<Vector> force_density;          // N/m³ of reference volume
   // Where some points are stepped alone (subcycles.hpp), ghosts too: how often the step of a point's stress is halved.
   // Empty: no point's.
-  std::vector<std::uint8_t> halvings;
-  // Current after a step with views:
+  std::vector<std::uint8_t> time_levels;
+  // Current after a step with diagnostics:
   std::vector<double> residual;   // Σ ω V |η − F ξ|², m⁵, by correspondence
-  std::vector<double> mean_work;  // energy of the stabilisation by the mean gradient, J/m³; empty where no block has it
+  std::vector<double> mean_work;  // energy of the stabilization by the mean gradient, J/m³; empty where no block has it
 
   // Workspaces of the sums over the families on lattices, as domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
   // The step of a point's stress as a part of the one that is halved `order` times.
-  double share(int i, int order = 0) const { return halvings.empty() ? 1 : power_of_two(order - halvings[i]); }
-  // Energy of the stabilisation, J/m³, as current as the residual: ½ C times it, or that by the mean gradient.
+  double share(int i, int level = 0) const { return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]); }
+  // Energy of the stabilization, J/m³, as current as the residual: ½ C times it, or that by the mean gradient.
   double stabilization_work(int i) const {
     return has_mean_gradient(i) ? mean_work[i] : 0.5 * points[i].stabilization * residual[i];
   }
@@ -200,7 +200,7 @@ struct Body {
   Vector displacement(int i) const { return current(i) - domain.reference(i); }
 };
 
-// Collective. Shape tensors, stabilisation and undeformed state. `materials`: one for each block name of the cloud.
+// Collective. Shape tensors, stabilization and undeformed state. `materials`: one for each block name of the cloud.
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials);
 
 // Bytes that the points and bonds of this rank take, for predictions.

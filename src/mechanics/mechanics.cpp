@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "base/timing.hpp"
-#include "mechanics/ordinary_bonds.hpp"
-#include "mechanics/quadratic_cell.hpp"
-#include "mechanics/shared_volume.hpp"
-#include "mechanics/stress.hpp"
-#include "mechanics/tangent.hpp"
+#include "mechanics/kernels/ordinary_bonds.hpp"
+#include "mechanics/formulation/quadratic_cell.hpp"
+#include "mechanics/formulation/shared_volume.hpp"
+#include "mechanics/formulation/correspondence.hpp"
+#include "mechanics/formulation/tangent.hpp"
 
 namespace strut {
 
@@ -48,9 +48,9 @@ void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
 }
 
 // Which bodies a pass is over: forces need only those that are strained, a tangent is of all.
-enum class Bodies { all, disturbed };
+enum class Bodies { all, deforming };
 
-bool is_due(const MaterialBlock& block, Bodies bodies) { return bodies == Bodies::all || !block.undisturbed; }
+bool is_due(const MaterialBlock& block, Bodies bodies) { return bodies == Bodies::all || !block.in_rigid_motion; }
 
 // Calls work(block, groups of its points) for a part of the points; on lattices, sums over which are of all points at
 // once, after the exchange, for all in the second part. `sweep`: calls a sweep of sums over a lattice with what takes
@@ -58,7 +58,7 @@ bool is_due(const MaterialBlock& block, Bodies bodies) { return bodies == Bodies
 template <class AnyBody, class Sweep, class Work>
 void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
   for (auto& block : body.blocks) {
-    if (block.lattice < 0 && is_due(block, bodies)) work(block, Groups(body, block, part));
+    if (block.lattice < 0 && is_due(block, bodies)) work(block, LaneGroups(body, block, part));
   }
   if (part == Part::interior) return;
   for (std::size_t l = 0; l < body.lattice_sums.size(); ++l) {
@@ -66,7 +66,7 @@ void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, co
     if (std::none_of(body.blocks.begin(), body.blocks.end(), is_on_it)) continue;
     sweep(*body.lattice_sums[l], [&](const LatticeSums::Chunk& chunk) {
       for (auto& block : body.blocks) {
-        if (is_on_it(block)) work(block, Groups(block, chunk));
+        if (is_on_it(block)) work(block, LaneGroups(block, chunk));
       }
     });
   }
@@ -74,20 +74,20 @@ void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, co
 
 // Calls work(group, ω).
 template <class Work>
-void over_groups(const Body& body, const Groups& groups, const Work& work) {
+void over_groups(const Body& body, const LaneGroups& groups, const Work& work) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) { work(groups[g], weight); });
   });
 }
 
-bool all_undisturbed(const Body& body) {
-  return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.undisturbed; });
+bool all_move_rigidly(const Body& body) {
+  return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.in_rigid_motion; });
 }
 
 template <class Weight>
-Lanes residual_energies(const Body& body, const Group& group, const Site* places,
+Lanes residual_energies(const Body& body, const LaneGroup& group, const Site* places,
                         const std::vector<ForceState>& gradients, Weight weight) {
-  if (group.bundle) return bonds::residual_energy(bonds::OfBundle{*group.bundle}, places, gradients.data(), weight);
+  if (group.cluster) return bonds::residual_energy(bonds::OfCluster{*group.cluster}, places, gradients.data(), weight);
   Lanes energies = Lanes::Zero();
   for (int l = 0; l < group.count; ++l) {
     const bonds::OfPoint family{body.domain.families, group.i[l]};
@@ -96,12 +96,12 @@ Lanes residual_energies(const Body& body, const Group& group, const Site* places
   return energies;
 }
 
-// The stabilisation by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
+// The stabilization by the mean gradient. Its energy is ½ Σ V_i V_j ω C_ij |z|²; with z = η − ½ (F_i + F_j) ξ its force
 // is Σ ω V_j C_ij z, which begins the sum in `result`, and by way of both F it takes ½ M K⁻¹ from A. `u`: of y, or of
 // the field that stands in its place for a tangent. `energy`: of each point; none if empty.
 void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part part, ForceStates& states,
                   std::vector<Vector>& result, std::span<double> energy) {
-  const auto add = [&](const Group& group, auto weight) {
+  const auto add = [&](const LaneGroup& group, auto weight) {
     const bonds::Residual<Lanes> sums = residuals(group, u.sites, states.gradients, weight);
     for (int l = 0; l < group.count; ++l) {
       const int i = group.i[l];
@@ -115,9 +115,9 @@ void add_residual(const Body& body, Bodies bodies, const Displacements& u, Part 
   over_blocks(
       body, bodies, part,
       [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.residuals(u, states.gradients, take); },
-      [&](const MaterialBlock& block, const Groups& groups) {
+      [&](const MaterialBlock& block, const LaneGroups& groups) {
         if (!block.has_mean_gradient()) return;
-        over_groups(body, groups, [&](const Group& group, auto weight) { add(group, weight); });
+        over_groups(body, groups, [&](const LaneGroup& group, auto weight) { add(group, weight); });
       });
 }
 
@@ -138,12 +138,12 @@ struct ForceSum {
     const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) {
       sums.forces(u, states.tensors, take);
     };
-    over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const Groups& groups) {
+    over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const LaneGroups& groups) {
       if (!block.feels_correspondence) return;
       const Begun begun = block.has_mean_gradient()            ? Begun::sum
                           : with_springs && block.lattice >= 0 ? Begun::pull
                                                                : Begun::nothing;
-      over_groups(body, groups, [&](const Group& group, auto weight) {
+      over_groups(body, groups, [&](const LaneGroup& group, auto weight) {
         add(group, forces(group, u, states.tensors, with_springs, weight), begun);
       });
     });
@@ -152,8 +152,8 @@ struct ForceSum {
   void ordinary(Part part) const {
     for (const MaterialBlock& block : body.blocks) {
       if (!is_due(block, bodies) || !block.feels_ordinary) continue;
-      over_groups(body, Groups(body, block, part), [&](const Group& group, auto weight) {
-        const bonds::OfBundle family{*group.bundle};
+      over_groups(body, LaneGroups(body, block, part), [&](const LaneGroup& group, auto weight) {
+        const bonds::OfCluster family{*group.cluster};
         add(group,
             bonds::ordinary_force(family, body.domain.sites.data(), states.scalars.data(), weight,
                                   extension_of(family)),
@@ -166,8 +166,8 @@ struct ForceSum {
     for (const MaterialBlock& block : body.blocks) {
       if (!is_due(block, bodies) || !block.feels_quadratic) continue;
       const Begun begun = block.feels_correspondence || block.feels_ordinary ? Begun::sum : Begun::nothing;
-      over_groups(body, Groups(body, block, part), [&](const Group& group, auto weight) {
-        const bonds::OfBundle family{*group.bundle};
+      over_groups(body, LaneGroups(body, block, part), [&](const LaneGroup& group, auto weight) {
+        const bonds::OfCluster family{*group.cluster};
         add(group,
             bonds::quadratic_far_force(family, body.domain.sites.data(), body.fits->multipliers(),
                                        states.quadratics.data(), weight),
@@ -184,7 +184,7 @@ struct ForceSum {
  private:
   enum class Begun { nothing, sum, pull };  // what `result` holds so far
 
-  void add(const Group& group, const small::Vector3<Lanes>& force, Begun begun) const {
+  void add(const LaneGroup& group, const small::Vector3<Lanes>& force, Begun begun) const {
     for (int l = 0; l < group.count; ++l) {
       const int i = group.i[l];
       Vector& sum = result[i];
@@ -258,10 +258,10 @@ CellTensors change_of_cell(const Body& body, const MaterialBlock& block, int k, 
 
 // The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
 template <class Weight>
-void set_tangent_cells(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
+void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
                        Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
   QuadraticCells cells(group, *body.fits, body.domain.sites);
-  cells.take(bonds::quadratic_gather(bonds::OfBundle{*group.bundle}, field, body.fits->multipliers(), weight));
+  cells.take(bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, field, body.fits->multipliers(), weight));
   std::array<small::Tensor3<Lanes>, 4> dF, dP;
   for (int q = 0; q < 4; ++q) dF[q] = cells.gradient_at(q), dP[q] = bonds::zero_tensor<Lanes>();
   for (int l = 0; l < group.count; ++l) {
@@ -281,9 +281,9 @@ void set_tangent_cells(const Body& body, const MaterialBlock& block, const Group
 
 // δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.
 template <class Weight>
-void set_tangent_scalars(const Body& body, const MaterialBlock& block, const Group& group, const Site* field,
+void set_tangent_scalars(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
                          Weight weight, std::vector<ScalarState>& result) {
-  const bonds::OfBundle family{*group.bundle};
+  const bonds::OfCluster family{*group.cluster};
   const Lanes moment = bonds::extensions(family, body.domain.sites.data(), weight, bonds::OfField(family, field));
   for (int l = 0; l < group.count; ++l) {
     const double m = block.ordinary[group.k[l]].weighted_volume;
@@ -305,7 +305,7 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
 
 void set_tangent_states(const Body& body, const Displacements& field, const std::vector<PointTangent>* tangents,
                         Part part, ForceStates& result, std::vector<Vector>& pulls) {
-  const auto set = [&](const MaterialBlock& block, const Group& group, auto weight) {
+  const auto set = [&](const MaterialBlock& block, const LaneGroup& group, auto weight) {
     if (block.is_ordinary()) return set_tangent_scalars(body, block, group, field.sites, weight, result.scalars);
     if (block.is_quadratic()) {
       return set_tangent_cells(body, block, group, field.sites, weight, tangents, result.quadratics);
@@ -315,8 +315,8 @@ void set_tangent_states(const Body& body, const Displacements& field, const std:
   };
   over_blocks(
       body, Bodies::all, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); },
-      [&](const MaterialBlock& block, const Groups& groups) {
-        over_groups(body, groups, [&](const Group& group, auto weight) { set(block, group, weight); });
+      [&](const MaterialBlock& block, const LaneGroups& groups) {
+        over_groups(body, groups, [&](const LaneGroup& group, auto weight) { set(block, group, weight); });
       });
 }
 
@@ -324,33 +324,33 @@ void set_tangent_states(const Body& body, const Displacements& field, const std:
 
 namespace {
 
-StepReport advance(Body& body, const StressPass& pass, bool with_views) {
+StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
   StepReport report;
   const Displacements u{body.domain.sites.data()};
-  const auto advance = [&](MaterialBlock& block, const Groups& groups) {
-    if (block.is_ordinary()) return advance_ordinary(body, block, with_views, groups, report);
+  const auto advance = [&](MaterialBlock& block, const LaneGroups& groups) {
+    if (block.is_ordinary()) return advance_ordinary(body, block, with_diagnostics, groups, report);
     if (block.is_quadratic()) return advance_quadratic(body, block, pass, groups, report);
     advance_stress(body, block, pass, groups, report);
   };
-  const auto view = [&](const MaterialBlock& block, const Groups& groups) {
-    if (block.is_quadratic()) view_cells(body, block, groups);
-    if (!block.is_ordinary()) view_residuals(body, groups);
+  const auto view = [&](const MaterialBlock& block, const LaneGroups& groups) {
+    if (block.is_quadratic()) diagnose_cells(body, block, groups);
+    if (!block.is_ordinary()) diagnose_residuals(body, groups);
   };
   const auto over = [&](Part part) {
     const Timed timed(deforming);
     over_blocks(
-        body, Bodies::disturbed, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
+        body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
         advance);
-    if (!with_views) return;
+    if (!with_diagnostics) return;
     over_blocks(
-        body, Bodies::disturbed, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },
+        body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },
         view);
   };
   for (const MaterialBlock& block : body.blocks) {
-    if (block.undisturbed) report.pace = std::max(report.pace, block.resting_pace);
+    if (block.in_rigid_motion) report.frequency_bound = std::max(report.frequency_bound, block.rest_frequency_bound);
   }
-  if (all_undisturbed(body)) {
+  if (all_move_rigidly(body)) {
     over(Part::interior);
     return report;
   }
@@ -362,49 +362,49 @@ StepReport advance(Body& body, const StressPass& pass, bool with_views) {
 
 }  // namespace
 
-StepReport advance_stress(Body& body, double dt, bool with_views) { return advance(body, {dt}, with_views); }
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics) { return advance(body, {dt}, with_diagnostics); }
 
-void sum_forces(Body& body, bool with_views) {
-  static Teuchos::Time& stabilizing = phase("Stabilisation");
+void sum_forces(Body& body, bool with_diagnostics) {
+  static Teuchos::Time& stabilizing = phase("Stabilization");
   static Teuchos::Time& summing = phase("Force");
   for (const MaterialBlock& block : body.blocks) {
-    if (!block.undisturbed) continue;
+    if (!block.in_rigid_motion) continue;
     for (const int i : block.points) body.force_density[i].setZero();
   }
-  if (all_undisturbed(body)) return;
+  if (all_move_rigidly(body)) return;
   const Displacements u{body.domain.sites.data()};
   if (!body.force_states.gradients.empty()) {
-    const std::span<double> energy = with_views ? std::span(body.mean_work) : std::span<double>();
+    const std::span<double> energy = with_diagnostics ? std::span(body.mean_work) : std::span<double>();
     behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
       const Timed timed(stabilizing);
-      add_residual(body, Bodies::disturbed, u, part, body.force_states, body.force_density, energy);
+      add_residual(body, Bodies::deforming, u, part, body.force_states, body.force_density, energy);
     });
   }
   const auto extension_of = [](const auto& family) { return bonds::OfPlaces(family); };
-  add_up(body.domain.halo, ForceSum{body, Bodies::disturbed, u, extension_of, body.force_states, body.force_density},
+  add_up(body.domain.halo, ForceSum{body, Bodies::deforming, u, extension_of, body.force_states, body.force_density},
          [] { return Timed(summing); });
 }
 
-StepReport advance_stress_and_force(Body& body, double dt, bool with_views) {
-  const StepReport report = advance_stress(body, dt, with_views);
-  sum_forces(body, with_views);
+StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics) {
+  const StepReport report = advance_stress(body, dt, with_diagnostics);
+  sum_forces(body, with_diagnostics);
   return report;
 }
 
-StepReport advance_by_any_step(Body& body, double dt, bool with_views) {
-  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_views);
-  sum_forces(body, with_views);
+StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics) {
+  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_diagnostics);
+  sum_forces(body, with_diagnostics);
   return report;
 }
 
-double largest_pace(const Body& body, const MaterialBlock& block) {
-  const auto of_point = [&](int k) { return pace(body, block, k) * body.share(block.points[k]); };
+double largest_frequency_bound(const Body& body, const MaterialBlock& block) {
+  const auto of_point = [&](int k) { return frequency_bound(body, block, k) * body.share(block.points[k]); };
   return largest(0, static_cast<int>(block.points.size()), 0, of_point);
 }
 
 namespace {
 
-double pace_of_cell(const Body& body, const MaterialBlock& block, int k) {
+double frequency_bound_of_cell(const Body& body, const MaterialBlock& block, int k) {
   const int i = block.points[k];
   double fastest2 = 0;
   for (int q = 0; q < block.places_a_point(); ++q) {
@@ -418,9 +418,9 @@ double pace_of_cell(const Body& body, const MaterialBlock& block, int k) {
 
 }  // namespace
 
-double pace(const Body& body, const MaterialBlock& block, int k) {
+double frequency_bound(const Body& body, const MaterialBlock& block, int k) {
   const int i = block.points[k];
-  if (block.is_quadratic()) return pace_of_cell(body, block, k);
+  if (block.is_quadratic()) return frequency_bound_of_cell(body, block, k);
   const MaterialPoint& point = body.points[i];
   const Tensor& F = point.deformation_gradient;
   const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
@@ -504,7 +504,7 @@ std::string describe(const Failure& failure, const Body& body) {
   switch (failure.kind) {
     case Failure::Kind::inverted:
       text << "the deformation gradient has no positive determinant (the point is turned inside out). Likely causes: a "
-              "step above the stable one, too little stabilisation, a load too sudden";
+              "step above the stable one, too little stabilization, a load too sudden";
       break;
     case Failure::Kind::no_stress:
       text << "the material law found no stress. Likely causes: a strain increment that is not finite or far too large "

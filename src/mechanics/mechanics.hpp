@@ -22,34 +22,34 @@ inline void take_worse(const std::optional<Failure>& other, std::optional<Failur
 }
 
 struct StepReport {
-  double pace = 0;  // 1/s, the largest of any point, as a part of its step: the stable step shrinks with it
-  // ζ, the largest part of the critical damping by viscosity: the stable step is √(1 + ζ²) − ζ of that without.
+  double frequency_bound = 0;  // 1/s, the largest of any point, as a part of its step: the critical time step shrinks with it
+  // ζ, the largest part of the critical damping by viscosity: the critical time step is √(1 + ζ²) − ζ of that without.
   double damping = 0;
   std::optional<Failure> failure;  // the worst on this rank; its stress is the old one
 };
 
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
-// dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_views`: also what forces
-// do not need but a look at the body does, the energy of the stabilisation, and F, R and stress of ordinary points,
+// dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_diagnostics`: also what forces
+// do not need but a look at the body does, the energy of the stabilization, and F, R and stress of ordinary points,
 // which are a view of their families only. force_density is spoiled: on lattices it holds the pull of springs on their
 // own points until the one sum_forces that is to follow.
-StepReport advance_stress(Body& body, double dt, bool with_views);
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics);
 
 // Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is
 // stepped alone, the part of its stress that acts at the end of a whole step.
-void sum_forces(Body& body, bool with_views);
+void sum_forces(Body& body, bool with_diagnostics);
 
 // Both.
-StepReport advance_stress_and_force(Body& body, double dt, bool with_views);
+StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics);
 
 // The same for a step of any size, as an implicit solver takes it: rotations to round-off.
-StepReport advance_by_any_step(Body& body, double dt, bool with_views);
+StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics);
 
 // A bound of what the stress of block.points[k] adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
-double pace(const Body& body, const MaterialBlock& block, int k);
+double frequency_bound(const Body& body, const MaterialBlock& block, int k);
 
 // Of the points of a block on this rank, as parts of their steps.
-double largest_pace(const Body& body, const MaterialBlock& block);
+double largest_frequency_bound(const Body& body, const MaterialBlock& block);
 
 // Collective. The linearised operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
 // `directions` holds v in the place of y: a copy of the body's sites, or these themselves where no block is ordinary.
@@ -63,7 +63,7 @@ struct Energies {
   double elastic = 0, dissipated = 0, stabilization = 0;  // J
 };
 
-// Collective: sums over all ranks, after a step with_views.
+// Collective: sums over all ranks, after a step with_diagnostics.
 Energies stored_energies(const Body& body);
 
 // "element 17 of block foam, reference position (…) m, now at (…) m"

@@ -12,7 +12,7 @@ namespace {
 // over the 26 directions is 1.
 constexpr std::array<double, 4> weights = {0, 0.0457779, 0.0369806, 0.0351956};
 
-// The lattice direction to a neighbour, or zero: not one of the 26.
+// The lattice direction to a neighbor, or zero: not one of the 26.
 Eigen::Array3i direction_of(const Vector& xi) {
   const Eigen::Array3i direction = xi.array().round().cast<int>();
   const bool is_near = (xi - direction.cast<double>().matrix()).cwiseAbs().maxCoeff() < 0.3;

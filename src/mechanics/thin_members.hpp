@@ -8,7 +8,7 @@ namespace strut {
 // Collective. 4 volume/surface of a block in spacings: of round and square rods their thickness, of plates twice that.
 // 0 where the surface is not known: points that stand on no lattice or are not bonded to all around them, and bring no
 // shapes. The surface is that of the cells where points have shapes; otherwise it is counted by Crofton's formula, from
-// the directions to the 26 neighbours of a lattice in which there is none (weights: Ohser & Mücklich 2000).
+// the directions to the 26 neighbors of a lattice in which there is none (weights: Ohser & Mücklich 2000).
 double thickness_of(const Domain& domain, int block);
 
 // The share of the bending stiffness that struts so many spacings thick keep, by tests/reference/bench_thin_members

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut {
 

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "base/errors.hpp"
-#include "points/cell_grid.hpp"
-#include "points/common_box.hpp"
-#include "points/near_ranks.hpp"
+#include "points/neighbors/cell_grid.hpp"
+#include "points/bounding_box.hpp"
+#include "points/nearby_ranks.hpp"
 #include "points/partition.hpp"
-#include "points/through_material.hpp"
+#include "points/neighbors/through_material.hpp"
 
 namespace strut {
 
@@ -35,11 +35,11 @@ std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<dou
     const Vector& X = cloud.positions[i];
     mine.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i], cloud.blocks[i]});
   }
-  return from_near_ranks<Candidate>(box_around(cloud.positions), cloud.positions, mine, reach, communicator);
+  return from_nearby_ranks<Candidate>(box_around(cloud.positions), cloud.positions, mine, reach, communicator);
 }
 
 // Owned points first, then candidates.
-struct Pool {
+struct CandidatePool {
   std::vector<Vector> positions;
   std::vector<double> volumes;
   std::vector<std::int64_t> ids;
@@ -49,9 +49,9 @@ struct Pool {
   std::vector<double> deltas;  // δ, m: horizons are those of the search
 };
 
-Pool pool_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
+CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
              const std::vector<Candidate>& others) {
-  Pool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
+  CandidatePool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
   const auto add_block = [&](std::int64_t block) {
     pool.bodies.push_back(bonds[block].body);
     pool.asks.push_back(bonds[block].touching ? 2 : bonds[block].through_material ? 1 : 0);
@@ -101,7 +101,7 @@ std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::ve
 
 // Calls visit(j) for all that is within the horizon of pool member i.
 template <class Visit>
-void for_each_within(const CellGrid& grid, const Pool& pool, int i, double reach, Visit&& visit) {
+void for_each_within(const CellGrid& grid, const CandidatePool& pool, int i, double reach, Visit&& visit) {
   const Vector here = pool.positions[i];
   grid.visit_near(here, [&](int j, const Vector& there) {
     const Vector xi = there - here;
@@ -150,7 +150,7 @@ struct JointOf {
 // Each joint with a pool member that has it, of some blocks. Collective: the candidates' come from their owners, which
 // go through the same points in the same order as for the candidates themselves.
 std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, const std::vector<char>& blocks,
-                                                    const Pool& pool, double reach, const Communicator& communicator) {
+                                                    const CandidatePool& pool, double reach, const Communicator& communicator) {
   std::vector<std::pair<std::int64_t, int>> joints;
   std::vector<Vector> places;
   std::vector<JointOf> mine;
@@ -163,7 +163,7 @@ std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, con
     }
   }
   std::size_t member = cloud.size();
-  for (const JointOf& one : from_near_ranks<JointOf>(box_around(cloud.positions), places, mine, reach, communicator)) {
+  for (const JointOf& one : from_nearby_ranks<JointOf>(box_around(cloud.positions), places, mine, reach, communicator)) {
     while (pool.ids[member] != one.id) ++member;
     joints.emplace_back(one.joint, static_cast<int>(member));
   }
@@ -193,7 +193,7 @@ LeftOut left_out_of(std::vector<std::pair<int, int>> pairs, int owned) {
 }
 
 // Collective.
-LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Pool& pool, const CellGrid& grid,
+LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const CandidatePool& pool, const CellGrid& grid,
                  double reach, const Communicator& communicator) {
   const std::vector<char> blocks = concerned(bonds);
   if (std::find(blocks.begin(), blocks.end(), 1) == blocks.end()) return {};
@@ -235,7 +235,7 @@ struct Search {
 
 // Calls visit(j) for the family of owned point i.
 template <class Visit>
-void for_each_neighbour(const Search& search, const Pool& pool, int i, Visit&& visit) {
+void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, Visit&& visit) {
   for_each_within(search.grid, pool, i, search.reach, [&](int j) {
     if (!search.left_out.contains(i, j)) visit(j);
   });
@@ -265,15 +265,15 @@ Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<
 }
 
 // What the bonds of a point take in a step, in ns, by tests/bench. A list costs by its entries, which the points of a
-// bundle share. `pencils`: of the lattice a point.
-double cost_of_list(double neighbours) { return 80 + 3.2 * std::pow(neighbours, 0.84); }
+// cluster share. `pencils`: of the lattice a point.
+double cost_of_list(double neighbors) { return 80 + 3.2 * std::pow(neighbors, 0.84); }
 double cost_of_stencil(double rows, double pencils) { return 35 + (280 + 8 * rows) * pencils; }
 
 // Whether sums by a lattice's stencil take less time than by lists. Of sums over the points of all ranks, so that all
 // decide alike however many they are. A run of n points fills (n + 7)/8 pencils on average; families are counted of
 // every 64th point.
-bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, const Communicator& communicator) {
-  double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbours
+bool is_faster(const LatticeFamilies& lattice, const CandidatePool& pool, int owned, const Communicator& communicator) {
+  double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbors
   for (int i = 0; i < owned; ++i) {
     if (lattice.cell(i) < 0) continue;
     counts[0] += 1;
@@ -290,11 +290,11 @@ bool is_faster(const LatticeFamilies& lattice, const Pool& pool, int owned, cons
 
 // Calls visit(j) for the family of owned point i, by its stencil or by a search.
 template <class Visit>
-void for_each_neighbour(const Stencils& stencils, const Search& search, const Pool& pool, int i, Visit&& visit) {
+void for_each_neighbor(const Stencils& stencils, const Search& search, const CandidatePool& pool, int i, Visit&& visit) {
   if (stencils.of[i] >= 0) {
     stencils.lattices[stencils.of[i]].for_each(i, visit);
   } else {
-    for_each_neighbour(search, pool, i, visit);
+    for_each_neighbor(search, pool, i, visit);
   }
 }
 
@@ -319,7 +319,7 @@ std::vector<int> by_blocks(const Stencils& stencils, const std::vector<int>& blo
   return points;
 }
 
-Order order_of(const Stencils& stencils, const Search& search, const Pool& pool, const std::vector<int>& blocks) {
+Order order_of(const Stencils& stencils, const Search& search, const CandidatePool& pool, const std::vector<int>& blocks) {
   Order order;
   const int owned = static_cast<int>(blocks.size());
   std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
@@ -328,7 +328,7 @@ Order order_of(const Stencils& stencils, const Search& search, const Pool& pool,
   for (int i = 0; i < owned; ++i) {
     if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= search.reach * search.reach))
       continue;
-    for_each_neighbour(stencils, search, pool, i, [&](int j) {
+    for_each_neighbor(stencils, search, pool, i, [&](int j) {
       order.listed += stencils.of[i] < 0;
       if (j >= owned) needs_ghost[i] = used[j] = 1;
     });
@@ -344,14 +344,14 @@ Order order_of(const Stencils& stencils, const Search& search, const Pool& pool,
   return order;
 }
 
-// Lists of the points in their order, neighbours by local[], from a second look at the grid. A bundle is of points that
+// Lists of the points in their order, neighbors by local[], from a second look at the grid. A cluster is of points that
 // follow upon each other, of one block, and of the interior or the boundary.
-Bundles lists_of(const Stencils& stencils, const Search& search, const Pool& pool, const std::vector<int>& blocks,
+ClusterLists lists_of(const Stencils& stencils, const Search& search, const CandidatePool& pool, const std::vector<int>& blocks,
                  const Order& order, const std::vector<int>& local) {
-  Bundles lists;
+  ClusterLists lists;
   lists.reserve(order.listed);
-  Bundles::Maker maker(lists, pool.ids.size());
-  const auto family = [&](int i, const auto& visit) { for_each_neighbour(search, pool, i, visit); };
+  ClusterLists::Builder builder(lists, pool.ids.size());
+  const auto family = [&](int i, const auto& visit) { for_each_neighbor(search, pool, i, visit); };
   const std::span<const int> points(order.points);
   for (const auto part : {points.first(order.interior), points.subspan(order.interior)}) {
     for (auto begin = part.begin(); begin != part.end();) {
@@ -359,7 +359,7 @@ Bundles lists_of(const Stencils& stencils, const Search& search, const Pool& poo
       const bool is_listed = stencils.of[*begin] < 0;
       const auto end = std::find_if(begin, part.end(),
                                     [&](int i) { return blocks[i] != kind || (stencils.of[i] < 0) != is_listed; });
-      if (is_listed) maker.add_all({begin, end}, family, [&](int j) { return pool.ids[j]; });
+      if (is_listed) builder.add_all({begin, end}, family, [&](int j) { return pool.ids[j]; });
       begin = end;
     }
   }
@@ -370,7 +370,7 @@ Bundles lists_of(const Stencils& stencils, const Search& search, const Pool& poo
 }  // namespace
 
 bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
-  constexpr double tolerance = 1 + 1e-9;  // a neighbour at exactly the horizon stays in despite round-off
+  constexpr double tolerance = 1 + 1e-9;  // a neighbor at exactly the horizon stays in despite round-off
   const double horizon = 0.5 * (one_horizon + other_horizon) * tolerance;
   return xi.squaredNorm() <= horizon * horizon;
 }
@@ -401,7 +401,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
   }
   const int owned = static_cast<int>(cloud.size());
-  const Pool pool = pool_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
+  const CandidatePool pool = candidates_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
   const std::vector<LatticeFrame> found = lattice_frames(cloud, own_horizons, bonds, communicator);
   Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
   std::vector<LatticeFrame> frames;
@@ -458,8 +458,8 @@ PointCloud whole_cloud(const Domain& domain) {
 std::size_t Families::bonds() const {
   std::size_t count = 0;
   for (int b = 0; b < lists.count(); ++b) {
-    const Bundle bundle = lists[b];
-    for (std::size_t n = 0; n < bundle.near.size(); ++n) count += std::popcount(bundle.whose[n]);
+    const Cluster cluster = lists[b];
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) count += std::popcount(cluster.mask[n]);
   }
   for (const LatticeFamilies& stencil : lattices) {
     for (std::size_t i = 0; i < lattice_of.size(); ++i) {
@@ -484,11 +484,11 @@ Tensor family_spread(const Domain& domain, int i) {
   return spread;
 }
 
-const char* degeneracy(std::size_t neighbours, const Tensor& spread) {
-  if (neighbours < 4) return "fewer than four neighbours";
+const char* degeneracy(std::size_t neighbors, const Tensor& spread) {
+  if (neighbors < 4) return "fewer than four neighbors";
   const Eigen::SelfAdjointEigenSolver<Tensor> eigen(spread, Eigen::EigenvaluesOnly);
   // A flat family of a lattice has an exact zero; a strut one spacing wide and two long has about 1e-1.
-  if (eigen.eigenvalues()[0] <= 1e-6 * eigen.eigenvalues()[2]) return "neighbours in one plane";
+  if (eigen.eigenvalues()[0] <= 1e-6 * eigen.eigenvalues()[2]) return "neighbors in one plane";
   return nullptr;
 }
 

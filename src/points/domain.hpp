@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "points/cloud.hpp"
-#include "points/families.hpp"
+#include "points/neighbors/families.hpp"
 #include "points/halo.hpp"
 #include "points/site.hpp"
 
@@ -40,7 +40,7 @@ struct BlockBonds {
   // δ of a point with this local spacing, m.
   double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }
   // Those that touch are looked for within so many horizons: the middles of cells that share a corner, or have taken
-  // over what is in a neighbour, are up to 2.8 spacings apart.
+  // over what is in a neighbor, are up to 2.8 spacings apart.
   double search_factor() const { return touching ? 1.6 : 1; }
 };
 
@@ -55,7 +55,7 @@ struct BlockHorizons {
   int body = 0;
 };
 
-// Local indices: [0, interior) owned, all neighbours owned; [interior, owned) owned, with ghosts in the family;
+// Local indices: [0, interior) owned, all neighbors owned; [interior, owned) owned, with ghosts in the family;
 // [owned, owned + ghosts) owned by other ranks.
 struct Domain {
   Communicator communicator;
@@ -90,9 +90,9 @@ struct BondCosts {
 BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
                      const Communicator& communicator);
 
-// What is wrong with a family, or nullptr: a shape tensor needs at least four neighbours that span space.
+// What is wrong with a family, or nullptr: a shape tensor needs at least four neighbors that span space.
 // `spread`: Σ V ξ⊗ξ of the family.
-const char* degeneracy(std::size_t neighbours, const Tensor& spread);
+const char* degeneracy(std::size_t neighbors, const Tensor& spread);
 
 // Σ V ξ⊗ξ over the family of owned point i, m⁵.
 Tensor family_spread(const Domain& domain, int i);

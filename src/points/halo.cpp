@@ -6,7 +6,7 @@
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

@@ -10,7 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 
 namespace strut {
@@ -225,7 +225,7 @@ double common_spacing(const PointCloud& cloud) {
 
 // The width of the cells of the curve, m: a spacing halved as often as the cube has room for. So the curve goes through
 // all points of a cube of two spacings, of four, … before the next one, and points that follow upon each other are
-// neighbours in all directions.
+// neighbors in all directions.
 double cell_width(const PointCloud& cloud, double size) {
   const double smallest = std::max(size, 1e-300) / ((1 << 21) - 2), spacing = common_spacing(cloud);
   return spacing > smallest ? std::ldexp(spacing, -static_cast<int>(std::log2(spacing / smallest))) : smallest;

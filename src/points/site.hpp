@@ -1,7 +1,7 @@
-// A material point as its neighbours read it.
+// A material point as its neighbors read it.
 #pragma once
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut {
 

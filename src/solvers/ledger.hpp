@@ -1,7 +1,7 @@
 // The ledger of a run at one time.
 #pragma once
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut {
 

@@ -4,7 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../verification/lattice.hpp"
-#include "mechanics/groups.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
 #include "textbook.hpp"
 
 namespace strut {
@@ -44,7 +44,7 @@ void step(benchmark::State& state) {
     shear += rate * dt;
     deform(body, [&](const Vector& X) -> Vector { return {X[0] + shear * X[1], X[1], X[2]}; });
     state.ResumeTiming();
-    benchmark::DoNotOptimize(advance_stress_and_force(body, dt, false).pace);
+    benchmark::DoNotOptimize(advance_stress_and_force(body, dt, false).frequency_bound);
   }
   const auto steps = static_cast<double>(state.iterations());
   const auto time_per = [](double count) {
@@ -65,7 +65,7 @@ bool is_in_strut(const Eigen::Array3i& cell, double thickness) {
   return false;
 }
 
-// The two passes over bonds alone, Silling's stabilisation included: moments of all families, then forces. Arguments:
+// The two passes over bonds alone, Silling's stabilization included: moments of all families, then forces. Arguments:
 // cells along an edge, horizon in thousandths of a spacing, lists or not, and of a foam the thickness of its struts.
 void passes(benchmark::State& state) {
   const Communicator world;
@@ -82,13 +82,13 @@ void passes(benchmark::State& state) {
   const auto& states = body.force_states.tensors;
   const MaterialBlock& block = body.blocks[0];
   std::vector<Vector> force(body.owned(), Vector::Zero());
-  const auto gather = [&](const Groups& groups) {
+  const auto gather = [&](const LaneGroups& groups) {
     for (int g = 0; g < groups.count(); ++g) {
       auto moment = moments(groups[g], {sites}, bonds::One{}, &force);
       benchmark::DoNotOptimize(moment);
     }
   };
-  const auto sum = [&](const Groups& groups) {
+  const auto sum = [&](const LaneGroups& groups) {
     for (int g = 0; g < groups.count(); ++g) {
       const Group group = groups[g];
       const auto sums = forces(group, {sites}, states, true, bonds::One{});
@@ -101,13 +101,13 @@ void passes(benchmark::State& state) {
   };
   for (auto _ : state) {
     if (kind == FamilyKind::lists) {
-      const Groups groups(body, block, Part::interior);
+      const LaneGroups groups(body, block, Part::interior);
       gather(groups);
       sum(groups);
     } else {
       LatticeSums& sums = *body.lattice_sums[0];
-      sums.moments({sites}, [&](const LatticeSums::Chunk& chunk) { gather(Groups(block, chunk)); });
-      sums.forces({sites}, states, [&](const LatticeSums::Chunk& chunk) { sum(Groups(block, chunk)); });
+      sums.moments({sites}, [&](const LatticeSums::Chunk& chunk) { gather(LaneGroups(block, chunk)); });
+      sums.forces({sites}, states, [&](const LatticeSums::Chunk& chunk) { sum(LaneGroups(block, chunk)); });
     }
     benchmark::ClobberMemory();
   }

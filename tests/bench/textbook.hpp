@@ -58,7 +58,7 @@ class Textbook {
     R_[i] = R;
   }
 
-  // T⟨ξ⟩ of the bond from i to j, with Silling's stabilisation.
+  // T⟨ξ⟩ of the bond from i to j, with Silling's stabilization.
   Vector force_state(int i, int j) const {
     const double w = influence_(xi(i, j).norm());
     return w * (A_[i] * xi(i, j) + body_.points[i].stabilization * (eta(i, j) - F_[i] * xi(i, j)));

@@ -10,10 +10,10 @@
 #include "files.hpp"
 #include "meshes.hpp"
 #include "mutate.hpp"
-#include "setup.hpp"
+#include "setup/setup.hpp"
 #include "subjects.hpp"
 #include "unit/deck_under_test.hpp"
-#include "views.hpp"
+#include "output/variables.hpp"
 
 namespace strut::fuzz {
 
@@ -84,13 +84,13 @@ std::string with_mesh(const fs::path& folder, const std::string& stem, std::stri
 void set_up_and_step(const fs::path& file, const Communicator& world) {
   const deck::Deck deck = deck::read(file, world);
   Scene scene = set_up(deck, world);
-  views_of(deck, scene.body);
+  output_variables_of(deck, scene.body);
   if (scene.quasi_static) return;
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
   for (int step = 0; step < 2 && solver.time() < deck.solver.final_time; ++step) {
-    solver.kick(deck.solver.final_time);
-    solver.move(false);
+    solver.advance_velocity(deck.solver.final_time);
+    solver.advance_position(false);
   }
 }
 

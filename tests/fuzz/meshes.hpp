@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 
 namespace strut::fuzz {
 

@@ -6,11 +6,11 @@
 #include <fstream>
 
 #include "base/errors.hpp"
-#include "base/function.hpp"
+#include "base/math/function.hpp"
 #include "compare/series.hpp"
 #include "files.hpp"
-#include "io/exodus.hpp"
-#include "io/restart_file.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/checkpoint/checkpoint_file.hpp"
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
 #include "mesh/recipe.hpp"
@@ -207,11 +207,11 @@ Snapshot small_snapshot() {
   return snapshot;
 }
 
-Subject restarts(const fs::path& folder, const Communicator& world) {
-  io::write_restart(folder / "run.restart", world, small_snapshot(), "<ParameterList/>");
+Subject checkpoint(const fs::path& folder, const Communicator& world) {
+  io::write_checkpoint(folder / "run.restart", world, small_snapshot(), "<ParameterList/>");
   const auto read = [&world](const fs::path& file) {
     Snapshot snapshot = small_snapshot();
-    io::read_restart(file, world, snapshot);
+    io::read_checkpoint(file, world, snapshot);
     if (snapshot.groups[0].columns[1].values != small_snapshot().groups[0].columns[1].values) {
       throw std::logic_error("a damaged file was taken for a good one");
     }
@@ -226,7 +226,7 @@ std::vector<Subject> all_subjects(const fs::path& folder, const Communicator& wo
   const Subject deck = decks(folder, world);
   all.insert(all.end(), 4, deck);  // the most can be said wrongly there
   for (const Subject& subject :
-       {points(world), recipes(), arrays(), histories(), paths(), expressions(), restarts(folder, world)}) {
+       {points(world), recipes(), arrays(), histories(), paths(), expressions(), checkpoint(folder, world)}) {
     all.push_back(subject);
   }
   return all;

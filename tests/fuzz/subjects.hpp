@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "random.hpp"
 
 namespace strut::fuzz {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <string_view>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 #include "materials/law.hpp"
 
 namespace strut::materials {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "contact/contact.hpp"
-#include "contact/skins.hpp"
+#include "contact/search/skin_distances.hpp"
 #include "points/partition.hpp"
 
 namespace strut::contact {
@@ -75,23 +75,23 @@ struct Part {
   std::vector<Vector> velocities;
   std::vector<double> densities;
 
-  Crowd crowd() const { return {domain, velocities, densities}; }
-  Parties parties(int a, int b) const {
-    Parties result{a, b, bonds[a].body == bonds[b].body, {}};
+  Kinematics kinematics() const { return {domain, velocities, densities}; }
+  BlockPair blocks(int a, int b) const {
+    BlockPair result{a, b, bonds[a].body == bonds[b].body, {}};
     for (int i = 0; i < domain.owned; ++i) {
       if (domain.cloud.blocks[i] == a || domain.cloud.blocks[i] == b) result.points.push_back(i);
     }
     return result;
   }
-  std::vector<Vector> places(const Parties& parties) const {
+  std::vector<Vector> places(const BlockPair& blocks) const {
     std::vector<Vector> result;
-    for (const int i : parties.points) result.push_back(domain.sites[i].current.head<3>().matrix());
+    for (const int i : blocks.points) result.push_back(domain.sites[i].current.head<3>().matrix());
     return result;
   }
   Pairs pairs(int a, int b, double both_skins = skin) const {
-    const Parties found = parties(a, b);
-    Skins skins{std::vector<float>(found.points.size(), static_cast<float>(both_skins / 2)), both_skins / 2};
-    return find_pairs(crowd(), found, model, skins);
+    const BlockPair found = blocks(a, b);
+    SkinDistances skins{std::vector<float>(found.points.size(), static_cast<float>(both_skins / 2)), both_skins / 2};
+    return find_pairs(kinematics(), found, model, skins);
   }
 };
 
@@ -205,18 +205,18 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
   Scatter now = all;
   for (int i = 0; i < 3; ++i) now.velocities[i] *= 8;  // one of each block
   Part moved = part_of(now, world);
-  const Parties parties = moved.parties(a, b);
-  const Frame frame = frame_of(moved.crowd(), parties, {});
-  const Vector mean = mean_velocity(moved.crowd(), parties, frame);
-  Skins skins = skins_by_speed(moved.crowd(), parties, mean, 2 * skin, 1);
+  const BlockPair blocks = moved.blocks(a, b);
+  const Frame frame = frame_of(moved.kinematics(), blocks, {});
+  const Vector mean = mean_velocity(moved.kinematics(), blocks, frame);
+  SkinDistances skins = skin_distances_by_speed(moved.kinematics(), blocks, mean, 2 * skin, 1);
   EXPECT_GT(skins.largest, 1.1 * 2 * skin) << "none is faster";
   EXPECT_LT(std::ranges::min(skins.of), 0.9 * 2 * skin) << "none is slower";
-  const auto found = partners_in(find_pairs(moved.crowd(), parties, model, skins));
-  const double t = 0.99 / world.max(largest_use(moved.crowd(), parties, mean, skins));
+  const auto found = partners_in(find_pairs(moved.kinematics(), blocks, model, skins));
+  const double t = 0.99 / world.max(largest_use(moved.kinematics(), blocks, mean, skins));
   for (int i = 0; i < count; ++i) now.places[i] += t * now.velocities[i];
-  const std::vector<Vector> before = moved.places(parties);
+  const std::vector<Vector> before = moved.places(blocks);
   moved = part_of(now, world);
-  EXPECT_NEAR(part_used(moved.crowd(), parties, frame, before, skins), 0.99, 1e-9);
+  EXPECT_NEAR(part_used(moved.kinematics(), blocks, frame, before, skins), 0.99, 1e-9);
   std::int64_t gained = 0;
   for (const auto& [id, partners] : partners_of(now, moved, a, b, 0)) {
     for (const Id partner : partners) {
@@ -232,14 +232,14 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
 // What has partners uses up no skin by moving together, whatever the others do.
 TEST_P(ContactOfBlocks, TheFrameIsThatOfPointsWithPartners) {
   const auto [a, b] = GetParam();
-  const Parties parties = part.parties(a, b);
+  const BlockPair blocks = part.blocks(a, b);
   const Pairs found = part.pairs(a, b);
   const Vector together(3, -1, 2);
   std::vector<Vector> velocities(part.velocities.size(), Vector(-5, 5, 5));
   for (const int i : found.owned) velocities[i] = together;
-  const Crowd moving{part.domain, velocities, part.densities};
-  EXPECT_TRUE(mean_velocity(moving, parties, frame_of(moving, parties, found)).isApprox(together));
-  const Vector of_all = mean_velocity(part.crowd(), parties, frame_of(part.crowd(), parties, {}));
+  const Kinematics moving{part.domain, velocities, part.densities};
+  EXPECT_TRUE(mean_velocity(moving, blocks, frame_of(moving, blocks, found)).isApprox(together));
+  const Vector of_all = mean_velocity(part.kinematics(), blocks, frame_of(part.kinematics(), blocks, {}));
   EXPECT_LT(of_all.norm(), 0.2) << "speeds are up to a half, and any";
 }
 
@@ -247,7 +247,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   const auto [a, b] = GetParam();
   Pairs pairs = part.pairs(a, b);
   std::vector<Vector> density(part.domain.owned, Vector::Zero()), friction;
-  const Tally tally = add_normal_forces(part.crowd(), model, pairs, density);
+  const ForceResult result = add_normal_forces(part.kinematics(), model, pairs, density);
   double energy = 0, scale = 0;
   std::vector<double> sums(7, 0);
   for (int i = 0; i < part.domain.owned; ++i) {
@@ -266,8 +266,8 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
     EXPECT_NEAR((force - expected).norm(), 0, 1e-12 * expected.norm()) << "point " << id;
     for (int c = 0; c < 3; ++c) sums[c] += force[c];
   }
-  EXPECT_NEAR(tally.energy, energy, 1e-12 * energy);
-  add_friction(part.crowd(), model, 1e-3, pairs, density, friction);
+  EXPECT_NEAR(result.energy, energy, 1e-12 * energy);
+  add_friction(part.kinematics(), model, 1e-3, pairs, density, friction);
   for (const Vector& f : friction) {
     for (int c = 0; c < 3; ++c) sums[3 + c] += f[c];
     sums[6] += f.norm();
@@ -289,7 +289,7 @@ TEST(Contact, BoundOfTheStiffnessHolds) {
   const Part part = part_of(all, world);
   Pairs pairs = part.pairs(0, 0);
   std::vector<Vector> density(part.domain.owned, Vector::Zero());
-  const double bound = world.max(add_normal_forces(part.crowd(), model, pairs, density).stiffness);
+  const double bound = world.max(add_normal_forces(part.kinematics(), model, pairs, density).stiffness);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);  // block 0 has every third point
   for (int i = 0; i < count; i += 3) {
     for (int j = 0; j < count; j += 3) {

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "points/domain.hpp"
 #include "points/partition.hpp"
@@ -243,12 +243,12 @@ TEST_P(DomainOf, SpreadIsThatOfAllPairs) {
 
 INSTANTIATE_TEST_SUITE_P(Points, DomainOf,
                          testing::Values(dense, Case{600, {1.5, 2.5}, 7, true}, Case{600, {0.12, 0.25}, 2},
-                                         Case{500, {0.2}, 3}, Case{40, {0.3, 0.3}, 4},  // some without a neighbour
+                                         Case{500, {0.2}, 3}, Case{40, {0.3, 0.3}, 4},  // some without a neighbor
                                          Case{3, {1.0}, 5},                             // fewer points than ranks
                                          Case{1, {1.0}, 6}),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-// Points exactly at the horizon are neighbours on any number of ranks, in spite of the round-off of their places.
+// Points exactly at the horizon are neighbors on any number of ranks, in spite of the round-off of their places.
 TEST(Lattice, NeighboursAtExactlyTheHorizonAreIn) {
   const Communicator world;
   PointCloud cloud;

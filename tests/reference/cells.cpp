@@ -74,8 +74,8 @@ void merge_small(std::vector<Cell>& cells, int fewest) {
     for (const Place& face : faces) {
       const auto found = by_number.find(number_of(cell.place + face));
       if (found == by_number.end()) continue;
-      Cell& neighbour = cells[found->second];
-      if (neighbour.cubes > 0 && (!largest || neighbour.cubes > largest->cubes)) largest = &neighbour;
+      Cell& neighbor = cells[found->second];
+      if (neighbor.cubes > 0 && (!largest || neighbor.cubes > largest->cubes)) largest = &neighbor;
     }
     return largest;
   };
@@ -83,9 +83,9 @@ void merge_small(std::vector<Cell>& cells, int fewest) {
   for (int size = 1; size < fewest; ++size) {
     for (Cell& cell : cells) {
       if (cell.cubes != size) continue;
-      Cell* neighbour = largest_neighbour(cell);
-      if (!neighbour) continue;
-      neighbour->take(cell);
+      Cell* neighbor = largest_neighbour(cell);
+      if (!neighbor) continue;
+      neighbor->take(cell);
       cell.cubes = 0;
     }
   }

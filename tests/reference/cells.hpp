@@ -34,8 +34,8 @@ struct Cell {
 // The cells with something in them, in the order of their places, x fastest. cell_of: the cell of a small cube.
 std::vector<Cell> gathered(const SmallCubes& body, const std::function<Place(const Place&)>& cell_of);
 
-// Cells of fewer cubes than these are given to the neighbour across a face that has the most, the smallest first; those
-// without a neighbour stay.
+// Cells of fewer cubes than these are given to the neighbor across a face that has the most, the smallest first; those
+// without a neighbor stay.
 void merge_small(std::vector<Cell>& cells, int fewest);
 
 // An unique number of a place; places from −2¹⁹ to 2¹⁹.

@@ -20,7 +20,7 @@ inline const std::array<Scheme, 4> schemes = {{
     {.name = "quadratic", .horizon = 1.75, .formulation = Formulation::quadratic},
     {.name = "mean gradient 0.01, horizon 1.75", .horizon = 1.75, .mean_stabilization = 0.01},
     {.name = "Silling 0.0005, horizon 3.015", .horizon = 3.015, .stabilization = 0.0005},
-    {.name = "no stabilisation, horizon 1.75", .horizon = 1.75},
+    {.name = "no stabilization, horizon 1.75", .horizon = 1.75},
 }};
 
 // Density 1 kg/m³.

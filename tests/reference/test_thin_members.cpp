@@ -179,7 +179,7 @@ Eigen::VectorXd field(const Body& body, const Tensor& gradient) {
   return u;
 }
 
-// Linear displacements are seen exactly at surfaces, too, and leave no energy of stabilisation.
+// Linear displacements are seen exactly at surfaces, too, and leave no energy of stabilization.
 TEST(Stiffness, HasHookesEnergyOfUniaxialStress) {
   for (const char* scheme : {"mean gradient", "quadratic"}) {
     for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {

@@ -23,7 +23,7 @@ std::vector<Placement> random_placements(int count);
 
 // What becomes of the cells that the surface cuts.
 //   whole   those whose centre is inside are full, the others empty
-//   cut     each keeps what is inside, in 6³ parts; cells below 30 % go to the neighbour across a face with the most
+//   cut     each keeps what is inside, in 6³ parts; cells below 30 % go to the neighbor across a face with the most
 enum class Cells { whole, cut };
 
 // A cylinder of length 4 m in a grid of `across` cells per diameter, points at the centroids of what is in the cells.

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "base/lanes.hpp"
-#include "io/exodus.hpp"
+#include "base/math/lanes.hpp"
+#include "io/exodus/exodus.hpp"
 
 namespace strut::reference {
 

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
-#include "io/exodus.hpp"
-#include "setup.hpp"
+#include "io/exodus/exodus.hpp"
+#include "setup/setup.hpp"
 #include "temporary_folder.hpp"
 
 namespace strut::regression {
@@ -211,11 +211,11 @@ class Simulation {
   // The ledger at the final time.
   Ledger go(const std::function<void(const Ledger&)>& look = [](const Ledger&) {}) {
     for (;;) {
-      solver.kick(deck.solver.final_time);
+      solver.advance_velocity(deck.solver.final_time);
       const Ledger now = solver.ledger();
       look(now);
       if (solver.time() >= deck.solver.final_time) return now;
-      solver.move(true);
+      solver.advance_position(true);
     }
   }
 

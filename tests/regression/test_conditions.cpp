@@ -255,7 +255,7 @@ TEST(Condition, InitialVelocityIsAFunctionOfThePlace) {
     return (run.body().velocity[i] - wanted).norm();
   };
   EXPECT_LE(worst(run, every, error), 8 * epsilon * 5);  // two operations on numbers up to 5
-  run.solver.kick(run.deck.solver.final_time);
+  run.solver.advance_velocity(run.deck.solver.final_time);
   const Ledger start = run.solver.ledger();
   // Nothing is strained yet: what the first kick adds is the round-off of places, 1e-16 of 6 mm, over a spacing, times
   // the speed of sound.

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "bodies.hpp"
-#include "report.hpp"
+#include "run/report.hpp"
 
 namespace strut::regression {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bodies.hpp"
-#include "simulation.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "bodies.hpp"
-#include "report.hpp"
-#include "simulation.hpp"
+#include "run/report.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
@@ -235,9 +235,9 @@ TEST_F(Mistake, NodesOfSpheresOrOfAText) {
 TEST_F(Mistake, FewNeighboursAtANodeAreTheNodes) {
   const std::string mesh = key("Input Mesh File", "bar.g");
   const std::string deck = changed(right_parts().text(), key("Horizon", "2.01e-3"), key("Horizon Factor", "1.1"));
-  // A corner has three neighbours at one spacing; the first one is node 1.
+  // A corner has three neighbors at one spacing; the first one is node 1.
   expect_error(changed(deck, mesh, mesh + key("Points", "Nodes")),
-               {"points have too few neighbours", "node 1 of block bar at (0, 0, 0) m has 3 neighbours"});
+               {"points have too few neighbors", "node 1 of block bar at (0, 0, 0) m has 3 neighbors"});
 }
 
 TEST_F(Mistake, UnknownVariables) {
@@ -312,8 +312,8 @@ Parts straggling_parts(const std::string& degenerate) {
 TEST_F(Mistake, PointsWithTooFewNeighbours) {
   folder.write("points.txt", points_with_stragglers());
   expect_error(straggling_parts("Error").text(),
-               {"Discretization > Degenerate Points", "3 points have too few neighbours", "of block block_7",
-                "(0.5, 0.25, ", "has 2 neighbours: fewer than four", "\"Drop\""});
+               {"Discretization > Degenerate Points", "3 points have too few neighbors", "of block block_7",
+                "(0.5, 0.25, ", "has 2 neighbors: fewer than four", "\"Drop\""});
   const std::string shown = error(straggling_parts("Error").text());
   EXPECT_TRUE(shown.find("element 97 ") != std::string::npos || shown.find("element 98 ") != std::string::npos ||
               shown.find("element 99 ") != std::string::npos)

@@ -6,7 +6,7 @@
 #include <streambuf>
 
 #include "bodies.hpp"
-#include "simulation.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "bodies.hpp"
-#include "mechanics/observables.hpp"
-#include "mechanics/undisturbed.hpp"
+#include "output/observables.hpp"
+#include "mechanics/rigid_motion.hpp"
 
 namespace strut::regression {
 namespace {
@@ -86,7 +86,7 @@ TEST(Nodes, DeformationGradientOfAnAffineMotionIsExact) {
     Tensor F;
     F << 1.002, 0.003, -0.001, 0.0005, 0.998, 0.002, -0.0015, 0.001, 1.001;
     for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() = (F * run.reference(i)).array();
-    find_undisturbed(body);  // no longer, by hand
+    find_rigid_motion(body);  // no longer, by hand
     EXPECT_FALSE(advance_stress_and_force(body, 1e-9, true).failure);
     double error = 0, work = 0;
     for (int i = 0; i < body.owned(); ++i) {

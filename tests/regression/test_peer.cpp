@@ -9,9 +9,9 @@
 #include <fstream>
 #include <optional>
 
-#include "base/communicator.hpp"
-#include "io/exodus.hpp"
-#include "simulation.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
+#include "run/simulation.hpp"
 #include "temporary_folder.hpp"
 
 namespace strut {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bodies.hpp"
-#include "simulation.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
@@ -88,7 +88,7 @@ TEST(DialectOfPeridigm, CubesInContact) {
   const std::string model =
       section("soft", key("Contact Model", "Short Range Force") + typed("Contact Radius", "double", "1e-3") +
                           typed("Spring Constant", "double", "3e10"));
-  const std::string flight = along("left", "Initial Velocity", "block_1", "x", "20") +
+  const std::string trajectory = along("left", "Initial Velocity", "block_1", "x", "20") +
                              along("right", "Initial Velocity", "block_2", "x", "-20");
   const std::string compute =
       section("stress", key("Compute Class", "Block_Data") + key("Calculation Type", "Maximum") +
@@ -101,7 +101,7 @@ TEST(DialectOfPeridigm, CubesInContact) {
       section("Contact", typed("Search Radius", "double", "0.01") + typed("Search Frequency", "int", "10") +
                              section("Models", model) +
                              section("Interactions", section("General Contact", key("Contact Model", "soft")))) +
-      section("Boundary Conditions", flight) +
+      section("Boundary Conditions", trajectory) +
       section("Solver", steps + typed("Final Time", "double", "4e-5") +
                             section("Verlet", typed("Safety Factor", "double", "0.7"))) +
       section("Compute Class Parameters", compute) +
@@ -120,7 +120,7 @@ TEST(DialectOfPeridigm, CubesInContact) {
                                                   key("Stabilization Coefficient", "0.04"))) +
       section("Blocks", body("block_1") + body("block_2")) +
       section("Contact", section("Models", model) + section("Interactions", section("pair", pair))) +
-      section("Boundary Conditions", flight) +
+      section("Boundary Conditions", trajectory) +
       section("Solver", key("Final Time", "4e-5") + section("Verlet", key("Safety Factor", "0.7"))) +
       own_output(folder / "ours.e", "20", {"Displacement", "Velocity", "Cauchy_Stress"}) +
       section("History", key("Filename", (folder / "ours.csv").string()) + key("Frequency", "5") +

@@ -1,7 +1,7 @@
 // When output is due: by steps, by time, and in spite of the round-off of times that are sums of steps.
 #include <gtest/gtest.h>
 
-#include "schedule.hpp"
+#include "output/schedule.hpp"
 
 namespace strut {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 
 namespace strut::io {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
 #include "temporary_folder.hpp"

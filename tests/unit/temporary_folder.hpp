@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 
 namespace strut {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
-#include "base/function.hpp"
-#include "base/repeated.hpp"
-#include "base/reproducible_sum.hpp"
-#include "base/tensors.hpp"
+#include "base/math/function.hpp"
+#include "base/deduplicated.hpp"
+#include "base/parallel/reproducible_sum.hpp"
+#include "base/math/tensors.hpp"
 #include "base/timing.hpp"
 
 namespace strut {
@@ -109,7 +109,7 @@ TEST(Communicator, ReproducibleSumDoesNotKnowOfRanks) {
 }
 
 // Two kinds of values, each in many places with its round-off; and values that are all different.
-TEST(Repeated, KeepsTheSameValuesOnce) {
+TEST(Deduplicated, KeepsTheSameValuesOnce) {
   std::vector<Vector> all;
   for (int i = 0; i < 100; ++i) {
     all.push_back(Vector(1 + i % 2, 1e-3, 0) * 1e-30 * (1 + 1e-15 * (i % 7)));
@@ -119,11 +119,11 @@ TEST(Repeated, KeepsTheSameValuesOnce) {
       all[i][c] = value;
     }
   }
-  const Repeated<Vector> few(all);
+  const Deduplicated<Vector> few(all);
   EXPECT_LE(few.bytes(), 8 * sizeof(Vector) + 100 * sizeof(int)) << "some may lie where rounding parts them";
   for (int i = 0; i < 100; ++i) EXPECT_EQ(few[i], all[i]);
   for (int i = 0; i < 100; ++i) all[i][1] = i;
-  const Repeated<Vector> different(all);
+  const Deduplicated<Vector> different(all);
   EXPECT_EQ(different.bytes(), 100 * sizeof(Vector)) << "places would be more";
   for (int i = 0; i < 100; ++i) EXPECT_EQ(different[i], all[i]);
 }

@@ -8,12 +8,12 @@
 #include <random>
 #include <set>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "bricks.hpp"
-#include "io/elements.hpp"
-#include "io/exodus.hpp"
-#include "io/grid.hpp"
+#include "io/exodus/elements.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/grid/grid.hpp"
 #include "points/domain.hpp"
 #include "points/partition.hpp"
 #include "temporary_folder.hpp"

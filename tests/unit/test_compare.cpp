@@ -1,8 +1,8 @@
 // strut-compare: equal, different and incomparable results and histories.
 #include <cmath>
 
-#include "base/communicator.hpp"
-#include "io/exodus.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
 #include "tool.hpp"
 
 namespace strut {

@@ -126,12 +126,12 @@ TEST(Deck, ReadsConditions) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);
   ASSERT_EQ(deck.conditions.size(), 3u);
-  const Condition &flight = deck.conditions[0], &pull = deck.conditions[1], &wall = deck.conditions[2];
-  EXPECT_EQ(flight.name, "flight");
-  EXPECT_EQ(flight.type, ConditionType::initial_velocity);
-  EXPECT_EQ(flight.node_set, "all");
-  EXPECT_EQ(flight.component, 2);
-  EXPECT_EQ(flight.value(1, 2, 3, 4), -50);
+  const Condition &trajectory = deck.conditions[0], &pull = deck.conditions[1], &wall = deck.conditions[2];
+  EXPECT_EQ(trajectory.name, "flight");
+  EXPECT_EQ(trajectory.type, ConditionType::initial_velocity);
+  EXPECT_EQ(trajectory.node_set, "all");
+  EXPECT_EQ(trajectory.component, 2);
+  EXPECT_EQ(trajectory.value(1, 2, 3, 4), -50);
   EXPECT_EQ(pull.type, ConditionType::prescribed_displacement);
   EXPECT_EQ(pull.node_set, "low");
   EXPECT_EQ(pull.component, 1);

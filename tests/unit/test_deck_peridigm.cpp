@@ -95,7 +95,7 @@ TEST(DeckOfPeridigm, Grid) {
   EXPECT_EQ(
       folder.error(changed(small_deck, old, grid)),
       "deck.xml: 1 problem\n  Discretization > NeighborhoodType: missing; expected 'Spherical': without it Peridigm "
-      "takes boxes for neighbourhoods, which are not known here");
+      "takes boxes for neighborhoods, which are not known here");
 }
 
 TEST(DeckOfPeridigm, SetsOfPointsByNumber) {

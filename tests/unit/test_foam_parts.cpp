@@ -42,19 +42,19 @@ TEST(Skeleton, FourStrutsMeetAtEveryVertex) {
   const Vector size(1, 1.5, 1.2);
   const double cell = 0.3;
   for (const double irregularity : {0.1, 0.5, 1.0}) {
-    std::map<std::array<long, 3>, int> meeting;
+    std::map<std::array<long, 3>, int> contact_pair;
     for (const Edge& edge : foam_skeleton(size, cell, irregularity, 7).edges) {
       for (const Vector& x : {edge.a, edge.b}) {
         if ((x.array() < 0).any() || (x.array() > size.array()).any()) continue;
         const Vector place = x / (1e-7 * cell);  // ends of edges from different cells differ by rounding only
-        ++meeting[{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}];
+        ++contact_pair[{std::lround(place[0]), std::lround(place[1]), std::lround(place[2])}];
       }
     }
     // 12 edges a cell, two ends each, four at a vertex: 6 a cell in Kelvin's foam, more in a random one (6.77).
     const double cells = size.prod() / (pi / 6 * std::pow(cell, 3));
-    EXPECT_GT(meeting.size(), 5 * cells);
-    EXPECT_LT(meeting.size(), 8 * cells);
-    for (const auto& [place, edges] : meeting) EXPECT_EQ(edges, 4) << "irregularity " << irregularity;
+    EXPECT_GT(contact_pair.size(), 5 * cells);
+    EXPECT_LT(contact_pair.size(), 8 * cells);
+    for (const auto& [place, edges] : contact_pair) EXPECT_EQ(edges, 4) << "irregularity " << irregularity;
   }
 }
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "base/communicator.hpp"
-#include "io/exodus.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
 #include "tool.hpp"
 
 namespace strut {
@@ -159,7 +159,7 @@ TEST_F(FoamRecipe, CellsHoldTheFinerVoxels) {
   const testing::Outcome outcome = make(cube + recipe + "cells = 2\n");
   ASSERT_EQ(outcome.status, 0) << outcome.text;
   for (const char* part :
-       {"51200 voxels", "40 x 40 x 40 places", "merged into neighbours", "0 kept", "dropped (0 % of the volume)"}) {
+       {"51200 voxels", "40 x 40 x 40 places", "merged into neighbors", "0 kept", "dropped (0 % of the volume)"}) {
     EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
   }
   const io::Mesh mesh = io::read_mesh(path("mesh.g"));

@@ -7,11 +7,11 @@
 #include <numeric>
 #include <random>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
-#include "io/elements.hpp"
-#include "io/exodus.hpp"
-#include "io/history.hpp"
+#include "io/exodus/elements.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/text/history.hpp"
 #include "temporary_folder.hpp"
 
 namespace strut::io {

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <random>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
-#include "io/exodus.hpp"
-#include "io/exodus_file.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/exodus/exodus_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace strut::io {

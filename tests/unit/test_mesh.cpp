@@ -5,8 +5,8 @@
 #include <numbers>
 #include <numeric>
 
-#include "base/communicator.hpp"
-#include "io/exodus.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
 #include "tool.hpp"
 
 namespace strut {
@@ -107,7 +107,7 @@ TEST_F(MeshTool, ConesAreFrustumsOfTheirPolygon) {
 }
 
 TEST_F(MeshTool, AxisThroughAPoint) {
-  // Squares whose centres lie within 1.5 spacings of one: it and its eight neighbours.
+  // Squares whose centres lie within 1.5 spacings of one: it and its eight neighbors.
   const PointCloud cloud = made("shape = cylinder\ncentred = point\nlength = 3\nradius = 1.5\nspacing = 1\n");
   EXPECT_EQ(cloud.size(), 27);
   EXPECT_NEAR((centre_of_mass(cloud) - Vector(0, 0, 1.5)).norm(), 0, 1e-12);

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/communicator.hpp"
-#include "io/exodus.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
 #include "tool.hpp"
 
 namespace strut {

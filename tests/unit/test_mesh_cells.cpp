@@ -112,7 +112,7 @@ std::set<std::pair<int, int>> touching(const io::Mesh& mesh) {
 
 std::size_t bodies_in(const io::Mesh& mesh) {
   const std::size_t cells = mesh.blocks[0].elements();
-  Groups groups(cells);
+  LaneGroups groups(cells);
   for (const auto& [a, b] : touching(mesh)) groups.join(a, b);
   std::set<int> firsts;
   for (std::size_t n = 0; n < cells; ++n) firsts.insert(groups.first(static_cast<int>(n)));
@@ -235,7 +235,7 @@ TEST(MeshCells, HangTogetherAsTheMaterialDoes) {
     // Whoever uses a node is reached from the others by contacts around it.
     for (const auto& [node, users] : users_of(mesh)) {
       const std::set<int> here(users.begin(), users.end());
-      Groups groups(cells.parts.size());
+      LaneGroups groups(cells.parts.size());
       for (const auto& [a, b] : cells.contacts) {
         if (here.count(a) && here.count(b)) groups.join(a, b);
       }
@@ -291,9 +291,9 @@ TEST(MeshCells, AThinWireStaysOne) {
   }
 }
 
-// ---- Cells whose neighbours hardly span space -----------------------------------------------------------------------
+// ---- Cells whose neighbors hardly span space -----------------------------------------------------------------------
 
-// What a run asks for: four neighbours, and a mean square distance of 0.02 spacings² in each direction.
+// What a run asks for: four neighbors, and a mean square distance of 0.02 spacings² in each direction.
 bool spans_space(const Cells& cells, const std::vector<int>& near, int cell) {
   Tensor sum = Tensor::Zero();
   double volume = 0;
@@ -329,7 +329,7 @@ TEST(MeshCells, OfAFoamHaveNeighboursThatSpanSpace) {
   EXPECT_LT(part_that_is_flat(cells), 0.0025);
   expect_same(moments_of(cells), moments_of(body));
   EXPECT_EQ(bodies_in(cell_mesh(cells)), 1u);
-  // What is left is told, with that which has too few neighbours where a run has left it out.
+  // What is left is told, with that which has too few neighbors where a run has left it out.
   EXPECT_GE(cells.flat_volume / cells.volume(), part_that_is_flat(cells) * (1 - 1e-9));
   EXPECT_LT(cells.flat_volume / cells.volume(), 0.0025);
 }
@@ -359,7 +359,7 @@ TEST(MeshCells, OfAPlateOneVoxelThickStay) {
   EXPECT_EQ(cells.flat, 25u);
 }
 
-// A block of 3 × 3 × 3 cells with a bar of two cells on a side, half a cell thick: the outer one has one neighbour, and
+// A block of 3 × 3 × 3 cells with a bar of two cells on a side, half a cell thick: the outer one has one neighbor, and
 // becomes part of it.
 TEST(MeshCells, AThinTipBecomesPartOfWhatHoldsIt) {
   const Body body = drawn({20, 12, 12}, {20, 12, 12},

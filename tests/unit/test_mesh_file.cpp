@@ -1,6 +1,6 @@
 // strut-mesh, shape = file: a mesh that is there becomes a body of a recipe.
-#include "base/communicator.hpp"
-#include "io/exodus.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
 #include "tool.hpp"
 
 namespace strut {

@@ -6,11 +6,11 @@
 #include <numeric>
 #include <random>
 
-#include "base/communicator.hpp"
+#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
 #include "bricks.hpp"
-#include "io/elements.hpp"
-#include "io/exodus.hpp"
+#include "io/exodus/elements.hpp"
+#include "io/exodus/exodus.hpp"
 #include "temporary_folder.hpp"
 
 namespace strut::io {

@@ -1,7 +1,7 @@
 // The pair law of contact against its formulas.
 #include <gtest/gtest.h>
 
-#include "contact/pair_law.hpp"
+#include "contact/laws/penalty.hpp"
 
 namespace strut::contact {
 namespace {

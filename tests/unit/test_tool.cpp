@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "mechanics/tool.hpp"
+#include "conditions/tool.hpp"
 
 namespace strut {
 namespace {

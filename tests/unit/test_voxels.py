@@ -164,13 +164,13 @@ class KnownAnswers(ToolTest):
         image = box((9, 9, 20), (2, 7), (2, 7), (2, 7)) | box((9, 9, 20), (4, 5), (4, 5), (7, 15))
         said, mesh = self.voxels(image)
         self.assertEqual(len(mesh.blocks["foam"]), 125 + 8)
-        # The last has one neighbour, those before it two; the first stands on nine of the cube.
+        # The last has one neighbor, those before it two; the first stands on nine of the cube.
         self.assertIn("7 voxels have fewer than 4", said["spurs"])
         said, mesh = self.voxels(image, "--spurs", "drop")
         self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)
-        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbours", 2)
-        self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)  # one after the other, while the end has one neighbour
-        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbours", 1)
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbors", 2)
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)  # one after the other, while the end has one neighbor
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbors", 1)
         self.assertEqual(len(mesh.blocks["foam"]), 125 + 8)
 
     def test_pieces_that_hung_on_a_spur_are_dropped_with_it(self):
@@ -179,7 +179,7 @@ class KnownAnswers(ToolTest):
         said, mesh = self.voxels(image, "--spurs", "drop")
         self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)  # the small cube is a piece of its own now
         self.assertIn("more with what they held", said["spurs"])
-        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbours", 2)
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbors", 2)
         self.assertEqual(len(mesh.blocks["foam"]), 125 + 13 + 27)  # both its ends are held: none has fewer than two
 
     def test_otsu_parts_two_gaussians_between_them(self):
@@ -547,7 +547,7 @@ class Damaged(ToolTest):
         self.refused("voxels", "whole number", path, "--size", 1, "--coarsen", 1.5)
         self.refused("voxels", "no voxel in x", path, "--size", 1, "--crop", 0.5, 0.5, 0, 1, 0, 1)
         self.refused("voxels", "no solid voxel", path, "--size", 1, "--crop", 0.9, 1, 0, 1, 0, 1)
-        self.refused("voxels", "leaves nothing", path, "--size", 1, "--spurs", "drop", "--min-neighbours", 26)
+        self.refused("voxels", "leaves nothing", path, "--size", 1, "--spurs", "drop", "--min-neighbors", 26)
         done = self.run_tool("voxels", path, self.path("none/out.g"), "--size", 1)
         self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1))
         self.assertIn("no folder", done.stderr)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lattice.hpp"
-#include "solvers/quasi_static.hpp"
+#include "solvers/quasi_static/quasi_static.hpp"
 
 namespace strut {
 
@@ -42,7 +42,7 @@ inline std::vector<int> layer(const Body& body, const LatticeSpec& spec, int axi
   return points_where(body, [&](const Vector& X) { return std::abs(X[axis] - place) < 0.1 * spec.spacing; });
 }
 
-inline Audience nobody() {
+inline Observer nobody() {
   return {[](const std::string&) {}, {}, [] { return false; }};
 }
 

@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "lattice.hpp"
-#include "solvers/central_difference.hpp"
+#include "solvers/explicit/central_difference.hpp"
 
 namespace strut {
 
@@ -24,13 +24,13 @@ inline void throw_apart(Body& body, double speed) {
 
 // Whether noise stays bounded over a thousand steps of `factor` times the estimated limit.
 inline bool stays_bounded(Body body, double factor) {
-  const double limit = CentralDifference(body, {}, {}, {0, 1, false}, 0).stable_step();
+  const double limit = CentralDifference(body, {}, {}, {0, 1, false}, 0).critical_time_step();
   throw_apart(body, 1e-3);
   CentralDifference solver(body, {}, {}, {factor * limit, 0}, 0);
   try {
     for (int n = 0; n < 1000; ++n) {
-      solver.kick(1e9);
-      solver.move(false);
+      solver.advance_velocity(1e9);
+      solver.advance_position(false);
     }
   } catch (const Error&) {
     return false;
@@ -76,8 +76,8 @@ inline double pulse(double x) { return std::abs(x) < 1 ? std::pow(std::cos(0.5 *
 
 inline void run_until(CentralDifference& solver, double final_time) {
   while (solver.time() < final_time) {
-    solver.kick(final_time);
-    solver.move(false);
+    solver.advance_velocity(final_time);
+    solver.advance_position(false);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "base/errors.hpp"
 #include "probes.hpp"
-#include "solvers/central_difference.hpp"
+#include "solvers/explicit/central_difference.hpp"
 
 namespace strut {
 namespace {
@@ -39,18 +39,18 @@ Outcome run_free_block(const BlockMaterial& material, double speed, StepControl 
   Vector start = Vector::Zero();
   Outcome outcome{0, 0};
   for (;;) {
-    solver.kick(final_time);
+    solver.advance_velocity(final_time);
     const Ledger now = solver.ledger();
     if (solver.steps() == 0) start = now.momentum;
     outcome.momentum_drift = std::max(outcome.momentum_drift, (now.momentum - start).norm() / start.norm());
     outcome.balance_error = std::max(outcome.balance_error, now.balance_error);
     if (solver.time() >= final_time) return outcome;
-    solver.move(true);
+    solver.advance_position(true);
   }
 }
 
 // Central differences at a constant step conserve the energy of a linear body to round-off. What is left: strains of
-// 3e-6 make the body linear to 3e-6; the energy of the stabilisation is a difference of two sums 1e9 times as large.
+// 3e-6 make the body linear to 3e-6; the energy of the stabilization is a difference of two sums 1e9 times as large.
 TEST(Conservation, ElasticBlockAtConstantStep) {
   const Outcome outcome = run_free_block(copper(false), 0.01, {4e-8, 0}, 200 * 4e-8 / crossing_time);
   EXPECT_LT(outcome.momentum_drift, 1e-12);  // forces are pairs: the round-off of some hundred thousand additions
@@ -73,7 +73,7 @@ TEST(Conservation, PlasticBlock) {
 }
 
 // At 0.99 of the estimated limit a noisy elastic block stays bounded over a thousand steps; above it, it does not.
-TEST(StableStep, LimitIsTheLimit) {
+TEST(CriticalTimeStep, LimitIsTheLimit) {
   const Communicator world;
   const LatticeSpec spec{{7, 7, 7}, 1e-3, 2.015, 0, Influence::one, copper(false)};
   EXPECT_TRUE(stays_bounded(lattice_body(spec, world), 0.99));
@@ -81,12 +81,12 @@ TEST(StableStep, LimitIsTheLimit) {
 }
 
 // A lattice's own formula: for the dispersion of Waves.DispersionOfTheOperator no bulk wave is faster than the limit.
-TEST(StableStep, ScalesWithSpacingAndSpeed) {
+TEST(CriticalTimeStep, ScalesWithSpacingAndSpeed) {
   const Communicator world;
   const auto limit = [&](double spacing, double young) {
     LatticeSpec spec{{7, 7, 7}, spacing, 2.015, 0, Influence::one, {1000, elastic(young, 0.3), 0.02}};
     Body body = lattice_body(spec, world);
-    return CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
+    return CentralDifference(body, {}, {}, {0, 1}, 0).critical_time_step();
   };
   // Rounded down to 10 bits of mantissa: a part in 512 at the most.
   EXPECT_NEAR(limit(2e-3, 1e9) / limit(1e-3, 1e9), 2, 2.0 / 512);

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "mechanics/groups.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
 #include "probes.hpp"
 
 namespace strut {
@@ -149,8 +149,8 @@ INSTANTIATE_TEST_SUITE_P(
                     // Two strips of rows of more than 64 pencils.
                     Case{3.015, Influence::one, 0.02, 0.01, 0.7, {1e-3, 1e-3, 1e-3}, {560, 24, 6}}));
 
-// What a bundle adds up in the lane of a point is what the point's own family adds up, but for round-off.
-TEST(Bundles, LanesAreTheSumsOfTheirPoints) {
+// What a cluster adds up in the lane of a point is what the point's own family adds up, but for round-off.
+TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
   const Communicator world;
   Body body = body_of({2.3, Influence::linear_decay, 0.02, 0.01, 0.8}, FamilyKind::lists, world);
   deform(body, bent);
@@ -169,9 +169,9 @@ TEST(Bundles, LanesAreTheSumsOfTheirPoints) {
                      bonds::residual(family, sites, states.gradients.data(), decay).force);
   };
   std::size_t seen = 0;
-  const Bundles& lists = body.domain.families.lists;
+  const ClusterLists& lists = body.domain.families.lists;
   for (int b = 0; b < lists.count(); ++b) {
-    const auto [forces, residuals] = sums_of(bonds::OfBundle{lists[b]});
+    const auto [forces, residuals] = sums_of(bonds::OfCluster{lists[b]});
     for (std::size_t l = 0; l < lists[b].points.size(); ++l, ++seen) {
       const auto [force, residual] = sums_of(bonds::OfPoint{body.domain.families, lists[b].points[l]});
       check(forces, static_cast<int>(l), force);

@@ -56,8 +56,8 @@ std::vector<Vector> places_after(double time, int steps) {
   }
   CentralDifference solver(body, {}, {}, {time / steps, 0}, 0);
   for (int n = 0; n < steps; ++n) {
-    solver.kick(1e9);
-    solver.move(false);
+    solver.advance_velocity(1e9);
+    solver.advance_position(false);
   }
   std::vector<Vector> places;
   for (int i = 0; i < body.owned(); ++i) places.push_back(body.current(i));

@@ -6,10 +6,10 @@
 #include <random>
 
 #include "base/errors.hpp"
-#include "base/rotation.hpp"
-#include "mechanics/bonds.hpp"
+#include "base/math/rotation.hpp"
+#include "mechanics/kernels/bonds.hpp"
 #include "probes.hpp"
-#include "solvers/central_difference.hpp"
+#include "solvers/explicit/central_difference.hpp"
 
 namespace strut {
 namespace {
@@ -138,7 +138,7 @@ std::string name_of(const testing::TestParamInfo<Influence>& info) {
 INSTANTIATE_TEST_SUITE_P(Influences, Ordinary,
                          testing::Values(Influence::one, Influence::linear_decay, Influence::cubic_decay), name_of);
 
-TEST(Views, SeeAnAffineDeformation) {
+TEST(OutputVariables, SeeAnAffineDeformation) {
   const Communicator world;
   LatticeSpec spec = small_block();
   Body body = lattice_body(spec, world);
@@ -151,7 +151,7 @@ TEST(Views, SeeAnAffineDeformation) {
   EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].rotation.tensor() - R).norm(); }), 1e-12);
 }
 
-TEST(Views, AreLeftAloneWithoutALook) {
+TEST(OutputVariables, AreLeftAloneWithoutALook) {
   const Communicator world;
   LatticeSpec spec = small_block();
   Body body = lattice_body(spec, world);
@@ -250,7 +250,7 @@ TEST(Forces, AreTheGradientOfTheEnergy) {
 TEST(Forces, AreTheGradientOfTheEnergyInAMixedBody) {
   const Communicator world;
   Body body = two_blocks(mixed_spec, ordinary(0.2), by_correspondence(0.3), world);
-  // A hypoelastic law has an energy to the order of the strain only, here 1e-5. The energy of the stabilisation is a
+  // A hypoelastic law has an energy to the order of the strain only, here 1e-5. The energy of the stabilization is a
   // difference of sums (strain)⁻² times as large, 1e-6 of it is lost.
   EXPECT_LT(gradient_error(body, 1e-5, 0.1, world), 1e-4);
 }
@@ -280,18 +280,18 @@ TEST_P(Bodies, ConserveBothMomenta) {
 
 // Noise, the worst there is, over some thousand steps at nine tenths of the limit. Central differences at a constant
 // step conserve the energy of a linear body to round-off; strains of 1e-6 make these linear to 1e-6, and of the energy
-// of the stabilisation, a difference of sums 1e12 times as large, some 1e-5 are round-off.
+// of the stabilization, a difference of sums 1e12 times as large, some 1e-5 are round-off.
 TEST_P(Bodies, ConserveEnergyOverThousandsOfSteps) {
   Body b = body();
-  const double limit = CentralDifference(b, {}, {}, {0, 1}, 0).stable_step();
+  const double limit = CentralDifference(b, {}, {}, {0, 1}, 0).critical_time_step();
   throw_apart(b, 1e-3);
   CentralDifference solver(b, {}, {}, {0.9 * limit, 0}, 0);
   double worst = 0;
   for (int n = 0; n < 3000; ++n) {
     const bool look = n % 100 == 99;
-    solver.kick(1e9);
+    solver.advance_velocity(1e9);
     if (n % 100 == 0) worst = std::max(worst, solver.ledger().balance_error);
-    solver.move(look);
+    solver.advance_position(look);
   }
   EXPECT_LT(worst, GetParam() == Kind::mixed ? 2e-5 : 3e-6);
 }
@@ -306,8 +306,8 @@ TEST_P(Bodies, StableStepDoesNotTurn) {
   Body straight = body(), turned = body();
   const Tensor R = Eigen::AngleAxisd(1.0, Vector(1, 2, 3).normalized()).toRotationMatrix();
   deform(turned, [&](const Vector& X) -> Vector { return R * X; });
-  const double one = CentralDifference(straight, {}, {}, {0, 1}, 0).stable_step();
-  const double other = CentralDifference(turned, {}, {}, {0, 1}, 0).stable_step();
+  const double one = CentralDifference(straight, {}, {}, {0, 1}, 0).critical_time_step();
+  const double other = CentralDifference(turned, {}, {}, {0, 1}, 0).critical_time_step();
   EXPECT_NEAR(one / other, 1, 0.02);  // the accuracy of two estimates (StableStep::accuracy, half of it in the step)
 }
 
@@ -319,8 +319,8 @@ TEST(Failures, AStepFarTooLargeIsReported) {
   std::string text;
   try {
     for (int n = 0; n < 1000; ++n) {
-      solver.kick(1e9);
-      solver.move(false);
+      solver.advance_velocity(1e9);
+      solver.advance_position(false);
     }
   } catch (const Error& error) {
     text = error.what();

@@ -15,7 +15,7 @@ Tensor small_affine() {
   return F;
 }
 
-using Case = std::tuple<Influence, double, bool>;  // influence, perturbation, stabilised by the mean gradient
+using Case = std::tuple<Influence, double, bool>;  // influence, perturbation, stabilized by the mean gradient
 
 class Patch : public testing::TestWithParam<Case> {
  protected:
@@ -73,7 +73,7 @@ TEST_P(Patch, UniformStressExertsNoForceInsideALattice) {
   advance_stress_and_force(body, 1e-6, false);
   const auto force = [&](bool deep) {
     return largest_over(body, [&](int i) {
-      // A point feels the families of its neighbours: two reaches from the surface all is uniform.
+      // A point feels the families of its neighbors: two reaches from the surface all is uniform.
       return is_deep(spec, body.domain.reference(i), 2 * 3.015) == deep ? body.force_density[i].norm() : 0.0;
     });
   };

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "lattice.hpp"
-#include "mechanics/quadratic_fit.hpp"
-#include "mechanics/shared_volume.hpp"
-#include "solvers/central_difference.hpp"
+#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/shared_volume.hpp"
+#include "solvers/explicit/central_difference.hpp"
 
 namespace strut {
 namespace {
@@ -207,7 +207,7 @@ TEST(SharedVolume, IsNotSharedWhereAPlaceIsNearlyFlat) {
   EXPECT_EQ(product(shared, shared), product(dF, dF));
 }
 
-// No stabilisation: noise keeps its energy over ten thousand steps, and the displacements stay noise.
+// No stabilization: noise keeps its energy over ten thousand steps, and the displacements stay noise.
 TEST(Quadratic, NoiseDoesNotGrow) {
   const Communicator world;
   Body body = body_of(block(elastic(110e9, 0.3)), world);
@@ -218,7 +218,7 @@ TEST(Quadratic, NoiseDoesNotGrow) {
   const double final_time = 2000 * 1e-3 / 3500;
   double first = 0, most = 0, imbalance = 0;
   for (;;) {
-    solver.kick(final_time);
+    solver.advance_velocity(final_time);
     if (solver.steps() % 50 == 0 || solver.time() >= final_time) {
       const Ledger now = solver.ledger();
       if (solver.steps() == 0) first = now.kinetic + now.elastic;
@@ -226,10 +226,10 @@ TEST(Quadratic, NoiseDoesNotGrow) {
       imbalance = std::max(imbalance, now.balance_error);
     }
     if (solver.time() >= final_time) break;
-    solver.move(true);
+    solver.advance_position(true);
   }
   EXPECT_GT(solver.steps(), 4000);
-  EXPECT_LT(most, 1.2 * first);  // at 0.8 of the stable step the energy of central differences swings
+  EXPECT_LT(most, 1.2 * first);  // at 0.8 of the critical time step the energy of central differences swings
   EXPECT_EQ(body.points[0].stabilization, 0);
 }
 

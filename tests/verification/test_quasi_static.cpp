@@ -339,9 +339,9 @@ TEST(QuasiStatic, BeyondTheLimitLoadThereIsAnErrorAndTheLastEquilibrium) {
 TEST(QuasiStatic, IsLeftAtItsLastEquilibrium) {
   Bar bar(lattice_of({3, 3, 6}, elastic(young, poisson)), 0.01);
   bool leaves = false;
-  Audience audience = nobody();
-  audience.leaves = [&] { return leaves; };
-  QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 2}, 0, 1, audience);
+  Observer observer = nobody();
+  observer.leaves = [&] { return leaves; };
+  QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 2}, 0, 1, observer);
   EXPECT_TRUE(solver.advance());
   const std::vector<Vector> before = displacements(bar.body);
   leaves = bar.world.rank() == bar.world.size() - 1;  // one rank is enough

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact/pair_law.hpp"
+#include "contact/laws/penalty.hpp"
 #include "loading.hpp"
 
 namespace strut {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <random>
 
-#include "base/rotation.hpp"
+#include "base/math/rotation.hpp"
 #include "lattice.hpp"
 
 namespace strut {

@@ -68,7 +68,7 @@ TEST(Stability, PatternsAreResisted) {
       const double plain = resistance(horizon, 0, pattern), held = resistance(horizon, coefficient, pattern);
       const double scale = young / density / (h * h);
       row(text("pattern (%d %d %d), horizon %g", pattern[0], pattern[1], pattern[2], horizon),
-          text("resistance in units of E/(ρ h²): %.1e, %.1e without stabilisation", held / scale, plain / scale));
+          text("resistance in units of E/(ρ h²): %.1e, %.1e without stabilization", held / scale, plain / scale));
       EXPECT_GT(held, 10 * plain);
       EXPECT_GT(held, 1e-3 * scale);
     }
@@ -82,7 +82,7 @@ double left_of_noise(double stabilization) {
   const Communicator world;
   const LatticeSpec spec{{9, 9, 9}, h, 2.015, 0, Influence::one, metal(stabilization)};
   Body body = lattice_body(spec, world), at_rest = lattice_body(spec, world);
-  const double limit = CentralDifference(at_rest, {}, {}, {0, 1}, 0).stable_step();
+  const double limit = CentralDifference(at_rest, {}, {}, {0, 1}, 0).critical_time_step();
   throw_apart(body, 1e-4 * h);
   for (int i = 0; i < body.owned(); ++i) {
     body.domain.sites[i].current.head<3>() += body.velocity[i].array();
@@ -100,18 +100,18 @@ double left_of_noise(double stabilization) {
   for (int i = 0; i < body.owned(); ++i) first[i] = body.displacement(i);
   CentralDifference solver(body, {}, {}, {0.8 * limit, 0}, 0);
   for (int n = 0; n < steps; ++n) {
-    solver.kick(1e9);
-    solver.move(false);
+    solver.advance_velocity(1e9);
+    solver.advance_position(false);
     for (int i = 0; i < body.owned(); ++i) mean[i] += body.displacement(i) / steps;
   }
   return spread(mean) / spread(first);
 }
 
-// Of all patterns those that F does not see are few: noise is resisted without stabilisation too.
+// Of all patterns those that F does not see are few: noise is resisted without stabilization too.
 TEST(Stability, RandomNoiseIsResisted) {
   const double held = left_of_noise(coefficient), plain = left_of_noise(0);
   row("random displacements",
-      text("%.1e of them left in the mean over 2000 steps, %.1e without stabilisation", held, plain));
+      text("%.1e of them left in the mean over 2000 steps, %.1e without stabilization", held, plain));
   EXPECT_LT(held, 0.05);  // the turn of the whole body stays: √(3/2187) = 0.037 on average
 }
 
@@ -215,14 +215,14 @@ TEST(Stability, TwentyTurnsLeaveNoStress) {
 TEST(Stability, AMillionStepsKeepTheEnergy) {
   const Communicator world;
   Body body = lattice_body({{4, 4, 4}, h, 1.75, 0, Influence::one, metal(coefficient)}, world);
-  const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).stable_step();
+  const double limit = CentralDifference(body, {}, {}, {0, 1}, 0).critical_time_step();
   throw_apart(body, 1e-3);
   CentralDifference solver(body, {}, {}, {0.9 * limit, 0}, 0);
   double drift = 0;
   for (int n = 0; n < 1000000; ++n) {
-    solver.kick(1e9);
+    solver.advance_velocity(1e9);
     if (n % 100000 == 0) drift = std::max(drift, solver.ledger().balance_error);
-    solver.move((n + 1) % 100000 == 0);
+    solver.advance_position((n + 1) % 100000 == 0);
   }
   row("a million steps of free vibration at 0.9 of the limit", text("energy off by %.1e", drift));
   EXPECT_LT(drift, 1e-4);
@@ -244,7 +244,7 @@ TEST(Stability, APointTurnedInsideOutIsNamed) {
 TEST(Stability, APointWithoutNeighboursIsNamed) {
   const char* said = degeneracy(0, Tensor::Zero());
   ASSERT_TRUE(said);
-  row("a point with no neighbours", text("refused: %s", said));
+  row("a point with no neighbors", text("refused: %s", said));
 }
 
 }  // namespace

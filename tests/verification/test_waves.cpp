@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "probes.hpp"
-#include "solvers/central_difference.hpp"
+#include "solvers/explicit/central_difference.hpp"
 
 namespace strut {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 // ---- The discrete operator on a plane wave u = e cos(k·X): exact sums over one family ------------------------------
 // With g = Σ ω V sin(k·ξ) ξ and s = Σ ω V (1 − cos k·ξ):
 //   ρ ω² e = (C : e ⊗ q) q  +  C₀ (2 s − g·q) e  +  C̄ Σ ω V (2 sin(k·ξ/2) − q·ξ cos(k·ξ/2))² e,   q = K⁻¹g
-// (C₀, C̄: the stabilisations, Silling's and by the mean gradient)
+// (C₀, C̄: the stabilizations, Silling's and by the mean gradient)
 
 struct Lattice {
   LatticeSpec spec{{19, 19, 19}, 1.0, 2.515, 0, Influence::linear_decay, {1000, elastic(1e9, 0.2), 0.05}};

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "base/errors.hpp"
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 
 namespace strut::compare {
 

@@ -4,7 +4,7 @@
 #include <istream>
 #include <string>
 
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 
 namespace strut::mesh {
 

@@ -80,9 +80,9 @@ std::string summary_of(const Cells& cells, const Gathering& gathering) {
   char text[700];
   std::snprintf(text, sizeof text,
                 "  %d x %d x %d voxels to a cell: %zu cells in %d x %d x %d places, volume %.6g m^3\n"
-                "  pieces of less than %g of a cell: %zu merged into neighbours, %zu kept that alone join others,\n"
-                "    %zu without neighbours dropped (%.3g %% of the volume)\n"
-                "  cells whose neighbours hardly span space: %zu cut in two layers, %zu merged,\n"
+                "  pieces of less than %g of a cell: %zu merged into neighbors, %zu kept that alone join others,\n"
+                "    %zu without neighbors dropped (%.3g %% of the volume)\n"
+                "  cells whose neighbors hardly span space: %zu cut in two layers, %zu merged,\n"
                 "    %zu kept that a run by quadratic correspondence leaves out (%.3g %% of the volume)\n",
                 n, n, n, cells.parts.size(), places[0], places[1], places[2], kept, gathering.smallest, cells.merged,
                 cells.small, cells.dropped, 100 * lost, cells.cut, cells.flat_merged, cells.flat,

@@ -16,7 +16,7 @@ VoxelGrid coarse_grid(const VoxelGrid& fine, int factor) {
   return {fine.spacing().array() * factor * cells.cast<double>(), cells};
 }
 
-// Merges the small pieces into their neighbours. What cannot be merged waits until its neighbours have changed.
+// Merges the small pieces into their neighbors. What cannot be merged waits until its neighbors have changed.
 class SmallPieces {
  public:
   SmallPieces(const Material& material, const VoxelGrid& grid, double limit, Pieces& pieces)

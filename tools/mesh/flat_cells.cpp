@@ -10,12 +10,12 @@ namespace strut::mesh {
 
 namespace {
 
-// What a run asks for: neighbours, and their mean square distance in any direction, in spacings²
+// What a run asks for: neighbors, and their mean square distance in any direction, in spacings²
 // (src/mechanics/quadratic_fit.cpp).
 constexpr std::size_t least_neighbours = 4;
 constexpr double least_spread = 0.02;
 
-// In spacings. The longer a merged cell, the smaller the stable step (of a recipe foam: 1 % smaller at 3, 8 % at 4).
+// In spacings. The longer a merged cell, the smaller the critical time step (of a recipe foam: 1 % smaller at 3, 8 % at 4).
 constexpr double longest = 3;
 
 }  // namespace
@@ -62,7 +62,7 @@ void FlatCells::find() {
   }
 }
 
-// The mean of ξ⊗ξ over the neighbours, in spacings².
+// The mean of ξ⊗ξ over the neighbors, in spacings².
 Tensor FlatCells::spread(int cell) const {
   Tensor sum = Tensor::Zero();
   double volume = 0;
@@ -75,7 +75,7 @@ Tensor FlatCells::spread(int cell) const {
   return volume > 0 ? Tensor(sum / volume) : sum;
 }
 
-// Halves are no thinner than the smallest cell, so that they do not limit the stable step.
+// Halves are no thinner than the smallest cell, so that they do not limit the critical time step.
 bool FlatCells::is_cut(int cell) const {
   const int axis = normal_[cell];
   if (axis < 0) return false;
@@ -110,7 +110,7 @@ void FlatCells::give_upper_halves(const std::vector<int>& upper) {
 }
 
 // Into cells that have what these lack: a wire of flat cells would only become one of long ones. Those with the fewest
-// contacts first, from the tips to what holds them. A cell whose neighbour has changed waits for the next round, since
+// contacts first, from the tips to what holds them. A cell whose neighbor has changed waits for the next round, since
 // it may have enough now.
 bool FlatCells::merge() {
   Merging merging(pieces_, links_, cells_.grid);
@@ -130,7 +130,7 @@ bool FlatCells::merge() {
   return cells_.flat_merged > before;
 }
 
-// A cell that a run leaves out is no neighbour of others, so that they may be left out, too.
+// A cell that a run leaves out is no neighbor of others, so that they may be left out, too.
 void FlatCells::count_left_out() {
   while (!flat_.empty()) {
     for (const int n : flat_) {

@@ -1,4 +1,4 @@
-// Cells whose neighbours hardly span space: they are cut in two layers, or merged.
+// Cells whose neighbors hardly span space: they are cut in two layers, or merged.
 #pragma once
 
 #include <set>
@@ -8,9 +8,9 @@
 
 namespace strut::mesh {
 
-// A run learns how a cell deforms from where its neighbours go. Where all of them lie in one plane, as in a strut that
+// A run learns how a cell deforms from where its neighbors go. Where all of them lie in one plane, as in a strut that
 // a wall of the box has cut along its length, it learns nothing about the normal of the plane, and leaves the cell out.
-// Cut in two along the normal, the cells are each other's neighbours on either side of the plane.
+// Cut in two along the normal, the cells are each other's neighbors on either side of the plane.
 class FlatCells {
  public:
   FlatCells(const Material& material, const Gathering& gathering, Pieces& pieces, Cells& cells)
@@ -36,7 +36,7 @@ class FlatCells {
   std::vector<std::set<int>> links_;
   std::vector<std::vector<int>> near_;  // those that share a node
   std::vector<int> flat_;
-  std::vector<int> normal_;  // axis of a cell whose neighbours lie in a plane, -1: of others
+  std::vector<int> normal_;  // axis of a cell whose neighbors lie in a plane, -1: of others
   std::vector<char> alive_;  // what a run keeps
 };
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 #include "mesh/recipe.hpp"
 
 namespace strut::mesh {

@@ -1,4 +1,4 @@
-// Pieces of a body that become parts of their neighbours, one by one.
+// Pieces of a body that become parts of their neighbors, one by one.
 #pragma once
 
 #include <limits>
@@ -17,7 +17,7 @@ class Merging {
   Merging(Pieces& pieces, std::vector<std::set<int>> links, const VoxelGrid& grid);
 
   // Merges a piece into the one of its links that is `allowed` and leaves the two most compact, no longer than
-  // `longest` cells. The result is at the place of the latter or, where only this keeps its neighbours, of the former.
+  // `longest` cells. The result is at the place of the latter or, where only this keeps its neighbors, of the former.
   // Returns the piece that holds both, -1: none.
   template <class Allowed>
   int merge(int piece, double longest, const Allowed& allowed) {

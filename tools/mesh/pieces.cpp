@@ -11,7 +11,7 @@ namespace {
 
 using Triple = Eigen::Array3i;
 
-// Both the voxels and their neighbours ascend, so that one walk along the list finds all; no array of the grid's size.
+// Both the voxels and their neighbors ascend, so that one walk along the list finds all; no array of the grid's size.
 std::vector<Upper> upper_neighbours(const std::vector<int>& voxels, const VoxelGrid& grid) {
   std::vector<Upper> upper(voxels.size(), {-1, -1, -1});
   const Upper stride = {1, grid.cells[0], grid.cells[0] * grid.cells[1]};
@@ -43,7 +43,7 @@ std::vector<int> fullest_neighbours(const std::vector<double>& fills, const std:
   return fullest;
 }
 
-// Grey voxels that are less than half full are the rims of struts, and hang on their fullest neighbour alone: two
+// Grey voxels that are less than half full are the rims of struts, and hang on their fullest neighbor alone: two
 // struts whose rims meet are still two.
 std::vector<Upper> joined_neighbours(const std::vector<double>& fills, std::vector<Upper> upper) {
   if (fills.empty()) return upper;
@@ -121,7 +121,7 @@ void add_surfaces(const Material& material, Pieces& pieces) {
     part.surface_moments.row(axis) += area * (at.cwiseProduct(h) - part.centroid).transpose();
   };
   for (int v = 0; v < material.size(); ++v) {
-    if (pieces.of[v] < 0) continue;  // a dropped one has no neighbours
+    if (pieces.of[v] < 0) continue;  // a dropped one has no neighbors
     const double fill = material.fill(v);
     for (int axis = 0; axis < 3; ++axis) {
       if (!has_lower[v][axis]) add(v, axis, -fill, 0);

@@ -8,7 +8,7 @@
 
 namespace strut::mesh {
 
-using Upper = std::array<int, 3>;  // a voxel's neighbours along x, y, z as places in the list, -1: void
+using Upper = std::array<int, 3>;  // a voxel's neighbors along x, y, z as places in the list, -1: void
 
 // What is solid: voxels by their places in a list.
 struct Material {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut::mesh {
 
@@ -24,8 +24,8 @@ struct Body {
   Elements elements = Elements::hexahedra;
   double spacing = 0;              // m, wanted
   int cells = 0;                   // voxels along an edge of a cell, which gathers them; 0: a cell is a voxel
-  double smallest_cell = 0.3;      // of a whole cell: what is smaller is merged into a neighbour
-  double grading = 1;              // largest ratio of the thicknesses of neighbouring layers; 1: all alike
+  double smallest_cell = 0.3;      // of a whole cell: what is smaller is merged into a neighbor
+  double grading = 1;              // largest ratio of the thicknesses of neighboring layers; 1: all alike
   double uniform = 0;              // m, at zmin, where layers are not yet growing
   double coarsest = 0;             // m, largest thickness of a layer; 0: no limit
   double length = 0;               // m, of a cylinder or cone, along z

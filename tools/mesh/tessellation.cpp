@@ -15,7 +15,7 @@ namespace {
 // BCC lattice are the points whose integer coordinates are all even or all odd.
 using Site = Eigen::Array3i;
 
-const double nearest = std::sqrt(3.0);  // distance of neighbours
+const double nearest = std::sqrt(3.0);  // distance of neighbors
 // Beyond the box, on each side: an empty sphere among the seeds has a radius of 1.12 on the lattice and at most 1.99 in
 // the most disturbed one, so that no vertex near the box has a seed, or a wall of the container, farther out.
 constexpr double margin = 5;
@@ -65,7 +65,7 @@ class Seeds {
     return placed_[(static_cast<std::size_t>(place[2]) * width_[1] + place[1]) * width_[0] + place[0]];
   }
 
-  // A seed that finds no room stays on its site, where there always is: neighbours come no closer than `least_`.
+  // A seed that finds no room stays on its site, where there always is: neighbors come no closer than `least_`.
   void place(const Site& site) {
     const Vector lattice = site.cast<double>();
     Vector x = lattice;
@@ -111,7 +111,7 @@ struct Cell {
 
 // An edge is shared by three cells and taken from the one of the smallest number. Edges on a wall are left out.
 void add_edges(const Cell& cell, int number, std::vector<Edge>& edges) {
-  std::map<std::pair<int, int>, int> open;  // edges of one face so far, and the neighbour behind that
+  std::map<std::pair<int, int>, int> open;  // edges of one face so far, and the neighbor behind that
   std::size_t begin = 0;
   for (const int neighbour : cell.neighbours) {
     const int count = cell.faces[begin++];

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 
 namespace strut::mesh {
 
@@ -18,7 +18,7 @@ struct Skeleton {
 };
 
 // Seeds on a body-centred cubic lattice, one of them in the middle of the box, each moved by a random vector within a
-// ball of `irregularity` (0 to 1) times half the distance of neighbours, so that no two come closer than
+// ball of `irregularity` (0 to 1) times half the distance of neighbors, so that no two come closer than
 // (1 - irregularity / 2) of that distance. The lattice goes on around the box: nothing in the box knows of its walls.
 // `cell`: diameter (m) of the sphere that has the mean volume of a cell.
 Skeleton foam_skeleton(const Vector& size, double cell, double irregularity, std::uint64_t seed);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/exodus.hpp"
+#include "io/exodus/exodus.hpp"
 #include "mesh/recipe.hpp"
 #include "mesh/tessellation.hpp"
 

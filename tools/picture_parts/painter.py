@@ -109,7 +109,7 @@ def unit(vectors):
 
 
 def corner_normals(corners, quads, rounds=1):
-    """Normals at corners, averaged with their neighbours'."""
+    """Normals at corners, averaged with their neighbors'."""
     sides = quads.T
     p = corners[sides]
     of_quad = np.cross(p[2] - p[0], p[3] - p[1])

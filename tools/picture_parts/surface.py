@@ -1,11 +1,11 @@
 """The surface of a cloud of material points: the free faces of their cubes, which move with the points.
 
-On a lattice, cubes that are neighbours share corners, and a corner moves by the mean of the points around it: the surface
+On a lattice, cubes that are neighbors share corners, and a corner moves by the mean of the points around it: the surface
 stays closed while the body deforms, and faces between two cubes are not drawn. Elsewhere each point is a cube by itself.
 """
 import numpy as np
 
-# The six faces of a cube: the step to the neighbour, and the corners, counter-clockwise as seen from outside.
+# The six faces of a cube: the step to the neighbor, and the corners, counter-clockwise as seen from outside.
 FACES = [((1, 0, 0), ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1))), ((-1, 0, 0), ((0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0))),
          ((0, 1, 0), ((0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0))), ((0, -1, 0), ((0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1))),
          ((0, 0, 1), ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))), ((0, 0, -1), ((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))]

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/tensors.hpp"
+#include "base/math/tensors.hpp"
 #include "point_driver.hpp"
 
 namespace strut::point {

@@ -149,7 +149,7 @@ def largest_pieces(solid, keep):
 
 
 def without_spurs(solid, least):
-    """Without voxels that have fewer than `least` of the 26 neighbours, again until none is left; and how many had so
+    """Without voxels that have fewer than `least` of the 26 neighbors, again until none is left; and how many had so
     few at first. What lies outside the box counts as void."""
     padded = np.pad(solid, 1)
     flat = padded.reshape(-1)
@@ -185,7 +185,7 @@ def kept_of(solid, pieces, spurs, least):
                  f"({100 * kept / voxels:.2f} %); the others have {others}")
     stripped, few = without_spurs(solid, least)
     gone = kept - np.count_nonzero(stripped)
-    text = f"{few:,} voxels have fewer than {least} of 26 neighbours"
+    text = f"{few:,} voxels have fewer than {least} of 26 neighbors"
     if spurs == "report":
         return solid, about, text + (f"; --spurs drop would take {gone:,}" if few else "")
     while stripped.any():
@@ -194,7 +194,7 @@ def kept_of(solid, pieces, spurs, least):
         if not few and np.count_nonzero(solid) == np.count_nonzero(stripped):
             break
     if not stripped.any():
-        fail(f"--spurs drop with --min-neighbours {least} leaves nothing")
+        fail(f"--spurs drop with --min-neighbors {least} leaves nothing")
     lost = kept - np.count_nonzero(stripped)
     apart = f", {lost - gone:,} more with what they held" if lost > gone else ""
     return stripped, about, f"{text}; {gone:,} dropped, one after the other{apart}"
@@ -211,7 +211,7 @@ def faces_touched(solid):
 
 def thickness(solid, cell):
     """Mean and largest local thickness, m, or None without void: twice the distance to the centre of the nearest void
-    voxel, at those voxels where none of the 26 neighbours has a larger one (the ridge). The mean is weighted by the
+    voxel, at those voxels where none of the 26 neighbors has a larger one (the ridge). The mean is weighted by the
     section, thickness squared: else the steps of a surface, which are small ridges too, decide it. So it comes close to
     the mean over the volume: for the CT foam 192 um where spheres fitted into the solid at every voxel give 180 um, and
     187 to 202 um for the same foam at half to twice the resolution. A plate along the axes of an odd number of voxels

@@ -10,14 +10,14 @@ from .runs import ONE_EQUILIBRIUM, parameter, section
 @dataclasses.dataclass(frozen=True)
 class Method:
     points: str          # Elements or Nodes
-    stabilisation: str   # "none", "Silling 0.02", "Mean Gradient 0.01", "ordinary"; "quadratic": needs none
+    stabilization: str   # "none", "Silling 0.02", "Mean Gradient 0.01", "ordinary"; "quadratic": needs none
     horizon: float       # in spacings
     influence: str = "One"
 
     def kind(self):
-        if self.stabilisation == "none":
+        if self.stabilization == "none":
             return "None", ""
-        name, coefficient = self.stabilisation.rsplit(" ", 1)
+        name, coefficient = self.stabilization.rsplit(" ", 1)
         return name, coefficient
 
 
@@ -51,8 +51,8 @@ PLAIN = [Method(points, kind, horizon) for points in ("Elements", "Nodes") for k
 PLAIN += [Method(points, "quadratic", 1.75) for points in ("Elements", "Nodes")]
 
 
-def row(points, stabilisation, horizon, spacing, number="", seconds=None, error=None, note=""):
-    return {"points": points, "stabilisation": stabilisation, "horizon": horizon, "spacing": round(spacing, 2),
+def row(points, stabilization, horizon, spacing, number="", seconds=None, error=None, note=""):
+    return {"points": points, "stabilization": stabilization, "horizon": horizon, "spacing": round(spacing, 2),
             "number": number, "seconds": seconds, "error": error, "front": False, "note": note}
 
 
@@ -74,7 +74,7 @@ class Case:
         for method in self.methods:
             for spacing in self.spacings_of(method):
                 result = self.run(runner, method, spacing)
-                keys = (method.points.lower(), method.stabilisation, method.horizon, spacing * self.scale)
+                keys = (method.points.lower(), method.stabilization, method.horizon, spacing * self.scale)
                 if result is None:
                     rows.append(row(*keys, note="does not run to the end"))
                 else:
@@ -158,7 +158,7 @@ class Bar(Case):
     error is the root mean square of both."""
     name, unit, title = "bar", "mm", "Taylor bar at 227 m/s"
     spacings, scale = (0.8e-3, 0.5e-3, 0.35e-3), 1e3
-    methods = [m for m in PLAIN if m.horizon < 3 or (m.points == "Elements" and m.stabilisation != "none")]
+    methods = [m for m in PLAIN if m.horizon < 3 or (m.points == "Elements" and m.stabilization != "none")]
     times = (5, 10, 20, 30, 40, 50, 60, 70, 78, 80)
     radii = (4.522, 5.233, 6.205, 6.820, 7.147, 7.237, 7.234, 7.234, 7.233, 7.233)
     lengths = (31.264, 30.139, 28.065, 26.189, 24.562, 23.221, 22.213, 21.593, 21.420, 21.430)
@@ -170,7 +170,7 @@ class Bar(Case):
 
     def spacings_of(self, method):
         """The finest takes minutes: for the best ones."""
-        return self.spacings if method.points == "Nodes" and method.stabilisation != "none" else self.spacings[:2]
+        return self.spacings if method.points == "Nodes" and method.stabilization != "none" else self.spacings[:2]
 
     def run(self, runner, method, spacing):
         """A point at an element stands for what reaches half a spacing farther: so far is the wall from the lowest."""
@@ -220,7 +220,7 @@ class Struts(Case):
 
     def spacings_of(self, method):
         """The finest takes minutes: for the best ones."""
-        best = method.stabilisation in ("quadratic", "Mean Gradient 0.01")
+        best = method.stabilization in ("quadratic", "Mean Gradient 0.01")
         return [self.size / n for n in (self.voxels if best else self.voxels[:-1])]
 
     def mesh(self, runner, spacing, **keys):
@@ -228,7 +228,7 @@ class Struts(Case):
                                             relative_density=0.10, seed=2, spacing=spacing, **keys))
 
     def run(self, runner, method, spacing):
-        cells = gathered(spacing, self.size / 264) if method.stabilisation == "quadratic" else {}
+        cells = gathered(spacing, self.size / 264) if method.stabilization == "quadratic" else {}
         mesh = self.mesh(runner, spacing, **cells)
         material = elastic(self.young, self.poisson, self.density)
         rest = runner.run("struts-slow", mesh, method, material, between_plates("Displacement", f"-{self.shift}*t"), 1, 1,
@@ -273,7 +273,7 @@ class Kelvin(Case):
         "Elastic Plastic Correspondence")
 
     def run(self, runner, method, spacing):
-        cells = gathered(spacing, 12e-6) if method.stabilisation == "quadratic" else {}
+        cells = gathered(spacing, 12e-6) if method.stabilization == "quadratic" else {}
         mesh = runner.mesh("kelvin", recipe(shape="foam", size=f"{self.width} {self.width} {self.length}", cell=1.96949e-3,
                                             relative_density=0.08, irregularity=0, spacing=spacing, **cells))
         final_time = self.strain * self.length / self.speed

@@ -27,9 +27,9 @@ def seconds_at(rows, aim, count):
 def table(rows, aim):
     lines = [f"| points at | scheme | powers of the spacing: error, core-s | core-s at {100 * aim:g} %: by two finest rows | by three | |",
              "|---|---|---|---|---|---|"]
-    schemes = dict.fromkeys((row["points"], row["stabilisation"], row["horizon"]) for row in rows)
+    schemes = dict.fromkeys((row["points"], row["stabilization"], row["horizon"]) for row in rows)
     for scheme in schemes:
-        own = [row for row in rows if (row["points"], row["stabilisation"], row["horizon"]) == scheme and row["error"]]
+        own = [row for row in rows if (row["points"], row["stabilization"], row["horizon"]) == scheme and row["error"]]
         own.sort(key=lambda row: -row["spacing"])
         if len(own) < 3:
             continue

@@ -14,7 +14,7 @@ def panel(axes, case, rows):
     for row in rows:
         nodes = row["points"] == "nodes"
         axes.plot(row["seconds"], abs(row["error"]), "o" if nodes else "s", mfc="none" if row["horizon"] == "3.015" else None,
-                  color=COLOURS[row["stabilisation"].split()[0]], ms=7)
+                  color=COLOURS[row["stabilization"].split()[0]], ms=7)
     front = sorted((row["seconds"], abs(row["error"])) for row in rows if row["front"])
     axes.plot(*zip(*front), "k-", lw=1, zorder=0)
     axes.set(xscale="log", yscale="log", title=case.title, xlabel="core-seconds", ylabel="relative error")

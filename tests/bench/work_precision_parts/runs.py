@@ -9,7 +9,7 @@ import numpy as np
 from strut_tools import seconds_of_phase, with_core_seconds
 from picture_parts import result as picture_result
 
-STEPPING = ("Deformation and stress", "Stabilisation", "Force", "Halo exchange", "Agreement of ranks", "Stable step",
+STEPPING = ("Deformation and stress", "Stabilization", "Force", "Halo exchange", "Agreement of ranks", "Critical time step",
             "Motion and conditions", "Contact search", "Contact forces")
 
 
@@ -31,9 +31,9 @@ ONE_EQUILIBRIUM = section("QuasiStatic", parameter("Number of Load Steps", 1, "i
 
 
 def method_keys(method):
-    if method.stabilisation == "ordinary":
+    if method.stabilization == "ordinary":
         return parameter("Material Model", "Elastic")
-    if method.stabilisation == "quadratic":
+    if method.stabilization == "quadratic":
         return parameter("Formulation", "Quadratic Correspondence")
     kind, coefficient = method.kind()
     return parameter("Stabilization", kind) + (parameter("Stabilization Coefficient", coefficient) if coefficient else "")
@@ -77,7 +77,7 @@ class Runner:
     def run(self, name, mesh, method, material, conditions, final_time, interval, variables, solver=VERLET):
         """None where the run fails."""
         model = method_keys(method)
-        if method.stabilisation != "ordinary":
+        if method.stabilization != "ordinary":
             model = parameter("Material Model", material.correspondence) + model
         deck = section(
             "deck",

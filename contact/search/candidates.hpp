@@ -1,0 +1,43 @@
+// Inside contact: the points that a search on this rank knows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contact/search/search.hpp"
+
+namespace strut::contact {
+
+// A point as it travels to other ranks.
+struct Candidate {
+  double reference[4], current[4];  // of Site
+  double mass, skin;                // kg; m, of this point alone
+  std::int64_t id, block, owned;    // owned: its local index on the rank that owns it
+};
+
+inline Vector place(const Candidate& c) { return {c.current[0], c.current[1], c.current[2]}; }
+inline Vector reference(const Candidate& c) { return {c.reference[0], c.reference[1], c.reference[2]}; }
+
+// Owned points, ascending, then those of other ranks.
+struct CandidatePool {
+  std::vector<Candidate> members;
+  std::size_t owned = 0;
+
+  bool owns(int m) const { return m < static_cast<int>(owned); }
+};
+
+// Whether two members may touch before both have used up their skins.
+struct Criterion {
+  double radius;  // r_c, m
+  const BlockPair& blocks;
+
+  bool operator()(const Candidate& a, const Candidate& b) const {
+    const Vector xi = reference(b) - reference(a);
+    const double reach =
+        touching_distance(radius, xi.norm(), blocks.one_body) + (a.skin + b.skin);  // the same from both
+    const double distance2 = (place(b) - place(a)).squaredNorm();
+    return distance2 <= reach * reach && !(blocks.one_body && bonded(a.current[3], b.current[3], xi));
+  }
+};
+
+}  // namespace strut::contact

@@ -1,0 +1,170 @@
+#include "contact/search/search.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+
+#include "contact/search/clusters.hpp"
+#include "contact/search/candidates.hpp"
+#include "points/bounding_box.hpp"
+#include "points/nearby_ranks.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+Candidate candidate(const Kinematics& kinematics, int i, double skin) {
+  const Site& site = kinematics.domain.sites[i];
+  Candidate c{};
+  std::copy_n(site.reference.data(), 4, c.reference);
+  std::copy_n(site.current.data(), 4, c.current);
+  c.mass = kinematics.densities[i] * site.reference[3];
+  c.skin = skin;
+  c.id = kinematics.domain.cloud.ids[i];
+  c.block = kinematics.domain.cloud.blocks[i];
+  c.owned = i;
+  return c;
+}
+
+Site site(const Candidate& c) {
+  Site site;
+  std::copy_n(c.reference, 4, site.reference.data());
+  std::copy_n(c.current, 4, site.current.data());
+  return site;
+}
+
+// The box of the points of a block over all ranks.
+Box box_of(const Kinematics& kinematics, const BlockPair& blocks, int block) {
+  Box mine;
+  for (const int i : blocks.points) {
+    if (kinematics.domain.cloud.blocks[i] == block) mine.extend(kinematics.domain.current(i));
+  }
+  return common_box(mine, kinematics.domain.communicator);
+}
+
+// The points, as indices of parties.points, that may have a partner: those near the box of the other party. Others,
+// which are at a distance D from it, may go half of D − r_c, and no pair of them has come nearer than that.
+std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& blocks, double radius, SkinDistances& skins) {
+  std::vector<int> near(blocks.points.size());
+  std::iota(near.begin(), near.end(), 0);
+  if (blocks.self()) return near;
+  const Box first = box_of(kinematics, blocks, blocks.first), second = box_of(kinematics, blocks, blocks.second);
+  std::erase_if(near, [&](int k) {
+    const int i = blocks.points[k];
+    const Box& others = kinematics.domain.cloud.blocks[i] == blocks.first ? second : first;
+    const double room = others.isEmpty() ? std::numeric_limits<double>::infinity()
+                                         : others.exteriorDistance(kinematics.domain.current(i)) - radius;
+    if (room <= skins.of[k] + skins.largest) return false;
+    skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({room / 2, room - skins.largest, 1e30}));  // rounds
+    return true;
+  });
+  return near;
+}
+
+// The points parties.points[k], k in `near`, and those near them on other ranks.
+CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& blocks, const std::vector<int>& near, const SkinDistances& skins,
+             double radius) {
+  CandidatePool candidates;
+  std::vector<Vector> places;
+  candidates.members.reserve(near.size());
+  for (const int k : near) {
+    candidates.members.push_back(candidate(kinematics, blocks.points[k], skins.of[k]));
+    places.push_back(place(candidates.members.back()));
+  }
+  candidates.owned = candidates.members.size();
+  const double reach = (radius + 2 * skins.largest) * (1 + 1e-9);  // a pair at the limit is found by both ranks
+  const auto others =
+      from_nearby_ranks<Candidate>(box_around(places), places, candidates.members, reach, kinematics.domain.communicator);
+  candidates.members.insert(candidates.members.end(), others.begin(), others.end());
+  return candidates;
+}
+
+// Of each of some members, places in the pool.
+struct Lists {
+  std::vector<std::size_t> start;
+  std::vector<int> members;
+
+  auto of(std::size_t k) const { return std::span(members).subspan(start[k], start[k + 1] - start[k]); }
+};
+
+// Lists of `count` members that are filled in the order of for_each(visit), which calls visit(k, member of its list).
+template <class ForEach>
+Lists lists_from(std::size_t count, const ForEach& for_each) {
+  Lists lists{std::vector<std::size_t>(count + 1, 0), {}};
+  for_each([&](int k, int) { ++lists.start[k + 1]; });
+  std::partial_sum(lists.start.begin(), lists.start.end(), lists.start.begin());
+  lists.members.resize(lists.start.back());
+  std::vector<std::size_t> next(lists.start.begin(), lists.start.end() - 1);
+  for_each([&](int k, int member) { lists.members[next[k]++] = member; });
+  return lists;
+}
+
+// Partners of the pool's owned members, ordered by id: all partners are gone through in this order.
+Lists lists_of(const CandidatePool& candidates, const IndexPairs& pairs) {
+  const Lists owned = lists_from(candidates.members.size(), [&](const auto& visit) {
+    for (const auto& [k, partner] : pairs) visit(partner, k);
+  });
+  std::vector<int> partners;
+  for (std::size_t m = 0; m < candidates.members.size(); ++m) {
+    if (!owned.of(m).empty()) partners.push_back(static_cast<int>(m));
+  }
+  std::ranges::sort(partners, {}, [&](int m) { return candidates.members[m].id; });
+  return lists_from(candidates.owned, [&](const auto& visit) {
+    for (const int partner : partners) {
+      for (const int k : owned.of(partner)) visit(k, partner);
+    }
+  });
+}
+
+// The members of the pool that are in a pair: owned ones, then the others by id.
+std::vector<int> paired_members(const CandidatePool& candidates, const Lists& lists) {
+  std::vector<int> members, others;
+  for (std::size_t k = 0; k < candidates.owned; ++k) {
+    if (!lists.of(k).empty()) members.push_back(static_cast<int>(k));
+  }
+  std::vector<bool> seen(candidates.members.size());
+  for (const int partner : lists.members) {
+    if (!candidates.owns(partner) && !seen[partner]) others.push_back(partner);
+    seen[partner] = true;
+  }
+  std::ranges::sort(others, {}, [&](int m) { return candidates.members[m].id; });
+  members.insert(members.end(), others.begin(), others.end());
+  return members;
+}
+
+Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_body, const Communicator& communicator) {
+  Pairs pairs;
+  pairs.one_body = one_body;
+  std::vector<int> local(candidates.members.size(), -1);
+  for (const int m : paired_members(candidates, lists)) {
+    const Candidate& member = candidates.members[m];
+    local[m] = static_cast<int>(pairs.sites.size());
+    pairs.sites.push_back(site(member));
+    pairs.masses.push_back(member.mass);
+    pairs.ids.push_back(member.id);
+    if (!candidates.owns(m)) continue;
+    pairs.owned.push_back(static_cast<int>(member.owned));
+    pairs.start.push_back(pairs.start.back() + lists.of(m).size());
+  }
+  for (const int partner : lists.members) pairs.partners.push_back(local[partner]);
+  const auto first_other = pairs.ids.begin() + static_cast<std::ptrdiff_t>(pairs.owned.size());
+  const std::vector<std::int64_t> owned(pairs.ids.begin(), first_other), others(first_other, pairs.ids.end());
+  if (communicator.sum(static_cast<std::int64_t>(others.size())) > 0) {
+    pairs.halo.emplace(communicator, owned, others);
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, const Model& model, SkinDistances& skins) {
+  const std::vector<int> near = near_points(kinematics, blocks, model.radius, skins);
+  const CandidatePool candidates = candidates_of(kinematics, blocks, near, skins, model.radius);
+  const Lists lists = lists_of(candidates, pairs_in(candidates, {model.radius, blocks}));
+  return pairs_of(candidates, lists, blocks.one_body, kinematics.domain.communicator);
+}
+
+}  // namespace strut::contact

@@ -1,0 +1,148 @@
+// Evaluation: a machine with a stack of numbers.
+#include "base/math/expression.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace strut {
+
+namespace {
+
+constexpr double largest_exponent = 709;  // exp of more is infinite, and the library's series do not end there
+
+double bessel_i(double order, double x) {
+  return std::fabs(x) > largest_exponent ? INFINITY : std::cyl_bessel_i(order, std::fabs(x));
+}
+
+double i0(double x) { return bessel_i(0, x); }
+double i1(double x) { return std::copysign(bessel_i(1, x), x); }
+
+using Do = Instruction::Do;
+
+double combined(Do what, double a, double b) {
+  switch (what) {
+    case Do::add:
+      return a + b;
+    case Do::subtract:
+      return a - b;
+    case Do::multiply:
+      return a * b;
+    case Do::divide:
+      return a / b;
+    case Do::power:
+      return std::pow(a, b);
+    case Do::less:
+      return a < b;
+    case Do::greater:
+      return a > b;
+    case Do::less_or_equal:
+      return a <= b;
+    case Do::greater_or_equal:
+      return a >= b;
+    case Do::equal:
+      return a == b;
+    case Do::different:
+      return a != b;
+    case Do::both:
+      return a != 0 && b != 0;
+    default:
+      return a != 0 || b != 0;
+  }
+}
+
+class Machine {
+ public:
+  Machine(double x, double y, double z, double t) : variables_{x, y, z, t} {}
+
+  // How many instructions to skip after this one.
+  int execute(const Instruction& one) {
+    switch (one.what) {
+      case Do::push_number:
+        push(one.number);
+        return 0;
+      case Do::push_variable:
+        push(variables_[one.place]);
+        return 0;
+      case Do::pop_variable:
+        variables_[one.place] = pop();
+        return 0;
+      case Do::truncate:
+        push(std::trunc(pop()));
+        return 0;
+      case Do::negate:
+        push(-pop());
+        return 0;
+      case Do::invert:
+        push(pop() == 0);
+        return 0;
+      case Do::call:
+        call(math_functions()[one.place]);
+        return 0;
+      case Do::skip:
+        return one.place;
+      case Do::skip_if_zero:
+        return pop() == 0 ? one.place : 0;
+      default: {
+        const double b = pop(), a = pop();
+        push(combined(one.what, a, b));
+        return 0;
+      }
+    }
+  }
+
+  double value() const { return variables_[static_cast<int>(Given::value)]; }
+
+ private:
+  void push(double number) { stack_[height_++] = number; }
+  double pop() { return stack_[--height_]; }
+
+  void call(const MathFunction& function) {
+    if (function.arguments == 1) return push(function.of_one(pop()));
+    const double b = pop(), a = pop();
+    push(function.of_two(a, b));
+  }
+
+  // A level of brackets leaves no more than an operand for each of the six kinds of operators.
+  std::array<double, 8 * (Expression::deepest + 2)> stack_;
+  int height_ = 0;
+  std::array<double, Expression::most_variables> variables_;
+};
+
+}  // namespace
+
+double Expression::operator()(double x, double y, double z, double t) const {
+  Machine machine(x, y, z, t);
+  for (std::size_t i = 0; i < program_.size(); ++i) i += machine.execute(program_[i]);
+  return machine.value();
+}
+
+const std::vector<MathFunction>& math_functions() {
+  using std::acos, std::asin, std::atan, std::cos, std::cosh, std::erf, std::erfc, std::exp, std::fabs, std::log,
+      std::log10, std::sin, std::sinh, std::sqrt, std::tan, std::tanh, std::tgamma;
+  static const std::vector<MathFunction> all{{"fabs", 1, fabs},
+                                             {"sqrt", 1, sqrt},
+                                             {"pow", 2, nullptr, [](double a, double b) { return std::pow(a, b); }},
+                                             {"exp", 1, exp},
+                                             {"log", 1, log},
+                                             {"log10", 1, log10},
+                                             {"sin", 1, sin},
+                                             {"cos", 1, cos},
+                                             {"tan", 1, tan},
+                                             {"asin", 1, asin},
+                                             {"acos", 1, acos},
+                                             {"atan", 1, atan},
+                                             {"atan2", 2, nullptr, [](double a, double b) { return std::atan2(a, b); }},
+                                             {"sinh", 1, sinh},
+                                             {"cosh", 1, cosh},
+                                             {"tanh", 1, tanh},
+                                             {"erf", 1, erf},
+                                             {"erfc", 1, erfc},
+                                             {"gamma", 1, tgamma},
+                                             {"j0", 1, ::j0},
+                                             {"j1", 1, ::j1},
+                                             {"i0", 1, i0},
+                                             {"i1", 1, i1}};
+  return all;
+}
+
+}  // namespace strut

@@ -1,0 +1,344 @@
+// Compilation, by recursive descent:
+//   statements: { [double | int] name = or ; | if ( or ) { statements } [else if …] [else { statements }] }
+//   or, and, equality, order, sum, product: operands with operators of one rank between, from the left
+//   power: {- | + | !} primary [^ power];  primary: number | name | function ( … ) | ( or )
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "base/math/expression.hpp"
+#include "base/math/function.hpp"
+
+namespace strut {
+
+namespace {
+
+using Do = Instruction::Do;
+
+// Longer ones first, where one begins with another.
+struct Operator {
+  const char* text;
+  Do what;
+  int rank;
+};
+constexpr Operator operators[] = {
+    {"||", Do::either, 0},    {"&&", Do::both, 1},          {"==", Do::equal, 2},
+    {"!=", Do::different, 2}, {"<=", Do::less_or_equal, 3}, {">=", Do::greater_or_equal, 3},
+    {"<", Do::less, 3},       {">", Do::greater, 3},        {"+", Do::add, 4},
+    {"-", Do::subtract, 4},   {"*", Do::multiply, 5},       {"/", Do::divide, 5}};
+constexpr int ranks = 6;
+
+bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool in_name(char c) { return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+}  // namespace
+
+class ExpressionParser {
+ public:
+  explicit ExpressionParser(const std::string& text) : text_(text) {}
+
+  Expression parse() {
+    if (text_.size() > Expression::longest) {
+      throw Error("it has " + std::to_string(text_.size()) + " characters, at most " +
+                  std::to_string(Expression::longest) + " are possible");
+    }
+    if (mentions_value()) {
+      while (!at_end()) statement();
+    } else {
+      binary(0);
+      if (!at_end()) fail("expected an operator");
+      emit(Do::pop_variable, static_cast<int>(Given::value));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct Variable {
+    std::string name;
+    bool whole = false;  // an int
+  };
+
+  // Counts what is open while it is alive: the parser calls itself for it.
+  class Level {
+   public:
+    explicit Level(ExpressionParser& parser) : parser_(parser) {
+      if (++parser_.depth_ > Expression::deepest) {
+        parser_.fail("more than " + std::to_string(Expression::deepest) + " brackets or signs within each other");
+      }
+    }
+    ~Level() { --parser_.depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+   private:
+    ExpressionParser& parser_;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const {
+    const std::size_t shown = 20;
+    const std::string rest = at_ < text_.size() ? "'" + text_.substr(at_, shown) + "'" : "the end";
+    throw Error("at character " + std::to_string(at_ + 1) + ", before " + rest + ": " + what);
+  }
+
+  // ---- characters
+
+  void skip_blanks() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+  }
+
+  bool at_end() {
+    skip_blanks();
+    return at_ == text_.size();
+  }
+
+  char next() {
+    skip_blanks();
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+
+  bool take(const std::string& token) {
+    skip_blanks();
+    if (text_.compare(at_, token.size(), token) != 0) return false;
+    at_ += token.size();
+    return true;
+  }
+
+  void expect(const std::string& token) {
+    if (!take(token)) fail("expected '" + token + "'");
+  }
+
+  std::string name() {
+    skip_blanks();
+    std::size_t end = at_;
+    while (end < text_.size() && in_name(text_[end])) ++end;
+    const std::string found = text_.substr(at_, end - at_);
+    if (found.empty() || !begins_name(found[0])) fail("expected a name");
+    at_ = end;
+    return found;
+  }
+
+  // The name that comes next, left where it is.
+  std::string coming_name() {
+    const std::size_t here = at_;
+    const std::string found = begins_name(next()) ? name() : "";
+    at_ = here;
+    return found;
+  }
+
+  bool mentions_value() const {
+    const std::string wanted = "value";
+    for (std::size_t n = text_.find(wanted); n != std::string::npos; n = text_.find(wanted, n + 1)) {
+      const std::size_t end = n + wanted.size();
+      if ((n == 0 || !in_name(text_[n - 1])) && (end == text_.size() || !in_name(text_[end]))) return true;
+    }
+    return false;
+  }
+
+  // ---- instructions
+
+  void emit(Do what, int place = 0, double number = 0) { result_.program_.push_back({what, number, place}); }
+
+  // To be completed by land(), which makes it skip all that follows it until then.
+  std::size_t emit_skip(Do what) {
+    emit(what);
+    return result_.program_.size() - 1;
+  }
+  void land(std::size_t skip) { result_.program_[skip].place = static_cast<int>(result_.program_.size() - skip - 1); }
+
+  // ---- statements
+
+  void statement() {
+    const std::string word = coming_name();
+    if (word == "if") return condition();
+    if (word == "for" || word == "while") fail("there are no loops");
+    if (word == "double" || word == "float" || word == "int") {
+      name();
+      return declaration(word == "int");
+    }
+    if (word.empty()) fail("expected a statement such as 'value = x;'");
+    assignment(assignable());
+  }
+
+  void declaration(bool whole) {
+    const std::string fresh = name();
+    if (place_of(fresh) >= 0 || function_of(fresh) >= 0) fail("the name '" + fresh + "' is taken");
+    if (variables_.size() == Expression::most_variables) fail("too many variables");
+    variables_.push_back({fresh, whole});
+    emit(Do::push_number);
+    emit(Do::pop_variable, static_cast<int>(variables_.size()) - 1);  // 0, also where a branch is not taken
+    if (next() == '=') return assignment(static_cast<int>(variables_.size()) - 1);
+    end_statement();
+  }
+
+  int assignable() {
+    const std::size_t here = at_;
+    const int place = variable(name());
+    if (place >= static_cast<int>(Given::value)) return place;
+    at_ = here;
+    fail("x, y, z and t cannot be changed");
+  }
+
+  void assignment(int place) {
+    expect("=");
+    binary(0);
+    if (variables_[place].whole) emit(Do::truncate);
+    emit(Do::pop_variable, place);
+    end_statement();
+  }
+
+  // The last one needs no semicolon.
+  void end_statement() {
+    if (!at_end()) expect(";");
+  }
+
+  void condition() {
+    const Level level(*this);
+    name();
+    expect("(");
+    binary(0);
+    expect(")");
+    const std::size_t to_else = emit_skip(Do::skip_if_zero);
+    block();
+    if (coming_name() != "else") return land(to_else);
+    name();
+    const std::size_t to_end = emit_skip(Do::skip);
+    land(to_else);
+    coming_name() == "if" ? condition() : block();
+    land(to_end);
+  }
+
+  void block() {
+    const Level level(*this);
+    expect("{");
+    while (!at_end() && next() != '}') statement();
+    expect("}");
+  }
+
+  // ---- expressions
+
+  const Operator* coming_operator(int rank) {
+    skip_blanks();
+    for (const Operator& one : operators) {
+      if (text_.compare(at_, std::char_traits<char>::length(one.text), one.text) == 0) {
+        return one.rank == rank ? &one : nullptr;
+      }
+    }
+    return nullptr;
+  }
+
+  void binary(int rank) {
+    if (rank == ranks) return power();
+    binary(rank + 1);
+    while (const Operator* one = coming_operator(rank)) {
+      take(one->text);
+      binary(rank + 1);
+      emit(one->what);
+    }
+  }
+
+  void power() {
+    const Level level(*this);
+    const std::vector<Do> before = signs();
+    primary();
+    // Languages differ here: in some the sign binds stronger, in others the power.
+    if (next() == '^' && !before.empty()) fail("write -(a^b) or (-a)^b: which of the two is meant?");
+    for (auto one = before.rbegin(); one != before.rend(); ++one) emit(*one);
+    if (!take("^")) return;
+    power();
+    emit(Do::power);
+  }
+
+  // What is to be done to the number after them, from the right.
+  std::vector<Do> signs() {
+    std::vector<Do> all;
+    for (;;) {
+      if (take("-")) {
+        all.push_back(Do::negate);
+      } else if (take("!")) {
+        all.push_back(Do::invert);
+      } else if (!take("+")) {
+        return all;
+      }
+    }
+  }
+
+  void primary() {
+    const char c = next();
+    if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
+    if (begins_name(c)) return named();
+    if (!take("(")) fail("expected a number, a name or '('");
+    binary(0);
+    expect(")");
+  }
+
+  void number() {
+    double value = 0;
+    const char *begin = text_.data() + at_, *end = text_.data() + text_.size();
+    const auto [rest, failure] = std::from_chars(begin, end, value);
+    if (failure != std::errc()) fail("expected a number that a double can hold");
+    if (rest != end && (in_name(*rest) || *rest == '.')) fail("expected a number");
+    at_ += static_cast<std::size_t>(rest - begin);
+    emit(Do::push_number, 0, value);
+  }
+
+  void named() {
+    const std::size_t here = at_;
+    const std::string word = name();
+    if (next() == '(') return call(word, here);
+    at_ = here;
+    const int place = variable(word);
+    at_ = here + word.size();
+    result_.uses_place_ = result_.uses_place_ || place <= static_cast<int>(Given::z);
+    result_.uses_time_ = result_.uses_time_ || place == static_cast<int>(Given::t);
+    emit(Do::push_variable, place);
+  }
+
+  void call(const std::string& word, std::size_t here) {
+    const int place = function_of(word);
+    if (place < 0) {
+      at_ = here;
+      fail("there is no function '" + word + "'" + did_you_mean(word, functions_in_expressions()) + "; there are " +
+           joined(functions_in_expressions()));
+    }
+    expect("(");
+    binary(0);
+    for (int n = 1; n < math_functions()[place].arguments; ++n) {
+      expect(",");
+      binary(0);
+    }
+    expect(")");
+    emit(Do::call, place);
+  }
+
+  // ---- names
+
+  int place_of(const std::string& word) const {
+    const auto found =
+        std::find_if(variables_.begin(), variables_.end(), [&](const auto& v) { return v.name == word; });
+    return found == variables_.end() ? -1 : static_cast<int>(found - variables_.begin());
+  }
+
+  int variable(const std::string& word) const {
+    const int place = place_of(word);
+    if (place < 0) fail("'" + word + "' is not a variable" + (function_of(word) < 0 ? "" : " but a function"));
+    return place;
+  }
+
+  static int function_of(const std::string& word) {
+    const std::vector<MathFunction>& all = math_functions();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const MathFunction& one) { return word == one.name; });
+    return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+  }
+
+  const std::string& text_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  std::vector<Variable> variables_{{"x"}, {"y"}, {"z"}, {"t"}, {"value"}};
+  Expression result_;
+};
+
+Expression Expression::compile(const std::string& text) { return ExpressionParser(text).parse(); }
+
+}  // namespace strut

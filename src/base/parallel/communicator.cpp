@@ -1,0 +1,150 @@
+#include "base/parallel/communicator.hpp"
+
+#include <mpi.h>
+
+#include <Kokkos_Core.hpp>
+#include <Teuchos_CommHelpers.hpp>
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <algorithm>
+#include <cstdlib>
+
+namespace strut {
+
+namespace {
+
+// MPI counts are ints: longer messages go in pieces.
+constexpr std::size_t largest_message = std::size_t{1} << 30;
+
+template <class Piece>
+void in_pieces(std::size_t size, Piece&& piece) {
+  for (std::size_t begin = 0; begin < size; begin += largest_message) {
+    piece(begin, static_cast<int>(std::min(largest_message, size - begin)));
+  }
+}
+
+}  // namespace
+
+Runtime::Runtime(int& argc, char**& argv) {
+  MPI_Init(&argc, &argv);
+  Kokkos::initialize();  // without the words: Kokkos would answer --help with a page of its own
+}
+
+Runtime::~Runtime() {
+  Kokkos::finalize();
+  MPI_Finalize();
+}
+
+struct Communicator::Implementation {
+  Teuchos::RCP<const Teuchos::Comm<int>> teuchos;
+  MPI_Comm raw;
+};
+
+Communicator::Communicator() {
+  const Teuchos::RCP<const Teuchos::Comm<int>> comm = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_WORLD));
+  implementation_ = std::make_shared<const Implementation>(Implementation{comm, MPI_COMM_WORLD});
+  rank_ = comm->getRank();
+  size_ = comm->getSize();
+}
+
+Communicator::~Communicator() = default;
+Communicator::Communicator(const Communicator&) = default;
+Communicator& Communicator::operator=(const Communicator&) = default;
+
+const Teuchos::RCP<const Teuchos::Comm<int>>& Communicator::teuchos() const { return implementation_->teuchos; }
+
+void Communicator::barrier() const { teuchos()->barrier(); }
+
+void Communicator::abort() const {
+  MPI_Abort(implementation_->raw, 1);
+  std::abort();
+}
+
+void Communicator::sum(std::span<double> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                implementation_->raw);
+}
+
+void Communicator::max(std::span<double> values) const {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX,
+                implementation_->raw);
+}
+
+double Communicator::sum(double value) const {
+  sum(std::span(&value, 1));
+  return value;
+}
+
+double Communicator::max(double value) const {
+  max(std::span(&value, 1));
+  return value;
+}
+
+double Communicator::min(double value) const { return -max(-value); }
+
+std::int64_t Communicator::sum(std::int64_t value) const {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT64_T, MPI_SUM, implementation_->raw);
+  return value;
+}
+
+std::int64_t Communicator::offset(std::int64_t value) const {
+  std::int64_t before = 0;
+  MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, implementation_->raw);
+  return rank_ == 0 ? 0 : before;  // MPI leaves rank 0's result undefined
+}
+
+void Communicator::broadcast(std::string& text) const {
+  std::vector<char> bytes(text.begin(), text.end());
+  broadcast(bytes);
+  text.assign(bytes.begin(), bytes.end());
+}
+
+void Communicator::broadcast_bytes(void* data, std::size_t size) const {
+  in_pieces(size, [&](std::size_t begin, int count) {
+    MPI_Bcast(static_cast<char*>(data) + begin, count, MPI_BYTE, 0, implementation_->raw);
+  });
+}
+
+std::vector<char> Communicator::gather_bytes(const void* data, std::size_t size) const {
+  const MPI_Comm comm = implementation_->raw;
+  std::vector<std::uint64_t> sizes(size_);
+  const std::uint64_t mine = size;
+  MPI_Gather(&mine, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, comm);
+  if (rank_ != 0) {
+    in_pieces(size, [&](std::size_t begin, int count) {
+      MPI_Send(static_cast<const char*>(data) + begin, count, MPI_BYTE, 0, 0, comm);
+    });
+    return {};
+  }
+  const char* own = static_cast<const char*>(data);
+  std::vector<char> all(own, own + size);
+  for (int source = 1; source < size_; ++source) {
+    const std::size_t start = all.size();
+    all.resize(start + sizes[source]);
+    in_pieces(sizes[source], [&](std::size_t begin, int count) {
+      MPI_Recv(all.data() + start + begin, count, MPI_BYTE, source, 0, comm, MPI_STATUS_IGNORE);
+    });
+  }
+  return all;
+}
+
+std::vector<char> Communicator::scatter_bytes(const void* data, const std::vector<std::int64_t>& sizes) const {
+  const MPI_Comm comm = implementation_->raw;
+  std::vector<char> mine(sizes[rank_]);
+  if (rank_ != 0) {
+    in_pieces(mine.size(), [&](std::size_t begin, int count) {
+      MPI_Recv(mine.data() + begin, count, MPI_BYTE, 0, 0, comm, MPI_STATUS_IGNORE);
+    });
+    return mine;
+  }
+  const char* all = static_cast<const char*>(data);
+  std::copy_n(all, mine.size(), mine.data());
+  std::size_t start = mine.size();
+  for (int target = 1; target < size_; ++target) {
+    in_pieces(sizes[target],
+              [&](std::size_t begin, int count) { MPI_Send(all + start + begin, count, MPI_BYTE, target, 0, comm); });
+    start += sizes[target];
+  }
+  return mine;
+}
+
+}  // namespace strut

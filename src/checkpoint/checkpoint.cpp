@@ -1,0 +1,93 @@
+#include "checkpoint/checkpoint.hpp"
+
+#include <iostream>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "io/checkpoint/checkpoint_file.hpp"
+
+namespace strut {
+
+bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator) {
+  std::error_code failure;
+  const bool there = communicator.rank() == 0 && std::filesystem::exists(deck.restart.file, failure);
+  return communicator.max(there ? 1.0 : 0.0) > 0;
+}
+
+Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator, Keep keep)
+    : settings_(deck.restart),
+      deck_name_(deck.file.string()),
+      deck_text_(deck.text),
+      communicator_(communicator),
+      serialize_(std::move(keep)),
+      schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
+  schedule_.done(deck.solver.initial_time);
+  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_file()); });
+}
+
+std::filesystem::path Checkpoint::lock_file() const { return settings_.file.string() + ".lock"; }
+
+Checkpoint::~Checkpoint() {
+  std::error_code ignored;
+  if (lock_) std::filesystem::remove(lock_file(), ignored);
+}
+
+void Checkpoint::close() {
+  if (!due_at_the_end()) remove();
+}
+
+// The state as it is says what is asked of the file.
+void Checkpoint::load() {
+  Snapshot snapshot;
+  Archive asks = Archive::saving_to(snapshot);
+  serialize_(asks);
+  const std::string deck = io::read_checkpoint(settings_.file, communicator_, snapshot);
+  Archive restores = Archive::loading_from(snapshot);
+  serialize_(restores);
+  last_step_ = static_cast<int>(snapshot.numbers.at("steps"));
+  last_time_ = snapshot.numbers.at("time");
+  schedule_.done(last_time_);
+  written_ = true;
+  if (communicator_.rank() != 0) return;
+  std::cout << "going on from " << settings_.file.string() << ", t = " << last_time_ << " s, step " << last_step_
+            << "\n";
+  if (deck != deck_text_) std::cout << "note: " << deck_name_ << " is not as it was when this was written\n";
+}
+
+void Checkpoint::remove() {
+  if (settings_.enabled) io::remove_checkpoint(settings_.file, communicator_);
+}
+
+bool Checkpoint::due(int step, double time) const { return step > last_step_ && schedule_.due(step, time); }
+
+bool Checkpoint::due_by_the_clock() const {
+  return settings_.enabled &&
+         std::chrono::steady_clock::now() - last_ > std::chrono::duration<double>(60 * settings_.minutes);
+}
+
+void Checkpoint::write(int step, double time) {
+  if (!settings_.enabled || (written_ && step == last_step_)) return;
+  static Teuchos::Time& timer = phase("Restart");
+  const Timed timed(timer);
+  Snapshot snapshot;
+  Archive archive = Archive::saving_to(snapshot);
+  serialize_(archive);
+  io::write_checkpoint(settings_.file, communicator_, snapshot, deck_text_);
+  last_ = std::chrono::steady_clock::now();
+  last_step_ = step;
+  last_time_ = time;
+  written_ = true;
+  schedule_.done(time);
+}
+
+std::string Checkpoint::hint() const {
+  std::ostringstream text;
+  if (written_) {
+    text << "; 'strut --continue " << deck_name_ << "' goes on from t = " << last_time_ << " s ("
+         << settings_.file.string() << ")";
+  }
+  return text.str();
+}
+
+}  // namespace strut

@@ -1,0 +1,58 @@
+// When a run writes what it must know to go on, and how it takes that up again.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/archive.hpp"
+#include "base/parallel/communicator.hpp"
+#include "deck/deck.hpp"
+#include "io/file_lock.hpp"
+#include "output/schedule.hpp"
+
+namespace strut {
+
+bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator);  // collective: a run has left one
+
+class Checkpoint {
+ public:
+  // What is kept, by an archive that saves or restores.
+  using Keep = std::function<void(Archive&)>;
+
+  // Collective. Throws Error on all ranks: another run that is on keeps things under the same name.
+  Checkpoint(const deck::Deck& deck, const Communicator& communicator, Keep keep);
+  ~Checkpoint();
+  Checkpoint(const Checkpoint&) = delete;
+  Checkpoint& operator=(const Checkpoint&) = delete;
+
+  // Collective. Throws Error on all ranks: what is there is damaged, or of another model.
+  void load();
+  void remove();  // collective: what an earlier run has left; throws Error where it is no such thing
+  void close();   // collective; at the end of a run that is over: what it kept stays if the deck asks for that
+
+  bool due(int step, double time) const;  // by the steps or the time of the simulation
+  bool due_by_the_clock() const;          // on this rank
+  bool due_at_the_end() const { return settings_.enabled && settings_.asked_for; }
+  void write(int step, double time);  // collective; throws Error when the disk is full
+
+  // How to go on after an error, for its message.
+  std::string hint() const;
+
+ private:
+  std::filesystem::path lock_file() const;
+
+  deck::Restart settings_;
+  std::string deck_name_, deck_text_;
+  Communicator communicator_;
+  Keep serialize_;
+  Schedule schedule_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  int last_step_ = 0;  // that was written, or taken up
+  double last_time_ = 0;
+  bool written_ = false;
+  std::optional<io::FileLock> lock_;  // on rank 0, of a file beside: the kept one is replaced by each new one
+};
+
+}  // namespace strut

@@ -1,0 +1,43 @@
+// The forces of conditions on the points of the body, for whoever asks: gathered by a solver of any kind, read by the
+// history.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "base/math/tensors.hpp"
+
+namespace strut {
+
+// N, over all ranks, by the condition's place in the deck; zero for conditions that are no prescribed motion, symmetry
+// plane or tool. Empty where nobody asked for reactions.
+struct Reactions {
+  std::vector<Vector> forces;
+};
+
+// What the conditions give to the points of this rank, N s, by the condition's place in the deck. Made for no
+// conditions, it gathers nothing.
+class Impulses {
+ public:
+  explicit Impulses(int conditions = 0) : sums_(conditions, Vector::Zero()) {}
+
+  void add(int condition, const Vector& impulse) {
+    if (static_cast<std::size_t>(condition) < sums_.size()) sums_[condition] += impulse;  // −1 is none, too
+  }
+  const std::vector<Vector>& sums() const { return sums_; }
+
+  void serialize(Archive& archive) {
+    for (std::size_t c = 0; c < sums_.size(); ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        archive.share("impulse_" + std::to_string(c) + "xyz"[axis], sums_[c][axis]);
+      }
+    }
+  }
+
+ private:
+  std::vector<Vector> sums_;
+};
+
+}  // namespace strut

@@ -1,0 +1,72 @@
+#include "conditions/tool.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace strut {
+
+namespace {
+
+// The axis of coordinates that is most across `axis`, the first of equals, made so entirely.
+Vector across(const Vector& axis) {
+  int most = 0;
+  for (int c = 1; c < 3; ++c) {
+    if (std::abs(axis[c]) < std::abs(axis[most])) most = c;
+  }
+  const Vector unit = Vector::Unit(most);
+  return (unit - axis.dot(unit) * axis).normalized();
+}
+
+// From inside, or on the surface: the nearest face.
+Surface nearest_face(const Box& box, const Vector& place) {
+  Surface nearest{-std::numeric_limits<double>::infinity(), {}, Tensor::Zero()};
+  for (int c = 0; c < 3; ++c) {
+    for (const double side : {-1.0, 1.0}) {
+      const double gap = side < 0 ? box.lower[c] - place[c] : place[c] - box.upper[c];
+      if (gap <= nearest.gap) continue;
+      nearest.gap = gap;
+      nearest.normal = side * Vector::Unit(c);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+// Across the axis the curvature is one over the distance from it, along the axis none.
+Surface surface(const Cylinder& cylinder, const Vector& place) {
+  const Vector& a = cylinder.axis;
+  const Vector from_point = place - cylinder.point;
+  const Vector from_axis = from_point - a.dot(from_point) * a;
+  const double distance = from_axis.norm();
+  if (distance == 0) return {-cylinder.radius, across(a), Tensor::Zero()};
+  const Vector n = from_axis / distance;
+  const Tensor turning = Tensor::Identity() - n * n.transpose() - a * a.transpose();
+  return {distance - cylinder.radius, n, turning / distance};
+}
+
+// From outside, the normal turns about the nearest point in those directions in which the place is beyond the box: in
+// none of a face, in the plane across an edge, in all about a corner.
+Surface surface(const Box& box, const Vector& place) {
+  const Vector beyond = place - place.cwiseMax(box.lower).cwiseMin(box.upper);
+  const double distance = beyond.norm();
+  if (distance == 0) return nearest_face(box, place);
+  const Vector n = beyond / distance;
+  Tensor turning = -n * n.transpose();
+  for (int c = 0; c < 3; ++c) turning(c, c) += beyond[c] != 0 ? 1 : 0;
+  return {distance, n, turning / distance};
+}
+
+Surface surface(const Shape& shape, const Vector& place) {
+  return std::visit([&](const auto& one) { return surface(one, place); }, shape);
+}
+
+Vector Tool::offset(double t) const {
+  Vector sum = Vector::Zero();
+  for (int c = 0; c < 3; ++c) {
+    if (travel[c]) sum[c] = (*travel[c])(0, 0, 0, t);
+  }
+  return sum;
+}
+
+}  // namespace strut

@@ -1,0 +1,117 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include "base/build_facts.hpp"
+#include "base/parallel/communicator.hpp"
+#include "base/errors.hpp"
+#include "io/netcdf/netcdf_lists.hpp"
+#include "io/on_root.hpp"
+#include "io/checkpoint/checkpoint_file.hpp"
+#include "io/checkpoint/checkpoint_layout.hpp"
+#include "io/to_disk.hpp"
+
+namespace strut::io {
+
+namespace fs = std::filesystem;
+using namespace restart;
+
+namespace {
+
+void replace(const fs::path& path, const fs::path& part) {
+  force_to_disk(part);
+  std::error_code failure;
+  fs::rename(part, path, failure);
+  if (failure) throw Error(path.string() + ": cannot replace it: " + failure.message());
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (handle >= 0) ::fsync(handle), ::close(handle);  // some file systems cannot; then they need not
+}
+
+// The layout, on rank 0: of the groups, how many points all ranks have of each.
+void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
+            const std::string& deck) {
+  file.put(mark, double{version});
+  file.put("written_by", build_facts());
+  file.put("deck", deck);
+  for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
+  for (const auto& [name, value] : snapshot.shares) file.define(name_of_share(name), NetcdfLists::Of::reals, ranks);
+  for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
+    file.define(name_of_ids(g), NetcdfLists::Of::integers, sizes[g]);
+    for (const Snapshot::Column& column : snapshot.groups[g].columns) {
+      file.define(name_of(g, column.name), NetcdfLists::Of::reals, sizes[g] * static_cast<std::size_t>(column.width));
+    }
+  }
+  file.define("sum", NetcdfLists::Of::reals, 1);
+  file.end_definitions();
+}
+
+std::vector<double> arranged(const std::vector<double>& values, const std::vector<std::size_t>& order, int width) {
+  std::vector<double> result;
+  result.reserve(values.size());
+  for (const std::size_t place : order) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(place * static_cast<std::size_t>(width));
+    result.insert(result.end(), begin, begin + width);
+  }
+  return result;
+}
+
+// Collective. Everything into `file`, which only rank 0 has.
+void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, const Snapshot& snapshot,
+          const std::string& deck, const fs::path& part, OnRoot& on_root) {
+  std::vector<std::vector<std::int64_t>> ids;
+  std::vector<std::size_t> sizes;
+  for (const Snapshot::Group& group : snapshot.groups) {
+    ids.push_back(communicator.gather(std::span(group.ids)));
+    sizes.push_back(ids.back().size());
+  }
+  Sum sum;
+  on_root([&] {
+    file.emplace(NetcdfLists::create(part));
+    define(*file, snapshot, sizes, communicator.size(), deck);
+  });
+  const auto put = [&](const std::string& name, const auto& values) {
+    file->put(name, values);
+    sum.add(values);
+  };
+  for (const auto& [name, value] : snapshot.numbers) sum.add(std::vector<double>{value});
+  for (const auto& [name, value] : snapshot.shares) {
+    const std::vector<double> of_ranks = communicator.gather(std::span(&value, 1));
+    on_root([&] { put(name_of_share(name), of_ranks); });
+  }
+  for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
+    const std::vector<std::size_t> order = order_by_id(ids[g]);
+    std::vector<std::int64_t> sorted;
+    for (const std::size_t place : order) sorted.push_back(ids[g][place]);
+    on_root([&] { put(name_of_ids(g), sorted); });
+    for (const Snapshot::Column& column : snapshot.groups[g].columns) {
+      const std::vector<double> values = communicator.gather(std::span(column.values));
+      on_root([&] { put(name_of(g, column.name), arranged(values, order, column.width)); });
+    }
+  }
+  on_root([&] {
+    file->put("sum", std::vector<double>{sum.value()});
+    file->close();
+  });
+}
+
+}  // namespace
+
+void write_checkpoint(const fs::path& path, const Communicator& communicator, const Snapshot& snapshot,
+                   const std::string& deck) {
+  std::optional<NetcdfLists> file;
+  OnRoot on_root(communicator);
+  fill(file, communicator, snapshot, deck, part_of(path), on_root);
+  on_root([&] { replace(path, part_of(path)); });
+  if (!on_root.problem().empty()) {
+    file.reset();
+    std::error_code ignored;
+    fs::remove(part_of(path), ignored);
+  }
+  on_root.raise();
+}
+
+}  // namespace strut::io

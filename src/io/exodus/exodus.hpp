@@ -1,0 +1,137 @@
+// Exodus II in and out: the one door behind which exodusII.h is used. Calls with a Communicator are collective.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "points/cloud.hpp"
+
+namespace strut {
+class Communicator;
+}
+
+namespace strut::io {
+
+// Reads hex8 (volume by exact integration, centroid), tet4 and sphere elements (attributes: radius, volume; a file with
+// one attribute has the radius only, one with none has an element variable Volume). Block names: the file's, else
+// "block_<id>". Node sets: the file's names, else "nodelist_<id>". Each rank receives a contiguous slice.
+// `at` elements: a point for each; it belongs to a set when any node of its element does. `at` nodes: a point for each
+// node that a hex8 or tet4 element uses, in the block that comes first in the file; ids count the file's nodes from 0.
+// Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
+// (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
+// `with_cells`: also shapes and joints of the points (cloud.hpp).
+// HEX8 blocks with the attributes of PartialCell: volume and place of a point at an element are the cell's, the spacing
+// stays the hexahedron's. Throws Error where the cell is not one (names element and block), and for points at nodes.
+PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
+                       PointsAt at = PointsAt::elements, bool with_cells = false);
+
+// Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
+PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);
+
+struct OutputField {
+  std::string name;    // "Displacement", "Cauchy_Stress", …
+  int components = 1;  // 1; 3: suffix X Y Z; 6: XX YY ZZ XY YZ ZX; 9 (row by row): XX XY XZ YX YY YZ ZX ZY ZZ
+  bool nodal = false;  // else an element variable
+};
+
+// One file at any number of ranks: sphere elements, one node each, blocks, node sets and element ids as they were read.
+// Flushed after every frame, so that what is written stays readable whatever happens next.
+class ExodusWriter {
+ public:
+  // `cloud`: this rank's points, in the order of the columns given to write(). Replaces a file of that name, or goes on
+  // after the first `frames` of it. Errors: the file cannot be created, another run writes to it, it does not have
+  // these points, fields or frames.
+  ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
+               std::vector<OutputField> fields, int frames = 0);
+  ~ExodusWriter();
+  ExodusWriter(ExodusWriter&&) noexcept;
+
+  // columns[k]: field k, this rank's points times components, point by point. Throws Error when the disk is full.
+  void write(double time, std::span<const std::vector<double>> columns);
+
+  int frames() const;  // so far
+  void sync() const;   // collective: they are on the disk
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+// What a finished result holds, for comparison and tests. On rank 0 only (serial use).
+struct ExodusResult {
+  std::vector<double> times;
+  std::vector<std::string> nodal_names, element_names;
+  // [variable][time][point in file order]; element variables in element order (block by block).
+  std::vector<std::vector<std::vector<double>>> nodal, element;
+};
+ExodusResult read_result(const std::filesystem::path& file);
+// Of its last frame, s; nothing where there is no such file, no frame or no sense in it.
+std::optional<double> last_time_of_result(const std::filesystem::path& file);
+
+// Of HEX8, TET4 and SPHERE; throws Error for other types.
+int nodes_per_element(const std::string& type);
+
+// The material in an element that is only partly filled, or that has taken over what is in a neighbor.
+struct PartialCell {
+  double volume = 0;                        // m³
+  Vector centroid = Vector::Zero();         // m
+  Symmetric moments = Symmetric::Zero();    // central second moments per volume, m² (xx yy zz xy yz zx)
+  Vector surface = Vector::Zero();          // ∫ n dA over the material's surface, n outward, m²
+  Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − centroid) dA over it, m³
+};
+// The names of the attributes in the file, in the order of the members.
+inline constexpr std::array<const char*, 22> partial_cell_attributes{"volume",
+                                                                     "centroid_x",
+                                                                     "centroid_y",
+                                                                     "centroid_z",
+                                                                     "moment_xx",
+                                                                     "moment_yy",
+                                                                     "moment_zz",
+                                                                     "moment_xy",
+                                                                     "moment_yz",
+                                                                     "moment_zx",
+                                                                     "surface_x",
+                                                                     "surface_y",
+                                                                     "surface_z",
+                                                                     "surface_moment_xx",
+                                                                     "surface_moment_xy",
+                                                                     "surface_moment_xz",
+                                                                     "surface_moment_yx",
+                                                                     "surface_moment_yy",
+                                                                     "surface_moment_yz",
+                                                                     "surface_moment_zx",
+                                                                     "surface_moment_zy",
+                                                                     "surface_moment_zz"};
+
+// A mesh as a tool makes it, for tools/ and tests.
+struct Mesh {
+  std::vector<Vector> nodes;
+  struct Block {
+    std::string name;
+    std::string type;             // "HEX8", "TET4" or "SPHERE"
+    std::vector<int> nodes;       // 0-based, element by element
+    std::vector<double> volumes;  // spheres only
+    // Of HEX8, or none: elements that are only partly filled with material; attributes in the file (io/README.md).
+    std::vector<PartialCell> cells;
+
+    std::size_t elements() const { return nodes.empty() ? 0 : nodes.size() / nodes_per_element(type); }
+  };
+  std::vector<Block> blocks;
+  struct NodeSet {
+    std::string name;
+    std::vector<int> nodes;  // 0-based
+  };
+  std::vector<NodeSet> node_sets;
+};
+void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
+
+// What write_mesh wrote, or another program: types as above however the file spells them, names and volumes as for
+// read_exodus. Serial. Throws Error: as read_exodus, but volumes are not looked at.
+Mesh read_mesh(const std::filesystem::path& file);
+
+}  // namespace strut::io

@@ -1,0 +1,445 @@
+#include "io/exodus/exodus_file.hpp"
+
+#include <exodusII.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/build_facts.hpp"
+#include "base/errors.hpp"
+#include "io/netcdf/classic_netcdf.hpp"
+#include "io/netcdf/trial_read.hpp"
+
+namespace strut::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The cause behind a code of the library: of the system (positive), of netCDF (negative) or of Exodus itself.
+std::string cause_of(int code) {
+  const char* message = nullptr;
+  const char* function = nullptr;
+  int last = 0;
+  ex_get_err(&message, &function, &last);
+  if (last == 0) last = code;
+  if (last > 0 && last < 1000) return std::strerror(last);
+  static const std::map<int, std::string> netcdf = {{-31, "the system failed while reading or writing"},
+                                                    {-36, "an invalid argument"},
+                                                    {-40, "an index out of bounds"},
+                                                    {-46, "a dimension that is not there"},
+                                                    {-49, "a variable that is not there"},
+                                                    {-51, "not an Exodus (netCDF) file"},
+                                                    {-60, "a number out of range of the file's type"},
+                                                    {-61, "out of memory (a damaged file?)"},
+                                                    {-62, "a variable too large for the file format"},
+                                                    {-101, "the HDF5 layer failed: a damaged file or a full disk"}};
+  if (const auto known = netcdf.find(last); known != netcdf.end()) return known->second;
+  const std::string text = message == nullptr ? "" : message;
+  return (text.empty() ? "Exodus library" : text) + " (code " + std::to_string(last) + ")";
+}
+
+[[noreturn]] void fail(const fs::path& path, std::string_view doing, const std::string& cause) {
+  throw Error(path.string() + ": cannot " + std::string(doing) + ": " + cause);
+}
+
+// The library's own words for these are codes: say it plainly before it gets to see them.
+void check_that_it_may_be_read(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) fail(path, "open it", "no such file");
+  if (fs::is_directory(status)) fail(path, "open it", "it is a directory");
+  if (!fs::is_regular_file(status)) fail(path, "open it", "not a regular file");
+  if (fs::file_size(path, error) == 0) fail(path, "open it", "the file is empty");
+  const std::string problem = classic_netcdf_problem(path);
+  if (!problem.empty()) fail(path, "open it", problem);
+}
+
+// Names come and go as arrays of pointers to buffers of one length.
+class NameTable {
+ public:
+  explicit NameTable(std::size_t count) : buffer_(count * width, '\0'), pointers_(count) {
+    for (std::size_t i = 0; i < count; ++i) pointers_[i] = buffer_.data() + i * width;
+  }
+  explicit NameTable(const std::vector<std::string>& names) : NameTable(names.size()) {
+    for (std::size_t i = 0; i < names.size(); ++i) names[i].copy(pointers_[i], width - 1);
+  }
+  char** data() { return pointers_.data(); }
+  std::string operator[](std::size_t i) const { return pointers_[i]; }
+  std::vector<std::string> names() const { return {pointers_.begin(), pointers_.end()}; }
+
+ private:
+  static constexpr std::size_t width = ExodusFile::longest_name + 1;
+  std::vector<char> buffer_;
+  std::vector<char*> pointers_;
+};
+
+void check_names(const fs::path& path, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (name.size() > ExodusFile::longest_name) {
+      fail(path, "write the name '" + name + "'",
+           "it is longer than " + std::to_string(ExodusFile::longest_name) + " characters");
+    }
+  }
+}
+
+// What of it is compressed, as HDF5 can do, may be this much larger in memory: deflate's limit.
+constexpr std::int64_t densest = 1032;
+
+std::int64_t largest_content(const fs::path& path) {
+  std::error_code ignored;
+  const auto size = static_cast<std::int64_t>(fs::file_size(path, ignored));
+  return is_hdf5(path) ? densest * size : size;
+}
+
+ex_entity_type entity(ExodusFile::On on) { return on == ExodusFile::On::nodes ? EX_NODAL : EX_ELEM_BLOCK; }
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+// Lines of at most so many characters, broken between words where there are any.
+std::vector<std::string> wrapped(std::string text, std::size_t most) {
+  std::vector<std::string> lines;
+  while (text.size() > most) {
+    const std::size_t space = text.rfind(' ', most);
+    const std::size_t end = space == std::string::npos || space == 0 ? most : space;
+    lines.push_back(text.substr(0, end));
+    text.erase(0, end == space ? end + 1 : end);
+  }
+  lines.push_back(text);
+  return lines;
+}
+
+std::string quoted(const std::string& name, std::int64_t id) {
+  return name.empty() ? std::to_string(id) : "'" + name + "'";
+}
+
+}  // namespace
+
+ExodusFile ExodusFile::open(const fs::path& path, Access access) {
+  ex_opts(0);  // errors are ours to report
+  check_that_it_may_be_read(path);
+  int word_size = sizeof(double);
+  int file_word_size = 0;
+  float version = 0;
+  const int mode = access == Access::write ? EX_WRITE : EX_READ;
+  const int handle = ex_open(path.c_str(), mode, &word_size, &file_word_size, &version);
+  if (handle < 0) fail(path, "open it", cause_of(handle));
+  ExodusFile file(path, handle);
+  file.largest_ = largest_content(path);
+  ex_set_int64_status(handle, EX_ALL_INT64_API);
+  ex_set_max_name_length(handle, longest_name);
+  return file;
+}
+
+ExodusFile ExodusFile::create(const fs::path& path) {
+  ex_opts(0);
+  int word_size = sizeof(double);
+  int file_word_size = sizeof(double);
+  // The classic format with 64-bit offsets, not HDF5: after each flush it is whole on disk, so a killed run loses
+  // nothing but the frame in hand. Its integers have 32 bits: enough for 2·10⁹ points.
+  const int mode = EX_CLOBBER | EX_LARGE_MODEL | EX_ALL_INT64_API;
+  errno = 0;
+  const int handle = ex_create(path.c_str(), mode, &word_size, &file_word_size);
+  if (handle < 0) fail(path, "create it", cause_of(handle));
+  ExodusFile file(path, handle);
+  file.check(ex_set_max_name_length(handle, longest_name), "set the length of names");
+  return file;
+}
+
+ExodusFile::~ExodusFile() {
+  if (handle_ >= 0) ex_close(handle_);
+}
+
+ExodusFile::ExodusFile(ExodusFile&& other) noexcept
+    : path_(std::move(other.path_)), handle_(std::exchange(other.handle_, -1)), largest_(other.largest_) {}
+
+void ExodusFile::check(int code, std::string_view doing) const {
+  if (code < 0) fail(path_, doing, cause_of(code));
+}
+
+std::int64_t ExodusFile::inquire(int what, std::string_view doing) const {
+  const std::int64_t value = ex_inquire_int(handle_, static_cast<ex_inquiry>(what));
+  if (value < 0) fail(path_, doing, cause_of(static_cast<int>(value)));
+  return value;
+}
+
+// ---- reading
+
+// Before memory is taken because a file says so: `count` of `what`, each of at least so many bytes in the file.
+std::int64_t ExodusFile::plausible(std::int64_t count, std::int64_t bytes, const std::string& what) const {
+  if (count >= 0 && count <= largest_ / bytes) return count;
+  fail(path_, "read it", "it claims " + std::to_string(count) + " " + what + ", for which it is too small (damaged?)");
+}
+
+ExodusFile::Sizes ExodusFile::sizes() const {
+  ex_init_params params = {};
+  check(ex_get_init_ext(handle_, &params), "read its sizes");
+  constexpr int number = 4;  // bytes, of the smallest type that Exodus has
+  return {params.num_dim, plausible(params.num_nodes, number, "nodes"), plausible(params.num_elem, 1, "elements"),
+          plausible(params.num_elem_blk, number, "blocks"), plausible(params.num_node_sets, number, "node sets")};
+}
+
+std::vector<ExodusFile::Block> ExodusFile::blocks() const {
+  const std::int64_t count = sizes().blocks;
+  if (count == 0) return {};
+  std::vector<std::int64_t> ids(count);
+  check(ex_get_ids(handle_, EX_ELEM_BLOCK, ids.data()), "read the ids of its blocks");
+  NameTable names(count);
+  check(ex_get_names(handle_, EX_ELEM_BLOCK, names.data()), "read the names of its blocks");
+  std::vector<Block> blocks;
+  for (std::int64_t i = 0; i < count; ++i) {
+    ex_block raw = {};
+    raw.id = ids[i];
+    raw.type = EX_ELEM_BLOCK;
+    check(ex_get_block_param(handle_, &raw), "read block " + std::to_string(ids[i]));
+    const std::string mask = " of block " + std::to_string(ids[i]);
+    plausible(raw.num_entry, 1, "elements" + mask);
+    plausible(raw.num_nodes_per_entry, 1, "nodes an element" + mask);
+    NameTable attributes(plausible(raw.num_attribute, 1, "attributes" + mask));
+    if (raw.num_attribute > 0) {
+      check(ex_get_attr_names(handle_, EX_ELEM_BLOCK, raw.id, attributes.data()), "read the names of attributes");
+    }
+    blocks.push_back({raw.id, names[i], raw.topology, raw.num_entry, raw.num_nodes_per_entry, attributes.names()});
+  }
+  return blocks;
+}
+
+std::vector<ExodusFile::NodeSet> ExodusFile::node_sets() const {
+  const std::int64_t count = sizes().node_sets;
+  if (count == 0) return {};
+  std::vector<std::int64_t> ids(count);
+  check(ex_get_ids(handle_, EX_NODE_SET, ids.data()), "read the ids of its node sets");
+  NameTable names(count);
+  check(ex_get_names(handle_, EX_NODE_SET, names.data()), "read the names of its node sets");
+  std::vector<NodeSet> sets;
+  for (std::int64_t i = 0; i < count; ++i) {
+    std::int64_t nodes = 0;
+    std::int64_t factors = 0;
+    check(ex_get_set_param(handle_, EX_NODE_SET, ids[i], &nodes, &factors), "read node set " + std::to_string(ids[i]));
+    sets.push_back({ids[i], names[i], plausible(nodes, 4, "nodes of node set " + std::to_string(ids[i]))});
+  }
+  return sets;
+}
+
+std::array<std::vector<double>, 3> ExodusFile::coordinates() const {
+  const std::int64_t nodes = sizes().nodes;
+  std::array<std::vector<double>, 3> x;
+  for (auto& column : x) column.resize(nodes);
+  check(ex_get_coord(handle_, x[0].data(), x[1].data(), x[2].data()), "read the coordinates");
+  return x;
+}
+
+std::vector<std::int64_t> ExodusFile::connectivity(const Block& block) const {
+  // Neither of the two is negative or more than the file has bytes.
+  const double entries = static_cast<double>(block.elements) * static_cast<double>(block.nodes_per_element);
+  plausible(static_cast<std::int64_t>(std::min(entries, 1e18)), 4,
+            "nodes of elements in block " + quoted(block.name, block.id));
+  std::vector<std::int64_t> nodes(block.elements * block.nodes_per_element);
+  if (nodes.empty()) return nodes;
+  check(ex_get_conn(handle_, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+        "read the elements of block " + quoted(block.name, block.id));
+  return nodes;
+}
+
+std::vector<double> ExodusFile::attribute(const Block& block, int index) const {
+  std::vector<double> values(block.elements);
+  check(ex_get_one_attr(handle_, EX_ELEM_BLOCK, block.id, index + 1, values.data()),
+        "read the attributes of block " + quoted(block.name, block.id));
+  return values;
+}
+
+std::vector<std::int64_t> ExodusFile::nodes_of(const NodeSet& set) const {
+  std::vector<std::int64_t> nodes(set.nodes);
+  if (nodes.empty()) return nodes;
+  check(ex_get_set(handle_, EX_NODE_SET, set.id, nodes.data(), nullptr),
+        "read the nodes of node set " + quoted(set.name, set.id));
+  return nodes;
+}
+
+std::vector<std::int64_t> ExodusFile::element_numbers() const {
+  std::vector<std::int64_t> numbers(sizes().elements);
+  check(ex_get_id_map(handle_, EX_ELEM_MAP, numbers.data()), "read the numbers of its elements");
+  return numbers;
+}
+
+std::vector<std::int64_t> ExodusFile::node_numbers() const {
+  std::vector<std::int64_t> numbers(sizes().nodes);
+  check(ex_get_id_map(handle_, EX_NODE_MAP, numbers.data()), "read the numbers of its nodes");
+  return numbers;
+}
+
+std::vector<double> ExodusFile::times() const {
+  std::vector<double> times(plausible(inquire(EX_INQ_TIME, "read its number of time steps"), 4, "time steps"));
+  if (!times.empty()) check(ex_get_all_times(handle_, times.data()), "read its times");
+  return times;
+}
+
+std::vector<std::string> ExodusFile::variable_names(On on) const {
+  int count = 0;
+  check(ex_get_variable_param(handle_, entity(on), &count), "read its number of variables");
+  if (count == 0) return {};
+  NameTable names(plausible(count, 1, "variables"));
+  check(ex_get_variable_names(handle_, entity(on), count, names.data()), "read the names of its variables");
+  return names.names();
+}
+
+std::vector<double> ExodusFile::nodal_values(int step, int variable) const {
+  std::vector<double> values(sizes().nodes);
+  check(
+      ex_get_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()), values.data()),
+      "read nodal variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
+  return values;
+}
+
+std::vector<double> ExodusFile::element_values(int step, int variable) const {
+  const std::vector<Block> all = blocks();
+  const int variables = static_cast<int>(variable_names(On::elements).size());
+  std::vector<int> defined(plausible(std::ssize(all) * variables, 4, "variables of blocks"));
+  check(ex_get_truth_table(handle_, EX_ELEM_BLOCK, static_cast<int>(all.size()), variables, defined.data()),
+        "read which blocks its variables are defined on");
+  std::vector<double> values(sizes().elements, std::numeric_limits<double>::quiet_NaN());
+  std::int64_t begin = 0;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (all[b].elements > 0 && defined[b * variables + variable] != 0) {
+      check(ex_get_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, all[b].id, all[b].elements, &values[begin]),
+            "read element variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
+    }
+    begin += all[b].elements;
+  }
+  return values;
+}
+
+// ---- writing
+
+void ExodusFile::put_sizes(const std::string& title, const Sizes& sizes) const {
+  check(ex_put_init(handle_, title.substr(0, MAX_LINE_LENGTH).c_str(), sizes.dimensions, sizes.nodes, sizes.elements,
+                    sizes.blocks, sizes.node_sets, 0),
+        "write its sizes");
+}
+
+void ExodusFile::put_provenance() const {
+  const std::time_t now = std::time(nullptr);
+  char date[MAX_STR_LENGTH + 1] = {};
+  char time[MAX_STR_LENGTH + 1] = {};
+  std::tm local = {};
+  localtime_r(&now, &local);
+  std::strftime(date, sizeof date, "%Y/%m/%d", &local);
+  std::strftime(time, sizeof time, "%H:%M:%S", &local);
+  std::string name = "strut";
+  std::string number = strut_version();
+  char* record[1][4] = {{name.data(), number.data(), date, time}};
+  check(ex_put_qa(handle_, 1, record), "write its QA record");
+  std::vector<std::string> lines = wrapped("written by " + build_facts(), MAX_LINE_LENGTH);
+  std::vector<char*> pointers;
+  for (std::string& line : lines) pointers.push_back(line.data());
+  check(ex_put_info(handle_, static_cast<int>(pointers.size()), pointers.data()), "write its info records");
+}
+
+void ExodusFile::put_blocks(const std::vector<Block>& blocks) const {
+  check_names(path_, names_of(blocks));
+  for (const Block& block : blocks) {
+    const auto attributes = static_cast<std::int64_t>(block.elements > 0 ? block.attributes.size() : 0);
+    check(ex_put_block(handle_, EX_ELEM_BLOCK, block.id, block.type.c_str(), block.elements, block.nodes_per_element, 0,
+                       0, attributes),
+          "write block " + quoted(block.name, block.id));
+  }
+  NameTable names(names_of(blocks));
+  if (!blocks.empty()) check(ex_put_names(handle_, EX_ELEM_BLOCK, names.data()), "write the names of blocks");
+  for (const Block& block : blocks) put_attribute_names(block);
+  char axes[3][2] = {"x", "y", "z"};
+  char* axis_names[3] = {axes[0], axes[1], axes[2]};
+  check(ex_put_coord_names(handle_, axis_names), "write the names of the axes");
+}
+
+void ExodusFile::put_attribute_names(const Block& block) const {
+  if (block.attributes.empty() || block.elements == 0) return;
+  NameTable names(block.attributes);
+  check(ex_put_attr_names(handle_, EX_ELEM_BLOCK, block.id, names.data()),
+        "write the names of the attributes of block " + quoted(block.name, block.id));
+}
+
+void ExodusFile::put_node_sets(const std::vector<NodeSet>& sets) const {
+  check_names(path_, names_of(sets));
+  for (const NodeSet& set : sets) {
+    check(ex_put_set_param(handle_, EX_NODE_SET, set.id, set.nodes, 0), "write node set " + quoted(set.name, set.id));
+  }
+  NameTable names(names_of(sets));
+  if (!sets.empty()) check(ex_put_names(handle_, EX_NODE_SET, names.data()), "write the names of node sets");
+}
+
+void ExodusFile::put_variables(const std::vector<Block>& blocks, const std::vector<std::string>& nodal,
+                               const std::vector<std::string>& element) const {
+  for (const On on : {On::nodes, On::elements}) {
+    const std::vector<std::string>& list = on == On::nodes ? nodal : element;
+    if (list.empty()) continue;
+    check_names(path_, list);
+    const int count = static_cast<int>(list.size());
+    NameTable names(list);
+    check(ex_put_variable_param(handle_, entity(on), count), "write the number of variables");
+    check(ex_put_variable_names(handle_, entity(on), count, names.data()), "write the names of variables");
+  }
+  if (element.empty() || blocks.empty()) return;
+  std::vector<int> defined;  // block by block; an empty block has no variables
+  for (const Block& block : blocks) defined.insert(defined.end(), element.size(), block.elements > 0 ? 1 : 0);
+  check(ex_put_truth_table(handle_, EX_ELEM_BLOCK, static_cast<int>(blocks.size()), static_cast<int>(element.size()),
+                           defined.data()),
+        "write which blocks variables are defined on");
+}
+
+void ExodusFile::put_coordinates(const std::array<std::vector<double>, 3>& x) const {
+  check(ex_put_coord(handle_, x[0].data(), x[1].data(), x[2].data()), "write the coordinates");
+}
+
+void ExodusFile::put_connectivity(const Block& block, const std::vector<std::int64_t>& nodes) const {
+  if (nodes.empty()) return;
+  check(ex_put_conn(handle_, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+        "write the elements of block " + quoted(block.name, block.id));
+}
+
+void ExodusFile::put_attribute(const Block& block, int index, std::span<const double> values) const {
+  if (values.empty()) return;
+  check(ex_put_one_attr(handle_, EX_ELEM_BLOCK, block.id, index + 1, values.data()),
+        "write the attributes of block " + quoted(block.name, block.id));
+}
+
+void ExodusFile::put_nodes_of(const NodeSet& set, const std::vector<std::int64_t>& nodes) const {
+  if (nodes.empty()) return;
+  check(ex_put_set(handle_, EX_NODE_SET, set.id, nodes.data(), nullptr),
+        "write the nodes of node set " + quoted(set.name, set.id));
+}
+
+void ExodusFile::put_element_numbers(const std::vector<std::int64_t>& numbers) const {
+  if (numbers.empty()) return;
+  check(ex_put_id_map(handle_, EX_ELEM_MAP, numbers.data()), "write the numbers of elements");
+}
+
+void ExodusFile::put_time(int step, double time) const {
+  check(ex_put_time(handle_, step + 1, &time), "write the time of step " + std::to_string(step + 1));
+}
+
+void ExodusFile::put_nodal_values(int step, int variable, std::span<const double> values) const {
+  check(
+      ex_put_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()), values.data()),
+      "write step " + std::to_string(step + 1));
+}
+
+void ExodusFile::put_element_values(int step, int variable, const Block& block, std::span<const double> values) const {
+  if (values.empty()) return;
+  check(ex_put_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, block.id, static_cast<std::int64_t>(values.size()),
+                   values.data()),
+        "write step " + std::to_string(step + 1));
+}
+
+void ExodusFile::flush() const { check(ex_update(handle_), "flush it to disk"); }
+
+}  // namespace strut::io

@@ -1,0 +1,177 @@
+// The nodes of a mesh become material points, with the parts of the elements around them.
+#include <cmath>
+#include <optional>
+
+#include "base/errors.hpp"
+#include "io/exodus/elements.hpp"
+#include "io/exodus/mesh_points.hpp"
+#include "io/exodus/surface.hpp"
+
+namespace strut::io {
+
+namespace {
+
+// What the elements around a node leave at it, in the order of the file.
+struct Share {
+  double volume = 0;  // m³, the node's parts
+  double around = 0;  // m³, of the whole elements
+  int elements = 0;
+  int block = -1;  // of the first of them
+};
+
+class Shares {
+ public:
+  Shares(const Mesh& mesh, const std::string& file) : mesh_(mesh), file_(file), shares_(mesh.nodes.size()) {}
+
+  std::vector<Share> collect() {
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+      const Mesh::Block& block = mesh_.blocks[b];
+      if (!block.cells.empty()) {
+        throw Error(file_ + ": block '" + block.name + "' has elements that are partly filled (attribute " +
+                    partial_cell_attributes[0] + " and others); its points can only be at elements");
+      }
+      if (block.type == "HEX8") add_block<8>(static_cast<int>(b), hexahedron_parts);
+      if (block.type == "TET4") add_block<4>(static_cast<int>(b), tetrahedron_parts);
+      if (block.type == "SPHERE" && block.elements() > 0) {
+        throw Error(file_ + ": block '" + block.name +
+                    "' has spheres; points at nodes need hexahedra (HEX8) or tetrahedra (TET4), points at elements "
+                    "may be any of the three");
+      }
+    }
+    return std::move(shares_);
+  }
+
+ private:
+  template <std::size_t size, class Parts>
+  void add_block(int index, const Parts& parts_of) {
+    // A cube around each node: as many hexahedra as nodes fill a body, but six times as many tetrahedra.
+    constexpr double cells = size == 4 ? 6 : 1;
+    const Mesh::Block& block = mesh_.blocks[index];
+    for (std::size_t e = 0; e < block.elements(); ++e) {
+      const std::array<double, size> parts = parts_of(corners<size>(mesh_, block, e));
+      double volume = 0;
+      for (const double part : parts) volume += part;
+      check_volume(volume, block, ++elements_, file_);
+      for (std::size_t n = 0; n < size; ++n) {
+        Share& share = shares_[block.nodes[e * size + n]];
+        share.volume += parts[n];
+        share.around += cells * volume;
+        ++share.elements;
+        if (share.block < 0) share.block = index;
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  const std::string& file_;
+  std::vector<Share> shares_;
+  std::size_t elements_ = 0;  // so far
+};
+
+// What of the elements around each node belongs to it, and which elements these are.
+class Cells {
+ public:
+  explicit Cells(const Mesh& mesh)
+      : mesh_(mesh),
+        integrals_(mesh.nodes.size()),
+        surface_(mesh.nodes.size(), Vector::Zero()),
+        surface_moments_(mesh.nodes.size(), Tensor::Zero()),
+        joints_(mesh.nodes.size()) {
+    for (const Mesh::Block& block : mesh_.blocks) {
+      if (block.type == "HEX8") add_block<8>(block, hexahedron_pieces);
+      if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
+    }
+    for (const Face& face : surface_of(mesh_)) {
+      const double share = 1.0 / static_cast<double>(face.corners().size());
+      for (std::size_t c = 0; c < face.corners().size(); ++c) {
+        const int node = face.nodes[c];
+        surface_[node] += share * face.area;
+        surface_moments_[node] += share * face.area * (face.middle_at(mesh, c) - mesh.nodes[node]).transpose();
+      }
+    }
+  }
+
+  // The volume of the pieces: on distorted elements not quite the point's, which is ∫N dV.
+  double volume(std::size_t node) const { return integrals_[node].volume; }
+
+  void give(std::size_t node, PointCloud& cloud) {
+    cloud.shapes.push_back(cell_shape(integrals_[node]));
+    cloud.shapes.back().surface = surface_[node];
+    cloud.shapes.back().surface_moments = surface_moments_[node];
+    cloud.joints.push_back(std::move(joints_[node]));
+  }
+
+ private:
+  template <std::size_t size, class Pieces>
+  void add_block(const Mesh::Block& block, const Pieces& pieces_of) {
+    for (std::size_t e = 0; e < block.elements(); ++e, ++elements_) {
+      const std::array<Integrals, size> pieces = pieces_of(corners<size>(mesh_, block, e));
+      for (std::size_t n = 0; n < size; ++n) {
+        const int node = block.nodes[e * size + n];
+        integrals_[node] += pieces[n];
+        std::vector<std::int64_t>& joints = joints_[node];
+        if (joints.empty() || joints.back() != elements_) joints.push_back(elements_);
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  std::vector<Integrals> integrals_;
+  std::vector<Vector> surface_;
+  std::vector<Tensor> surface_moments_;
+  std::vector<std::vector<std::int64_t>> joints_;
+  std::int64_t elements_ = 0;  // so far
+};
+
+void check_parts(double volume, std::int64_t number, const std::string& file) {
+  if (volume > 0) return;
+  throw Error(file + ": node " + std::to_string(number) + ": its parts of the elements around it add up to " +
+              std::to_string(volume) + " m³, expected a positive volume (elements too distorted?)");
+}
+
+// A block all of whose nodes belong to blocks before it would be gone without a word.
+void check_blocks_have_points(const PointCloud& cloud, const std::string& file) {
+  std::vector<char> found(cloud.block_names.size(), 0);
+  for (const int block : cloud.blocks) found[block] = 1;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b]) continue;
+    throw Error(
+        file + ": block '" + cloud.block_names[b] +
+        "' would have no point: all its nodes belong to blocks before it. Put it first in the file, refine it, or "
+        "use Points \"Elements\"");
+  }
+}
+
+}  // namespace
+
+PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file,
+                           bool with_cells) {
+  const std::vector<Share> shares = Shares(mesh, file).collect();
+  std::optional<Cells> cells;
+  if (with_cells) cells.emplace(mesh);
+  const std::vector<std::uint64_t> sets = sets_of_nodes(mesh);
+  PointCloud cloud;
+  cloud.at = PointsAt::nodes;
+  for (const Mesh::Block& block : mesh.blocks) cloud.block_names.push_back(block.name);
+  for (const Mesh::NodeSet& set : mesh.node_sets) cloud.set_names.push_back(set.name);
+  for (std::size_t n = 0; n < shares.size(); ++n) {
+    const Share& share = shares[n];
+    if (share.elements == 0) continue;  // a node of no element
+    check_parts(share.volume, numbers[n], file);
+    if (with_cells) {
+      check_parts(cells->volume(n), numbers[n], file);
+      cells->give(n, cloud);
+    }
+    cloud.ids.push_back(static_cast<std::int64_t>(n));
+    cloud.element_ids.push_back(numbers[n]);
+    cloud.positions.push_back(mesh.nodes[n]);
+    cloud.volumes.push_back(share.volume);
+    cloud.spacings.push_back(std::cbrt(share.around / share.elements));
+    cloud.blocks.push_back(share.block);
+    cloud.sets.push_back(sets[n]);
+  }
+  check_blocks_have_points(cloud, file);
+  return cloud;
+}
+
+}  // namespace strut::io

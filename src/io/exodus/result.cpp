@@ -1,0 +1,46 @@
+// A finished result, whole, for comparison.
+#include "base/errors.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/exodus/exodus_file.hpp"
+#include "io/netcdf/trial_read.hpp"
+
+namespace strut::io {
+
+namespace {
+
+ExodusResult read_whole(const std::filesystem::path& path) {
+  const ExodusFile file = ExodusFile::open(path);
+  ExodusResult result;
+  result.times = file.times();
+  result.nodal_names = file.variable_names(ExodusFile::On::nodes);
+  result.element_names = file.variable_names(ExodusFile::On::elements);
+  const int steps = static_cast<int>(result.times.size());
+  result.nodal.resize(result.nodal_names.size());
+  result.element.resize(result.element_names.size());
+  for (int step = 0; step < steps; ++step) {
+    for (std::size_t v = 0; v < result.nodal.size(); ++v) {
+      result.nodal[v].push_back(file.nodal_values(step, static_cast<int>(v)));
+    }
+    for (std::size_t v = 0; v < result.element.size(); ++v) {
+      result.element[v].push_back(file.element_values(step, static_cast<int>(v)));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ExodusResult read_result(const std::filesystem::path& path) {
+  return read_after_trial(path, [&] { return read_whole(path); });
+}
+
+std::optional<double> last_time_of_result(const std::filesystem::path& file) {
+  try {
+    const std::vector<double> times = read_after_trial(file, [&] { return ExodusFile::open(file).times(); });
+    if (!times.empty()) return times.back();
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace strut::io

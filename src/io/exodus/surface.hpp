@@ -1,0 +1,25 @@
+// The surface of a mesh: the faces that one element alone has.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "io/exodus/exodus.hpp"
+
+namespace strut::io {
+
+struct Face {
+  int nodes[4];              // the last one −1 for a triangle
+  std::int64_t element = 0;  // counted over all blocks, from 0
+  Vector area;               // ∫ n dA, n outward, m²
+
+  std::span<const int> corners() const { return {nodes, nodes[3] < 0 ? 3u : 4u}; }
+  Vector middle(const Mesh& mesh) const;  // the mean of the corners
+  // The mean of corner number c, the middles of the edges beside it and the middle of the face: of the corner's part.
+  Vector middle_at(const Mesh& mesh, std::size_t c) const;
+};
+
+// Of hexahedra and tetrahedra, in an order that depends on the mesh alone.
+std::vector<Face> surface_of(const Mesh& mesh);
+
+}  // namespace strut::io

@@ -1,0 +1,46 @@
+// Totals over time, a line a row: CSV with a header, numbers with all their digits, so that two runs can be compared.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/parallel/communicator.hpp"
+#include "io/file_lock.hpp"
+
+namespace strut::io {
+
+// Collective; rank 0 writes.
+class HistoryFile {
+ public:
+  // Replaces a file of that name, or goes on with the first `bytes` of it. Throws Error on all ranks: the file cannot
+  // be created, another run writes to it, a name holds a comma, a quote or a line break; it is shorter, or has other
+  // columns.
+  HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
+              std::vector<std::string> column_names, std::int64_t bytes = 0);
+
+  // Rank 0's row is written and flushed; the others' rows only have to be there. Throws Error on all ranks: the row has
+  // not one value per column, the disk is full.
+  void write(std::span<const double> row);
+
+  std::int64_t bytes() const { return bytes_; }  // so far, on rank 0
+  void sync() const;                             // collective: they are on the disk
+
+ private:
+  void begin(const std::string& header);
+  void go_on(const std::string& header);
+  void write_line(const std::string& line);
+
+  std::filesystem::path path_;
+  Communicator communicator_;
+  std::size_t columns_;
+  std::int64_t bytes_;
+  std::optional<FileLock> lock_;
+  std::ofstream file_;  // open on rank 0
+};
+
+}  // namespace strut::io

@@ -1,0 +1,166 @@
+// By correspondence, from the places of the points to the force state of each: F, rotation, law, first Piola–Kirchhoff
+// stress.
+#include "mechanics/formulation/correspondence.hpp"
+
+#include "mechanics/formulation/stress_update.hpp"
+
+namespace strut {
+
+namespace {
+
+LaneSymmetric shape_inverses(const LaneGroup& g, const Body& body) {
+  LaneSymmetric s;
+  for (int c = 0; c < 6; ++c) s[c] = lanes_of([&](int l) { return body.shape_inverse[g.i[l]][c]; });
+  return s;
+}
+
+// A = P K⁻¹ − C F, times the share of the step.
+LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric& shape_inverse, const Lanes& share) {
+  LaneTensor A =
+      small::product(piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J), small::full(shape_inverse));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) A.c[i][j] = share * (A.c[i][j] - C * now.F.c[i][j]);
+  }
+  return A;
+}
+
+// All that the update of one block needs.
+template <class L, class Weight>
+struct Update {
+  LawUpdate<L> law;
+  Weight weight;
+
+  Body& body() const { return law.body; }
+  MaterialBlock& block() const { return law.block; }
+
+  LawPoints members(const LaneGroup& group) const {
+    LawPoints g{{}, group.k, group};
+    for (int l = 0; l < LaneGroup::width; ++l) {
+      g.points[l] = &body().points[group.i[l]];
+      if (law.pass.order == 0) fetch_ahead(body().points.data(), group.i[l]);
+    }
+    return g;
+  }
+
+  // A failed point goes on as a mass. F and R stay as they were.
+  void store_failed(const LaneGroup& g, int l) const {
+    body().points[g.i[l]].stabilization = 0;
+    drop_forces(g, l);
+  }
+
+  void drop_forces(const LaneGroup& g, int l) const {
+    const int i = g.i[l];
+    body().force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
+    if (block().has_mean_gradient()) {
+      body().force_states.gradients[i] =
+          bonds::packed(body().points[i].deformation_gradient, 0, body().share(i, law.pass.order));
+    }
+  }
+
+  void store_point(const LawPoints& g, int l, const Deformed& now, const LaneTensor& A, double C, double share) const {
+    law.store(g, l, now);
+    const int i = g.group.i[l];
+    body().force_states.tensors[i] = bonds::packed(at(A, l), share * C);
+    if (block().has_mean_gradient()) {
+      const MaterialPoint& point = body().points[i];
+      body().force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.stabilization, share);
+    }
+  }
+
+  // F of the points of a group; on lattices the pull of their springs is put aside for the forces.
+  LaneTensor deformation_gradient(const LaneGroup& g, const LaneSymmetric& shape_inverse) const {
+    const LaneTensor N = moments(g, {body().domain.sites.data()}, weight, &body().force_density);
+    LaneTensor F = small::product(N, small::full(shape_inverse));
+    if (!g.cluster) {
+      for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
+    }
+    return F;
+  }
+
+  // The largest pace² of the points of a group.
+  double advance(const LaneGroup& group) const {
+    const LawPoints g = members(group);
+    const LaneSymmetric shape_inverse = shape_inverses(group, body());
+    const LaneTensor F = deformation_gradient(group, shape_inverse);
+    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
+    const Deformed now = law.advance(g, F, share);
+    const Lanes C = lanes_of([&](int l) { return block().springs_of(*g.points[l]); });
+    const LaneTensor A = force_states(now, C, shape_inverse, share);
+    const Lanes volume = lanes_of([&](int l) { return body().domain.volume(group.i[l]); });
+    const Lanes pace2 =
+        share * share * volume * squared_speed(now) * (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
+    double fastest = 0;
+    for (int l = 0; l < group.count; ++l) {
+      if (!(now.stiffness[l] > 0)) {  // has failed
+        store_failed(group, l);
+        continue;
+      }
+      if (!(now.J[l] > 0)) {  // NaN too
+        law.failure.report(group.k[l], std::isnan(now.J[l]) ? Failure::Kind::not_finite : Failure::Kind::inverted);
+        drop_forces(group, l);
+        continue;
+      }
+      store_point(g, l, now, A, C[l], share[l]);
+      fastest = std::max(fastest, pace2[l]);
+    }
+    return fastest;
+  }
+};
+
+}  // namespace
+
+void add_damping(const MaterialBlock& block, const StressPass& pass, const LaneGroups& groups, StepReport& report) {
+  if (block.viscous.empty() || pass.order > 0) return;  // a whole step asks for it
+  const auto damping = [&block, &groups](int g) {
+    const LaneGroup group = groups[g];
+    double most = 0;
+    for (const int k : group.k) {
+      for (int q = 0; q < block.places_a_point(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
+    }
+    return most;
+  };
+  report.damping = largest(0, groups.count(), report.damping, damping);
+}
+
+void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
+                    StepReport& report) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    const auto advance = [&]<class L>(const L& law) {
+      WorstFailure failure;
+      advance_groups(Update<L, decltype(weight)>{{body, block, law, pass, failure}, weight}, groups, report);
+    };
+    std::visit(advance, block.material.law);
+  });
+}
+
+namespace {
+
+// Of each point of a group.
+template <class Weight>
+Lanes squared_residuals(const Body& body, const LaneGroup& group, Weight weight) {
+  if (group.cluster) {
+    return bonds::squared_residual(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), body.points.data(),
+                                   weight);
+  }
+  Lanes result = Lanes::Zero();
+  for (int l = 0; l < group.count; ++l) {
+    const int i = group.i[l];
+    result[l] = group.chunk->squared_residual(i, {body.domain.sites.data()}, body.points[i].deformation_gradient,
+                                              body.shape_inverse[i]);
+  }
+  return result;
+}
+
+}  // namespace
+
+void diagnose_residuals(Body& body, const LaneGroups& groups) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const LaneGroup group = groups[g];
+      const Lanes squares = squared_residuals(body, group, weight);
+      for (int l = 0; l < group.count; ++l) body.residual[group.i[l]] = squares[l];
+    });
+  });
+}
+
+}  // namespace strut

@@ -1,0 +1,77 @@
+// Ordinary points: from the places to the force state of each, t = ω (a |ξ| + b e), and what F would be.
+#include <cmath>
+
+#include "base/math/rotation.hpp"
+#include "mechanics/kernels/ordinary_bonds.hpp"
+#include "mechanics/formulation/correspondence.hpp"
+
+namespace strut {
+
+namespace {
+
+// ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)², whose sum is Σ ω V e² − m θ²/9.
+double energy(const materials::Moduli& moduli, double weighted_volume, double dilatation, double square) {
+  const double theta2 = dilatation * dilatation;
+  return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / weighted_volume - theta2 / 9);
+}
+
+template <class Weight>
+void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups, WorstFailure& failure) {
+  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  for_each_point(0, groups.count(), [&, weight](int g) {
+    const LaneGroup group = groups[g];
+    const bonds::OfCluster family{*group.cluster};
+    const bonds::Lanes moment = bonds::extensions(family, body.domain.sites.data(), weight, bonds::OfPlaces(family));
+    for (int l = 0; l < group.count; ++l) {
+      OrdinaryPoint& point = block.ordinary[group.k[l]];
+      const double m = point.weighted_volume;
+      point.dilatation = 3 * moment[l] / m;
+      body.force_states.scalars[group.i[l]] = scalar_state(moduli, point.dilatation, m);
+      if (!std::isfinite(point.dilatation)) failure.report(group.k[l], Failure::Kind::not_finite);
+    }
+  });
+}
+
+// The unrotated Cauchy stress J⁻¹ T U of a family that deforms as one, T = λ tr(U − I) I + 2μ (U − I): what the bonds
+// carry, exactly for an isotropic stretch and to the first order in the strain for any other.
+Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
+  const Tensor strain = U - Tensor::Identity();
+  const double lambda = moduli.bulk - 2 * moduli.shear / 3;
+  const Tensor T = lambda * strain.trace() * Tensor::Identity() + 2 * moduli.shear * strain;
+  return symmetric_part(T * U / U.determinant());
+}
+
+template <class Weight>
+void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups) {
+  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  for_each_point(0, groups.count(), [&, weight](int g) {
+    const LaneGroup group = groups[g];
+    const bonds::OfCluster family{*group.cluster};
+    const bonds::Lanes squares = bonds::squared_extensions(family, body.domain.sites.data(), weight);
+    const auto N = bonds::gather(family, body.domain.sites.data(), weight);
+    for (int l = 0; l < group.count; ++l) {
+      OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
+      ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);
+      MaterialPoint& point = body.points[group.i[l]];
+      point.deformation_gradient = at(N, l) * to_tensor(body.shape_inverse[group.i[l]]);
+      const Tensor R = polar_rotation(point.deformation_gradient);
+      point.rotation = Rotation(R);
+      point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient);
+    }
+  });
+}
+
+}  // namespace
+
+void advance_ordinary(Body& body, MaterialBlock& block, bool with_diagnostics, const LaneGroups& groups, StepReport& report) {
+  WorstFailure failure;
+  bonds::with_influence(body.influence, [&](auto weight) {
+    advance_points(body, block, weight, groups, failure);
+    if (with_diagnostics) set_diagnostics(body, block, weight, groups);
+  });
+  // Bonds in compression become no stiffer than they were.
+  report.frequency_bound = std::max(report.frequency_bound, block.rest_frequency_bound);
+  take_worse(failure.found(block), report.failure);
+}
+
+}  // namespace strut

@@ -1,0 +1,148 @@
+// By quadratic correspondence, from the places of the points to the states of their bonds: F at four places of each
+// cell, rotation, law and first Piola–Kirchhoff stress there.
+#include <array>
+
+#include "mechanics/formulation/stress_update.hpp"
+#include "mechanics/formulation/quadratic_cell.hpp"
+#include "mechanics/formulation/shared_volume.hpp"
+
+namespace strut {
+
+namespace {
+
+// All that the update of one block needs.
+template <class L, class Weight>
+struct Update {
+  LawUpdate<L> law;
+  Weight weight;
+
+  Body& body() const { return law.body; }
+  MaterialBlock& block() const { return law.block; }
+
+  LawPoints places(const LaneGroup& group, int q) const {
+    LawPoints g{{}, {}, group};
+    for (int l = 0; l < LaneGroup::width; ++l) {
+      g.places[l] = static_cast<int>(block().place(group.k[l], q));
+      g.points[l] = &block().cells[g.places[l]];
+      if (law.pass.order == 0) fetch_ahead(block().cells.data(), g.places[l]);
+    }
+    return g;
+  }
+
+  // 1 for cells whose metal has flowed, 0 for others.
+  Lanes flowed(const std::array<LawPoints, 4>& points) const {
+    if constexpr (materials::tells_flow<L>) {
+      const auto has_flowed = [&](int place) { return law.law.has_flowed(block().template state_of<L>(place)); };
+      for (int l = 0; l < points[0].group.count; ++l) {
+        std::uint8_t& known = block().flowed[points[0].group.k[l]];
+        for (int q = 0; q < 4 && !known; ++q) known = has_flowed(points[q].places[l]);
+      }
+      return lanes_of([&](int l) { return block().flowed[points[0].group.k[l]] ? 1.0 : 0.0; });
+    }
+    return Lanes::Zero();
+  }
+
+  // The largest pace² of the points of a group.
+  double advance(const LaneGroup& group) const {
+    const std::vector<Site>& sites = body().domain.sites;
+    for (const int i : group.i) {
+      if (law.pass.order == 0) fetch_ahead(&(*body().fits)[i], 0);
+    }
+    QuadraticCells cells(group, *body().fits, sites);
+    cells.take(
+        bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, sites.data(), body().fits->multipliers(), weight));
+    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
+    const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
+    const std::array<LawPoints, 4> points{places(group, 0), places(group, 1), places(group, 2), places(group, 3)};
+    const Lanes has_flowed = flowed(points);
+    std::array<Deformed, 4> at;
+    for (int q = 0; q < 4; ++q) {
+      LaneTensor F = cells.gradient_at(q);
+      for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
+      at[q] = law.deformed(points[q], F, share);
+    }
+    const std::array<Lanes, 4> J{at[0].J, at[1].J, at[2].J, at[3].J};
+    share_traces(J, {&at[0].rates, &at[1].rates, &at[2].rates, &at[3].rates}, has_flowed);
+    for (int q = 0; q < 4; ++q) law.set_stress(points[q], share, at[q]);
+    share_traces(J, {&at[0].stress, &at[1].stress, &at[2].stress, &at[3].stress}, has_flowed);
+    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
+    for (int q = 0; q < 4; ++q) {
+      const Deformed& now = at[q];
+      LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
+      for (int l = 0; l < group.count; ++l) {
+        if (now.J[l] > 0 && now.stiffness[l] > 0) {
+          law.store(points[q], l, now);
+          continue;
+        }
+        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // failed, or NaN
+        if (!(now.J[l] > 0)) determinant[l] = now.J[l];
+      }
+      cells.add_stress(q, P);
+      speed2 = speed2.max(squared_speed(now));
+    }
+    cells.store(group, share, body().force_states.quadratics);
+    return report(group, determinant, share * share * cells.volume() * cells.steepness() * speed2);
+  }
+
+ private:
+  // Reports points that are turned inside out at a place, and returns the largest pace² of the others.
+  double report(const LaneGroup& group, const Lanes& determinant, const Lanes& pace2) const {
+    double fastest = 0;
+    for (int l = 0; l < group.count; ++l) {
+      if (determinant[l] > 0) {
+        fastest = std::max(fastest, pace2[l]);
+      } else {
+        const bool is_number = !std::isnan(determinant[l]);
+        law.failure.report(group.k[l], is_number ? Failure::Kind::inverted : Failure::Kind::not_finite);
+        body().force_states.quadratics[group.i[l]] = {};
+      }
+    }
+    return fastest;
+  }
+};
+
+// What a look at the body shows of a cell: F and R in its middle, and the mean of the stresses.
+void diagnose_cell(Body& body, const MaterialBlock& block, int k, const Tensor& F) {
+  MaterialPoint& point = body.points[block.points[k]];
+  point.deformation_gradient = F;
+  const Tensor R = F.determinant() > 0 ? polar_rotation(F) : Tensor::Identity();
+  point.rotation = Rotation(R);
+  Tensor stress = Tensor::Zero();
+  for (int q = 0; q < 4; ++q) {
+    const MaterialPoint& there = block.cells[block.place(k, q)];
+    const Tensor turned = R.transpose() * there.rotation.tensor();
+    stress += 0.25 * turned * to_tensor(there.stress) * turned.transpose();
+  }
+  point.stress = symmetric_part(stress);
+}
+
+}  // namespace
+
+void advance_quadratic(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
+                       StepReport& report) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    const auto advance = [&]<class L>(const L& law) {
+      WorstFailure failure;
+      advance_groups(Update<L, decltype(weight)>{{body, block, law, pass, failure}, weight}, groups, report);
+    };
+    std::visit(advance, block.material.law);
+  });
+}
+
+void diagnose_cells(Body& body, const MaterialBlock& block, const LaneGroups& groups) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const LaneGroup group = groups[g];
+      const std::vector<Site>& sites = body.domain.sites;
+      QuadraticCells cells(group, *body.fits, sites);
+      cells.take(
+          bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, sites.data(), body.fits->multipliers(), weight));
+      for (int l = 0; l < group.count; ++l) {
+        const bool carries = (*body.fits)[group.i[l]].carries_stress();
+        diagnose_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));
+      }
+    });
+  });
+}
+
+}  // namespace strut

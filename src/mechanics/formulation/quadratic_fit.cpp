@@ -1,0 +1,453 @@
+#include "mechanics/formulation/quadratic_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "mechanics/kernels/quadratic_bonds.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+namespace {
+
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+using Basis = Eigen::Matrix<double, 9, 1>;
+
+// The penalty on H beside the mean square of the bonds, in spacings. It decides where a family cannot tell F from H
+// (its bonds across a surface are all of one length), and fades where it can. Smaller is more accurate and stiffer to
+// the step; so each point has the smallest of these with which it does not ask for more than the bound: of
+// V h² κ, h spacing and κ the steepness, where 1.2 to 3 are usual inside of a body.
+constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 8;
+
+// The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
+// carries no stress.
+constexpr double least_for_stress = 0.02;
+
+// Of the consistency correction: what is asked for is met as far as it does not cost more than this, in units of the
+// operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularisation.
+constexpr double regularization = 0.5, inner_diagonal = 23;
+constexpr int iterations = 16;
+
+constexpr int state_width = sizeof(QuadraticState) / sizeof(double);
+
+CellShape shape_of(const Body& body, int i) {
+  if (!body.domain.cloud.shapes.empty()) return body.domain.cloud.shapes[i];
+  CellShape cube;
+  cube.moments.head<3>().setConstant(std::pow(body.domain.volume(i), 2.0 / 3) / 12);
+  return cube;
+}
+
+Basis basis(const Vector& xi, double h) {
+  const bonds::Vector3<double> x{{xi[0] / h, xi[1] / h, xi[2] / h}};
+  const std::array<double, 6> q = bonds::squares(x);
+  Basis b;
+  b << x.c[0], x.c[1], x.c[2], q[0], q[1], q[2], q[3], q[4], q[5];
+  return b;
+}
+
+// Calls visit(j, ω V_j, ξ) over the family of a point.
+template <class Visit>
+void over_family(const Body& body, int i, const Visit& visit) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
+                [&](int j, double w, const auto& xi, double) { visit(j, w, Vector(xi.c[0], xi.c[1], xi.c[2])); });
+  });
+}
+
+// In the direction in which it is the least.
+double least_square(const Tensor& spread) {
+  return Eigen::SelfAdjointEigenSolver<Tensor>(spread, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
+void set_cell(const CellShape& shape, QuadraticFit& fit) {
+  Tensor moments = to_tensor(shape.moments);
+  moments.diagonal().array() += 1e-9 * moments.trace();  // a flat cell has a square root, too
+  const Tensor L = moments.llt().matrixL();
+  Eigen::Map<Vector>{fit.offset} = shape.offset;
+  const double factor[] = {L(0, 0), L(1, 0), L(1, 1), L(2, 0), L(2, 1), L(2, 2)};
+  std::copy_n(factor, 6, fit.factor);
+}
+
+Vector place_of(const QuadraticFit& fit, int q) {
+  const double *t = cell_places[q], *s = fit.offset, *L = fit.factor;
+  return {s[0] + L[0] * t[0], s[1] + L[1] * t[0] + L[2] * t[1], s[2] + L[3] * t[0] + L[4] * t[1] + L[5] * t[2]};
+}
+
+// Sums over a family, in spacings: of (1, b bᵀ) with ω V_j, and of g gᵀ/V_j, g = ω V_j b being what y_j gives to the
+// fit; the point itself, which gives −Σ g, is counted.
+struct FamilySums {
+  double weight = 0;
+  Matrix9 moments = Matrix9::Zero(), squares = Matrix9::Zero();
+};
+
+FamilySums sums_of_family(const Body& body, int i) {
+  const double h = body.domain.cloud.spacings[i];
+  FamilySums sums;
+  Basis first = Basis::Zero();
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    const Basis b = basis(xi, h);
+    const Matrix9 product = b * b.transpose();
+    sums.weight += w;
+    sums.moments += w * product;
+    sums.squares += w * w / body.domain.volume(j) * product;
+    first += w * b;
+  });
+  sums.squares += first * first.transpose() / body.domain.volume(i);
+  return sums;
+}
+
+// (M + penalty)⁻¹.
+Matrix9 inverse_with(const FamilySums& sums, double penalty) {
+  Matrix9 M = sums.moments;
+  M.diagonal().tail<6>().array() += penalty * sums.weight;
+  return M.ldlt().solve(Matrix9::Identity());
+}
+
+// V h² κ of a point of so much volume whose fit has this inverse: V Σ |∂F_q/∂y_j|²/V_j, the point itself counted, mean
+// over the places.
+double steepness_with(const FamilySums& sums, const Matrix9& inverse, double volume, const QuadraticFit& fit,
+                      double h) {
+  const Matrix9 squares = inverse * sums.squares * inverse;
+  double sum = 0;
+  for (int q = 0; q < 4; ++q) {
+    const Vector s = place_of(fit, q) / h;
+    Eigen::Matrix<double, 3, 9> at = Eigen::Matrix<double, 3, 9>::Zero();  // F at s, of (F, H)
+    at.leftCols<3>().setIdentity();
+    at(0, 3) = at(1, 6) = at(2, 8) = s[0];
+    at(1, 4) = at(0, 6) = at(2, 7) = s[1];
+    at(2, 5) = at(1, 7) = at(0, 8) = s[2];
+    sum += (at * squares * at.transpose()).trace();
+  }
+  return volume * sum / 4;
+}
+
+// P, B, Q of a point, whose cell is set. False where its neighbors do not span space.
+bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
+  const double h = body.domain.cloud.spacings[i], volume = body.domain.volume(i);
+  const FamilySums sums = sums_of_family(body, i);
+  if (!(sums.weight > 0) || least_square(sums.moments.topLeftCorner<3, 3>() / sums.weight) < least_for_stress) {
+    return false;
+  }
+  double penalty = least_penalty;
+  Matrix9 inverse = inverse_with(sums, penalty);
+  while (penalty < largest_penalty && steepness_with(sums, inverse, volume, fit, h) > steepness_bound) {
+    penalty *= 2;
+    inverse = inverse_with(sums, penalty);
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] = 0.5 * (inverse(c, b) + inverse(b, c)) / (h * h);
+  }
+  double* second = fit.second;
+  for (int k = 0; k < 6; ++k) {
+    for (int b = 0; b < 3; ++b) fit.mixed[3 * k + b] = 0.5 * (inverse(3 + k, b) + inverse(b, 3 + k)) / (h * h * h);
+    for (int l = k; l < 6; ++l) *second++ = 0.5 * (inverse(3 + k, 3 + l) + inverse(3 + l, 3 + k)) / (h * h * h * h);
+  }
+  return true;
+}
+
+// The state of a point under a stress that gives V (mean : ∂F + moments : ∂H) to the energy's change.
+QuadraticState state_of(const QuadraticFit& fit, const Tensor& mean, const Eigen::Matrix<double, 3, 6>& moments) {
+  constexpr int by_rows = Eigen::RowMajor;
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, by_rows>> P(fit.linear);
+  const Eigen::Map<const Eigen::Matrix<double, 6, 3, by_rows>> B(fit.mixed);
+  Eigen::Matrix<double, 6, 6> Q;
+  const double* number = fit.second;
+  for (int k = 0; k < 6; ++k) {
+    for (int l = k; l < 6; ++l) Q(k, l) = Q(l, k) = *number++;
+  }
+  QuadraticState state;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, by_rows>>{state.first} = mean * P.transpose() + moments * B;
+  Eigen::Map<Eigen::Matrix<double, 3, 6, by_rows>>{state.second} = mean * B.transpose() + moments * Q;
+  return state;
+}
+
+// What a stress of 1 in all of a cell gives, by way of the second gradient: Σ over the places, s for each axis.
+Eigen::Matrix<double, 3, 6> moments_of_unit_stress(const Vector& offset) {
+  Eigen::Matrix<double, 3, 6> m = Eigen::Matrix<double, 3, 6>::Zero();
+  for (int a = 0; a < 3; ++a) m(a, a) = offset[a];
+  m(0, 3) = offset[1], m(1, 3) = offset[0];
+  m(1, 4) = offset[2], m(2, 4) = offset[1];
+  m(2, 5) = offset[0], m(0, 5) = offset[2];
+  return m;
+}
+
+// The linear function c + C ξ that fits numbers of the family and of the point itself.
+struct LinearFit {
+  Vector c = Vector::Zero();
+  Tensor C = Tensor::Zero();
+};
+
+}  // namespace
+
+// Finds μ: of all corrections that make the forces of a uniform stress those on the surface, about the smallest one.
+// With r_j = ∂/∂y_j of Σ ∫ div u dV − ∮ n·u dA, which is to be zero, K μ = −r; K = Σ_i V_i² R_iᵀ W R_i with what is
+// left over by the linear fits, R_i. It is solved by Chebyshev's iteration: so many steps give the same bits on any
+// number of ranks.
+class ConsistencyCorrection {
+ public:
+  ConsistencyCorrection(Body& body, QuadraticFits& fits) : body_(body), fits_(fits) {
+    for (const MaterialBlock& block : body.blocks) {
+      if (block.is_quadratic()) points_.insert(points_.end(), block.points.begin(), block.points.end());
+    }
+  }
+
+  void apply() {
+    set_missing();
+    set_operator();
+    solve();
+    exchange_multipliers();
+    for_each_point(0, count(), [&](int p) { add_to_fit(points_[p]); });
+  }
+
+ private:
+  int count() const { return static_cast<int>(points_.size()); }
+  bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
+  Halo& halo() const { return body_.domain.halo; }
+  void exchange_multipliers() { halo().exchange(fits_.multipliers_.data()->data(), 4, 3); }
+
+  void set_missing();
+  void set_operator();
+  LinearFit fit_of(int i) const;
+  void apply_operator();
+  void solve();
+  void add_to_fit(int i);
+
+  // A linear fit as others need it: c, C, and V² of the point; nothing of points that carry no stress.
+  struct Share {
+    double c[3], C[9], weight;
+  };
+  static constexpr int share_width = sizeof(Share) / sizeof(double);
+
+  Body& body_;
+  QuadraticFits& fits_;
+  std::vector<int> points_;               // owned, by quadratic correspondence
+  std::vector<Vector> missing_;           // −r, of owned points, m²
+  std::vector<Eigen::Matrix4d> moments_;  // of (ξ, 1) over the family and the point, of owned points; its inverse
+  std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularisation, m⁹
+  std::vector<Share> shares_;             // of owned points and ghosts
+  std::vector<Vector> image_;             // K μ, of owned points
+};
+
+void ConsistencyCorrection::set_missing() {
+  std::vector<QuadraticState> states(body_.domain.sites.size());
+  std::vector<CellShape> shapes(body_.owned());
+  for (const int i : points_) {
+    shapes[i] = shape_of(body_, i);
+    const Tensor mean = Tensor::Identity() - shapes[i].surface_moments / body_.domain.volume(i);
+    const QuadraticFit& fit = fits_[i];
+    states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
+    states[i].padding = 1;  // is by quadratic correspondence
+  }
+  halo().exchange(reinterpret_cast<double*>(states.data()), state_width, state_width);
+  missing_.assign(body_.owned(), Vector::Zero());
+  bonds::with_influence(body_.influence, [&](auto weight) {
+    for_each_point(0, count(), [&, weight](int p) {
+      const int i = points_[p];
+      const bonds::OfPoint family{body_.domain.families, i};
+      const auto far =
+          bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
+      const Vector force = Vector(far.c[0], far.c[1], far.c[2]) + bonds::quadratic_own_force(states[i], fits_[i]);
+      bool all = true;  // beside a block of another formulation the surface is not all of it
+      body_.domain.families.for_each(i, [&](int j) { all = all && states[j].padding > 0; });
+      if (all) missing_[i] = shapes[i].surface + body_.domain.volume(i) * force;
+    });
+  });
+}
+
+void ConsistencyCorrection::set_operator() {
+  moments_.assign(body_.owned(), Eigen::Matrix4d::Zero());
+  shares_.assign(body_.domain.sites.size(), Share{});
+  diagonal_.assign(body_.owned(), 0), ridge_.assign(body_.owned(), 0);
+  for (const int i : points_) {
+    const QuadraticFit& fit = fits_[i];
+    if (!fit.carries_stress()) continue;
+    const double volume = body_.domain.volume(i);
+    Eigen::Matrix4d N = Eigen::Matrix4d::Zero();
+    N(3, 3) = volume;
+    over_family(body_, i, [&](int, double w, const Vector& xi) {
+      Eigen::Vector4d b;
+      b << xi, 1;
+      N += w * b * b.transpose();
+    });
+    moments_[i] = N.inverse();
+    shares_[i].weight = volume * volume;
+  }
+  halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
+  for (const int i : points_) {
+    const double volume = body_.domain.volume(i);
+    double sum = shares_[i].weight;
+    over_family(body_, i,
+                [&](int j, double w, const Vector&) { sum += shares_[j].weight * w / body_.domain.volume(j); });
+    diagonal_[i] = volume * sum;
+    ridge_[i] = regularization * inner_diagonal * std::pow(body_.domain.cloud.spacings[i], 9);
+  }
+}
+
+LinearFit ConsistencyCorrection::fit_of(int i) const {
+  const std::vector<Eigen::Array4d>& mu = fits_.multipliers_;
+  Eigen::Matrix<double, 4, 3> sums = Eigen::Matrix<double, 4, 3>::Zero();
+  sums.row(3) = body_.domain.volume(i) * mu[i].head<3>().matrix().transpose();
+  over_family(body_, i, [&](int j, double w, const Vector& xi) {
+    const Eigen::RowVector3d weighted = w * mu[j].head<3>().matrix().transpose();
+    for (int c = 0; c < 3; ++c) sums.row(c) += xi[c] * weighted;
+    sums.row(3) += weighted;
+  });
+  const Eigen::Matrix<double, 4, 3> fit = moments_[i] * sums;
+  return {fit.row(3).transpose(), fit.topRows<3>().transpose()};
+}
+
+void ConsistencyCorrection::apply_operator() {
+  exchange_multipliers();
+  for_each_point(0, count(), [&](int p) {
+    const int i = points_[p];
+    if (!carries_stress(i)) return;
+    const LinearFit fit = fit_of(i);
+    Eigen::Map<Vector>{shares_[i].c} = fit.c;
+    Eigen::Map<Tensor>{shares_[i].C} = fit.C;
+  });
+  halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
+  for_each_point(0, count(), [&](int p) {
+    const int i = points_[p];
+    const Vector mu = fits_.multipliers_[i].head<3>().matrix();
+    const auto left = [&](int j, const Vector& xi) -> Vector {
+      const Share& there = shares_[j];
+      return there.weight * (mu - Eigen::Map<const Vector>(there.c) - Eigen::Map<const Tensor>(there.C) * xi);
+    };
+    Vector sum = left(i, Vector::Zero());
+    over_family(body_, i, [&](int j, double w, const Vector& xi) { sum += w / body_.domain.volume(j) * left(j, -xi); });
+    image_[i] = body_.domain.volume(i) * sum;
+  });
+}
+
+// (K + ridge) μ = missing, preconditioned by diagonal + ridge: its eigenvalues lie between a share of the ridge and 1.
+void ConsistencyCorrection::solve() {
+  constexpr double ridge = regularization * inner_diagonal, largest_diagonal = 40;
+  constexpr double low = ridge / (ridge + largest_diagonal), middle = 0.5 * (1 + low), half = 0.5 * (1 - low);
+  image_.assign(body_.owned(), Vector::Zero());
+  std::vector<Vector> step(body_.owned(), Vector::Zero());
+  double rho = half / middle;
+  for (int n = 0; n < iterations; ++n) {
+    if (n > 0) apply_operator();
+    const double next = n == 0 ? rho : 1 / (2 * middle / half - rho);
+    for (const int i : points_) {
+      Eigen::Array4d& mu = fits_.multipliers_[i];
+      const Vector rest = (missing_[i] - image_[i] - ridge_[i] * mu.head<3>().matrix()) / (diagonal_[i] + ridge_[i]);
+      step[i] = n == 0 ? Vector(rest / middle) : Vector(next * rho * step[i] + 2 * next / half * rest);
+      mu.head<3>() += step[i].array();
+    }
+    rho = next;
+  }
+}
+
+// V (μ_j − c − C ξ) is added to what a bond gives to F.
+void ConsistencyCorrection::add_to_fit(int i) {
+  if (!carries_stress(i)) return;
+  const LinearFit correction = fit_of(i);
+  QuadraticFit& fit = fits_.fit(i);
+  const double volume = body_.domain.volume(i);
+  for (int c = 0; c < 3; ++c) {
+    fit.center[c] = correction.c[c];
+    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] -= volume * correction.C(b, c);
+  }
+}
+
+namespace {
+
+// What y_j gives to F at a place of the cell of i, as a vector: ∂F_rb/∂y_jr.
+Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Vector& xi, const Eigen::Array4d& mu,
+                      const Vector& place) {
+  const std::array<double, 6> q = bonds::squares(bonds::Vector3<double>{{xi[0], xi[1], xi[2]}});
+  Vector g;
+  for (int b = 0; b < 3; ++b) {
+    g[b] = volume * (mu[b] - fit.center[b]);
+    for (int c = 0; c < 3; ++c) g[b] += xi[c] * fit.linear[3 * c + b];
+    for (int k = 0; k < 6; ++k) g[b] += q[k] * fit.mixed[3 * k + b];
+  }
+  double second[6] = {};
+  const double* number = fit.second;
+  for (int k = 0; k < 6; ++k) {
+    for (int b = 0; b < 3; ++b) second[k] += xi[b] * fit.mixed[3 * k + b];
+    for (int l = k; l < 6; ++l, ++number) {
+      second[k] += *number * q[l];
+      if (l > k) second[l] += *number * q[k];
+    }
+  }
+  g[0] += second[0] * place[0] + second[3] * place[1] + second[5] * place[2];
+  g[1] += second[3] * place[0] + second[1] * place[1] + second[4] * place[2];
+  g[2] += second[5] * place[0] + second[4] * place[1] + second[2] * place[2];
+  return w * g;
+}
+
+void set_sums(const Body& body, int i, const Eigen::Array4d* multipliers, QuadraticFit& fit) {
+  std::fill(std::begin(fit.sums), std::end(fit.sums), 0.0);
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    const std::array<double, 6> q = bonds::squares(bonds::Vector3<double>{{xi[0], xi[1], xi[2]}});
+    fit.sums[0] += w;
+    for (int c = 0; c < 3; ++c) fit.sums[1 + c] += w * xi[c], fit.sums[10 + c] += w * multipliers[j][c];
+    for (int k = 0; k < 6; ++k) fit.sums[4 + k] += w * q[k];
+  });
+}
+
+double steepness_of(const Body& body, int i, const Eigen::Array4d* multipliers, const QuadraticFit& fit) {
+  const double volume = body.domain.volume(i);
+  double sum = 0;
+  for (int p = 0; p < 4; ++p) {
+    Vector own = Vector::Zero();
+    over_family(body, i, [&](int j, double w, const Vector& xi) {
+      const Vector g = weight_of_bond(fit, volume, w, xi, multipliers[j], place_of(fit, p));
+      sum += g.squaredNorm() / body.domain.volume(j);
+      own -= g;
+    });
+    sum += own.squaredNorm() / volume;
+  }
+  return sum / 4;
+}
+
+}  // namespace
+
+bool spans_cell(const Domain& domain, int i) {
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+  const double h = domain.cloud.spacings[i];
+  return volume > 0 && least_square(family_spread(domain, i) / (volume * h * h)) >= least_for_stress;
+}
+
+QuadraticFits::QuadraticFits(Body& body)
+    : number_(body.owned(), -1), multipliers_(body.domain.sites.size(), Eigen::Array4d::Zero()) {
+  for (const MaterialBlock& block : body.blocks) {
+    if (!block.is_quadratic()) continue;
+    for (const int i : block.points) {
+      number_[i] = static_cast<int>(fits_.size());
+      QuadraticFit& fit = fits_.emplace_back();
+      set_cell(shape_of(body, i), fit);
+      if (fit_motion(body, i, fit)) {
+        fit.steepness = 1;
+      } else {
+        fit = QuadraticFit{};  // carries no stress, and moves with the others
+      }
+    }
+  }
+  const auto set_all_sums = [&] {
+    for_each_point(0, body.owned(), [&](int i) {
+      if (number_[i] >= 0 && fit(i).carries_stress()) set_sums(body, i, multipliers(), fit(i));
+    });
+  };
+  set_all_sums();  // the correction looks at forces
+  const double known = body.domain.cloud.shapes.empty() ? 0 : 1;
+  if (body.domain.communicator.max(known) > 0) {
+    ConsistencyCorrection(body, *this).apply();
+    set_all_sums();  // of μ
+  }
+  for_each_point(0, body.owned(), [&](int i) {
+    if (number_[i] < 0 || !fit(i).carries_stress()) return;
+    fit(i).steepness = steepness_of(body, i, multipliers(), fit(i));
+  });
+}
+
+double QuadraticFits::bytes() const {
+  return static_cast<double>(number_.size() * sizeof(int) + fits_.size() * sizeof(QuadraticFit) +
+                             multipliers_.size() * sizeof(Eigen::Array4d));
+}
+
+}  // namespace strut

@@ -1,0 +1,82 @@
+// Against volumetric locking. Plastic flow keeps the volume, and at the four law points of a cell that would be four
+// conditions on the motion of one point: what it cannot meet, pressures of opposite sign would take up, as energy that
+// never flows. So in a cell whose metal has flowed the rate of the volume is brought to its mean over the places
+// (B-bar: Hughes, Int. J. Numer. Methods Eng. 15, 1980), and so is the pressure in its forces. Both with J as weight:
+// the one is the other's adjoint, and the work of the forces stays what the law points take.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "base/math/lanes.hpp"
+#include "base/math/small_tensors.hpp"
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// The part of the differences that is kept: none to speak of where the places shrink alike, all where one of them is
+// about to be turned inside out, which nothing else would hinder.
+template <class T>
+T kept_part(const T& least, const T& most, const T& mean) {
+  const T spread = (most - least) / mean;
+  return spread * spread;
+}
+
+// Brings the traces of tensors (rates, or stresses) at the places of cells near their mean, weighted with J. `where`: 1
+// of cells that have flowed, 0 of others.
+inline void share_traces(const std::array<small::Lanes, 4>& J,
+                         const std::array<small::Symmetric3<small::Lanes>*, 4>& tensors, const small::Lanes& where) {
+  using small::Lanes;
+  if (!(where > 0).any()) return;
+  Lanes sum = Lanes::Zero(), volume = Lanes::Zero(), least = J[0], most = J[0];
+  for (int q = 0; q < 4; ++q) {
+    sum += J[q] * small::trace(*tensors[q]);
+    volume += J[q];
+    least = least.min(J[q]), most = most.max(J[q]);
+  }
+  const Lanes mean = sum / volume, shared = 1 - kept_part<Lanes>(least, most, 0.25 * volume).min(1);
+  for (auto* s : tensors) {
+    const Lanes change = shared / 3 * (mean - small::trace(*s));
+    for (int c = 0; c < 3; ++c) s->c[c] = (where > 0).select(s->c[c] + change, s->c[c]);
+  }
+}
+
+// A tensor at each place of a cell.
+using CellTensors = std::array<Tensor, 4>;
+
+// The same for δF, and its adjoint for δP, with the deformation as it is: of a tangent.
+class SharedVolume {
+ public:
+  SharedVolume(const MaterialBlock& block, int k) {
+    for (int q = 0; q < 4; ++q) {
+      F_[q] = block.cells[block.place(k, q)].deformation_gradient;
+      inverse_transposed_[q] = F_[q].inverse().transpose();
+      J_[q] = F_[q].determinant();
+      volume_ += J_[q];
+    }
+    const auto [least, most] = std::minmax_element(J_, J_ + 4);
+    shared_ = 1 - std::min(1.0, kept_part(*least, *most, 0.25 * volume_));
+  }
+  void share_gradients(CellTensors& dF) const {
+    double rate[4], mean = 0;  // of the volume: F⁻ᵀ : δF
+    for (int q = 0; q < 4; ++q) {
+      rate[q] = inverse_transposed_[q].cwiseProduct(dF[q]).sum();
+      mean += J_[q] * rate[q] / volume_;
+    }
+    for (int q = 0; q < 4; ++q) dF[q] += shared_ / 3 * (mean - rate[q]) * F_[q];
+  }
+  void share_stresses(CellTensors& dP) const {
+    double pull[4], mean = 0;  // δP : F
+    for (int q = 0; q < 4; ++q) {
+      pull[q] = dP[q].cwiseProduct(F_[q]).sum();
+      mean += pull[q] / volume_;
+    }
+    for (int q = 0; q < 4; ++q) dP[q] += shared_ / 3 * (J_[q] * mean - pull[q]) * inverse_transposed_[q];
+  }
+
+ private:
+  CellTensors F_, inverse_transposed_;
+  double J_[4], volume_ = 0, shared_ = 1;
+};
+
+}  // namespace strut

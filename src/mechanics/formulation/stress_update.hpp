@@ -1,0 +1,259 @@
+// Law points side by side, one a lane: from deformation gradients to rotations, stretches and stresses. A point by
+// correspondence is its own law point; the cell of a point with a linear strain has four.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "base/math/rotation.hpp"
+#include "mechanics/formulation/correspondence.hpp"
+
+namespace strut {
+
+using small::Lanes, small::lanes_of;
+using LaneTensor = small::Tensor3<Lanes>;
+using LaneSymmetric = small::Symmetric3<Lanes>;
+
+// The law points of a group: one for each of its points.
+struct LawPoints {
+  static constexpr int width = LaneGroup::width;
+
+  std::array<MaterialPoint*, width> points;
+  std::array<int, width> places;  // in the columns of the block's state
+  const LaneGroup& group;
+};
+
+// Number by number: transposed as in `numbers_of` they take a tenth longer here, where they come from memory anyway.
+inline LaneTensor deformation_gradients(const LawPoints& g) {
+  LaneTensor t;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      t.c[i][j] = lanes_of([&](int l) { return g.points[l]->deformation_gradient(i, j); });
+    }
+  }
+  return t;
+}
+
+inline LaneTensor rotations(const LawPoints& g) {
+  LaneTensor R;
+  for (int c = 0; c < 6; ++c) R.c[c % 3][c / 3] = lanes_of([&](int l) { return g.points[l]->rotation.number(c); });
+  complete(R);
+  return R;
+}
+
+inline LaneSymmetric stresses(const LawPoints& g) {
+  LaneSymmetric s;
+  for (int c = 0; c < 6; ++c) s[c] = lanes_of([&](int l) { return g.points[l]->stress[c]; });
+  return s;
+}
+
+// The same numbers as laws take them.
+inline materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
+  materials::SymmetricOf<small::RawLanes> result;
+  for (int c = 0; c < 6; ++c) result[c] = small::raw(s[c]);
+  return result;
+}
+
+// The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
+// linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
+inline LaneSymmetric strain_rate(const LawPoints& g, const LaneSymmetric& stretch, const Lanes& dt) {
+  const LaneTensor R = rotations(g), F = deformation_gradients(g);
+  const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
+  LaneSymmetric difference, middle;
+  for (int c = 0; c < 6; ++c) {
+    difference.c[c] = (stretch[c] - old[c]) / dt;
+    middle.c[c] = 0.5 * (stretch[c] + old[c]);
+  }
+  return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
+}
+
+// Each further update squares what the first one left.
+inline Polar<Lanes> polar_of(const LawPoints& g, const LaneTensor& F, bool of_any_size) {
+  Polar<Lanes> polar = polar_update(rotations(g), F);
+  for (int n = 0; of_any_size && n < 3; ++n) polar = polar_update(polar.rotation, F);
+  return polar;
+}
+
+// P = J R τ Rᵀ F⁻ᵀ = J R τ U⁻¹. `stress`: τ, Pa.
+inline LaneTensor piola_kirchhoff(const LaneSymmetric& stress, const Polar<Lanes>& polar,
+                                  const LaneSymmetric& inverse_stretch, const Lanes& J) {
+  LaneTensor P = small::product(polar.rotation, small::product(small::full(stress), small::full(inverse_stretch)));
+  for (auto& row : P.c) {
+    for (Lanes& number : row) number *= J;
+  }
+  return P;
+}
+
+// Law points at the end of a step.
+struct Deformed {
+  LaneTensor F;
+  Polar<Lanes> polar;
+  LaneSymmetric inverse_stretch;
+  Lanes J;
+  LaneSymmetric rates;   // of a step of no length: zero
+  LaneSymmetric stress;  // unrotated, with the viscous pressure
+  Lanes stiffness;       // M/(3ρ), m²/s², 0 of those that have failed
+};
+
+// The law of one block, called for law points side by side.
+template <class L>
+struct LawUpdate {
+  Body& body;
+  MaterialBlock& block;
+  const L& law;
+  StressPass pass;
+  WorstFailure& failure;
+
+  // Advances stress and state to the deformation gradients F over the pass' step.
+  Deformed advance(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
+    Deformed now = deformed(g, F, share);
+    set_stress(g, share, now);
+    return now;
+  }
+
+  // All of it but what follows from the law.
+  Deformed deformed(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
+    const Polar<Lanes> polar = polar_of(g, F, pass.of_any_size);
+    Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F), {}, {}, {}};
+    if (pass.dt > 0) {
+      now.rates = strain_rate(g, polar.stretch, pass.dt * share);
+    } else {
+      for (int c = 0; c < 6; ++c) now.rates.c[c].setZero();
+    }
+    return now;
+  }
+
+  void set_stress(const LawPoints& g, const Lanes& share, Deformed& now) const {
+    now.stiffness = stiffness_of(g);
+    if (!(pass.dt > 0)) {
+      now.stress = stresses(g);
+      return;
+    }
+    const Lanes dt = pass.dt * share;
+    now.stress = advance_laws(g, now.rates, now.polar.stretch, dt, now.J);
+    if constexpr (materials::has_changing_moduli<L>) now.stiffness = stiffness_of(g);
+    if (!block.viscous.empty()) {
+      const Lanes viscous = viscous_pressure(g, now.rates, now.inverse_stretch, now.stiffness, now.J, dt);
+      for (int c = 0; c < 3; ++c) now.stress[c] -= viscous;
+    }
+  }
+
+  void store(const LawPoints& g, int l, const Deformed& now) const {
+    g.points[l]->rotation = Rotation(at(now.polar.rotation, l));
+    g.points[l]->deformation_gradient = at(now.F, l);
+  }
+
+ private:
+  static void keep(double& kept, double value) {
+    if (kept != value) kept = value;  // below yield nothing changes: memory need not be written
+  }
+
+  // Stress and state of one point.
+  void advance_law(const LawPoints& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
+                   double J) const {
+    Symmetric rate, stretch;
+    for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l], stretch[c] = stretches.c[c][l];
+    typename L::State state = block.template state_of<L>(g.places[l]);
+    const auto [stress, converged] = law.step({rate, dt, J, stretch}, g.points[l]->stress, state);
+    if (!converged) return failure.report(g.group.k[l], Failure::Kind::no_stress);
+    g.points[l]->stress = stress;
+    const auto columns = materials::to_columns<L>(state);
+    for (std::size_t c = 0; c < columns.size(); ++c) keep(block.state_at(c, g.places[l]), columns[c]);
+  }
+
+  // Stress and state of the points of a group at once.
+  LaneSymmetric advance_side_by_side(const LawPoints& g, const LaneSymmetric& rates, const LaneSymmetric& stretches,
+                                     const Lanes& dt, const Lanes& J) const {
+    using State = typename L::template StateOf<small::RawLanes>;
+    constexpr std::size_t columns = materials::state_size<L>;
+    std::array<small::RawLanes, columns> numbers;
+    for (std::size_t c = 0; c < columns; ++c) {
+      numbers[c] = small::raw(lanes_of([&](int l) { return block.state_at(c, g.places[l]); }));
+    }
+    State state;
+    if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
+    LaneSymmetric result = stresses(g);
+    const auto [stress, converged] =
+        law.step({raw(rates), small::raw(dt), small::raw(J), raw(stretches)}, raw(result), state);
+    if constexpr (columns > 0) numbers = std::bit_cast<decltype(numbers)>(state);
+    for (int c = 0; c < 6; ++c) result[c] = small::lanes(converged ? stress[c] : small::raw(result[c]));
+    for (int l = 0; l < g.group.count; ++l) {
+      if (!(J[l] > 0)) continue;
+      if (!converged[l]) {
+        failure.report(g.group.k[l], Failure::Kind::no_stress);
+        continue;
+      }
+      for (int c = 0; c < 6; ++c) g.points[l]->stress[c] = result[c][l];
+      for (std::size_t c = 0; c < columns; ++c) keep(block.state_at(c, g.places[l]), numbers[c][l]);
+    }
+    return result;
+  }
+
+  // The stresses of a group at the end of the step.
+  LaneSymmetric advance_laws(const LawPoints& g, const LaneSymmetric& rates, const LaneSymmetric& stretches,
+                             const Lanes& dt, const Lanes& J) const {
+    if constexpr (materials::takes_lanes<L>) {
+      return advance_side_by_side(g, rates, stretches, dt, J);
+    } else {
+      for (int l = 0; l < g.group.count; ++l) {
+        if (J[l] > 0) advance_law(g, l, rates, stretches, dt[l], J[l]);
+      }
+      return stresses(g);
+    }
+  }
+
+  // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
+  // `stiffness`: M/(3ρ), of failed points 0.
+  Lanes viscous_pressure(const LawPoints& g, const LaneSymmetric& rates, const LaneSymmetric& inverse_stretch,
+                         const Lanes& stiffness, const Lanes& J, const Lanes& dt) const {
+    const auto [linear, quadratic] = block.material.viscosity;
+    const Lanes speed2 = 3 * stiffness * J, steepness2 = small::square(inverse_stretch) / 3;
+    Lanes q = Lanes::Zero();
+    for (int l = 0; l < g.group.count; ++l) {
+      if (!(J[l] > 0) || !(stiffness[l] > 0)) continue;
+      const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
+      const double length = std::cbrt(body.domain.volume(g.group.i[l])) / std::sqrt(steepness2[l]);
+      const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
+      q[l] = block.material.density / J[l] * jump * by_speed;
+      ViscousPoint& point = block.viscous[g.places[l]];
+      point.work += 0.5 * (point.pressure + J[l] * q[l]) * -D * dt[l];
+      point.pressure = J[l] * q[l];
+      point.damping = jump > 0 ? by_speed / c : 0;
+    }
+    return q;
+  }
+
+  // M/(3ρ) of law points, m²/s²; 0 of those that have failed.
+  Lanes stiffness_of(const LawPoints& g) const {
+    Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
+    if constexpr (materials::has_changing_moduli<L>) {
+      for (int l = 0; l < LawPoints::width; ++l)
+        modulus[l] = law.moduli(block.template state_of<L>(g.places[l])).longitudinal();
+    }
+    return modulus / (3 * block.material.density);
+  }
+};
+
+// What a law point adds to ω²: M/(3ρ) J |U⁻¹|², m²/s².
+inline Lanes squared_speed(const Deformed& now) { return now.stiffness * now.J * small::square(now.inverse_stretch); }
+
+// Calls what the compiler is to inline whole: what is not inlined into the loop over groups passes its lanes through
+// memory. Checking builds (debug, asan) go without: it would take the compiler many minutes.
+#ifdef NDEBUG
+#define STRUT_INLINE_ALL __attribute__((flatten))
+#else
+#define STRUT_INLINE_ALL
+#endif
+
+// Advances a block's groups of points by an update, which has its law and advances a group, and reports the largest
+// frequency bound, damping and the worst failure.
+template <class Update>
+void advance_groups(const Update& update, const LaneGroups& groups, StepReport& report) {
+  const auto advance = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };
+  report.frequency_bound = std::max(report.frequency_bound, std::sqrt(largest(0, groups.count(), 0, advance)));
+  add_damping(update.law.block, update.law.pass, groups, report);
+  take_worse(update.law.failure.found(update.law.block), report.failure);
+}
+
+}  // namespace strut

@@ -1,0 +1,118 @@
+#include "mechanics/formulation/tangent.hpp"
+
+#include "materials/tangent.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+void Committed::take(const Body& body) {
+  places_.resize(body.owned());
+  for (int i = 0; i < body.owned(); ++i) places_[i] = body.domain.sites[i].current;
+  points_ = body.points;
+  states_.clear(), viscous_.clear(), cells_.clear();
+  for (const MaterialBlock& block : body.blocks) {
+    states_.push_back(block.state), viscous_.push_back(block.viscous), cells_.push_back(block.cells);
+  }
+}
+
+void Committed::restore(Body& body) const {
+  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current = places_[i];
+  restore_materials(body);
+}
+
+void Committed::restore_materials(Body& body) const {
+  body.points = points_;
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    body.blocks[b].state = states_[b], body.blocks[b].viscous = viscous_[b], body.blocks[b].cells = cells_[b];
+  }
+}
+
+namespace {
+
+Tensor cross(const Vector& w) {
+  Tensor W;
+  W << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
+  return W;
+}
+
+// Of a tensor's skew part, twice: the w of [w×] = A − Aᵀ.
+Vector twice_axial(const Tensor& A) { return {A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)}; }
+
+// The point at the end of the step, less its rotation.
+struct Unrotated {
+  Tensor U, inverse_U, Q, turning;  // turning: [(tr U) I − U]⁻¹
+  double J;
+};
+
+Unrotated unrotated(const MaterialPoint& point) {
+  const Tensor U = to_tensor(symmetric_part(point.rotation.tensor().transpose() * point.deformation_gradient));
+  const Tensor inverse_U = U.inverse();
+  const double J = U.determinant();
+  return {U, inverse_U, J * to_tensor(point.stress) * inverse_U, (U.trace() * Tensor::Identity() - U).inverse(), J};
+}
+
+Tensor change_of_stress(const Unrotated& at, const materials::StretchTangent& by_stretch, const Tensor& dG) {
+  const Tensor spin = cross(at.turning * twice_axial(dG));
+  const Tensor dU = dG - spin * at.U;
+  const Tensor dS = to_tensor(Symmetric(by_stretch * symmetric_part(dU)));
+  return spin * at.Q + (at.inverse_U * dU).trace() * at.Q + at.J * dS * at.inverse_U - at.Q * dU * at.inverse_U;
+}
+
+PointTangent point_tangent(const MaterialPoint& point, const materials::StretchTangent& by_stretch) {
+  const Unrotated at = unrotated(point);
+  const Tensor R = point.rotation.tensor();
+  PointTangent tangent;
+  for (int n = 0; n < 9; ++n) {
+    Tensor dF = Tensor::Zero();
+    dF.data()[n] = 1;
+    const Tensor dP = R * change_of_stress(at, by_stretch, R.transpose() * dF);
+    tangent.by_gradient.col(n) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(dP.data());
+  }
+  return tangent;
+}
+
+template <class L>
+materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, const MaterialPoint& now, double dt,
+                                     const typename L::State& state) {
+  const auto stretch = [](const MaterialPoint& p) {
+    return symmetric_part(p.rotation.tensor().transpose() * p.deformation_gradient);
+  };
+  const materials::PointStep step = materials::step_between(stretch(old), stretch(now), dt);
+  return materials::tangent_of(law, step, old.stress, state, stretch(old));
+}
+
+}  // namespace
+
+std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt) {
+  std::size_t cells = 0;
+  for (const MaterialBlock& block : body.blocks) cells += block.cells.size();
+  std::vector<PointTangent> tangents(body.owned() + cells, {Eigen::Matrix<double, 9, 9>::Zero()});
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    if (block.is_ordinary()) continue;
+    const auto of_block = [&]<class L>(const L& law) {
+      const auto at_place = [&](std::size_t place, const MaterialPoint& old, const MaterialPoint& now) {
+        const auto state = state_in<L>(start.state(b), block.law_points(), place);
+        return point_tangent(now, by_stretch(law, old, now, dt, state));
+      };
+      for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
+        if (!(block.moduli(k).longitudinal() > 0)) return;
+        const int i = block.points[k];
+        if (!block.is_quadratic()) {
+          tangents[i] = at_place(k, start.point(i), body.points[i]);
+          return;
+        }
+        for (int q = 0; q < block.places_a_point(); ++q) {
+          const std::size_t place = block.place(k, q);
+          PointTangent& tangent = tangents[body.owned() + block.first_law_point + place];
+          tangent = at_place(place, start.cell(b, place), block.cells[place]);
+          tangents[i].by_gradient += tangent.by_gradient / block.places_a_point();
+        }
+      });
+    };
+    std::visit(of_block, block.material.law);
+  }
+  return tangents;
+}
+
+}  // namespace strut

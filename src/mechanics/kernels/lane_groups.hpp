@@ -1,0 +1,153 @@
+// Points of a block that are taken side by side, one a lane, and the sums over their families: by the list of their
+// cluster, or by the sums over their lattice.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "mechanics/kernels/bonds.hpp"
+#include "mechanics/kernels/lattice_sums.hpp"
+
+namespace strut {
+
+enum class Part { interior, boundary };  // the points that need no ghost; the others
+
+inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
+  if (part == Part::interior) return {0, block.interior};
+  return {block.interior, static_cast<int>(block.points.size())};
+}
+
+struct LaneGroup {
+  static constexpr int width = Cluster::width;
+
+  std::array<int, width> k;  // places in block.points; the last one stands in for those that are missing
+  Indices i;                 // the points
+  int count;                 // of those that are there
+  // Where their sums come from, one of both.
+  std::optional<Cluster> cluster;
+  const LatticeSums::Chunk* chunk;
+  bool side_by_side;  // in a pencil
+
+  LaneIndices lane_indices() const { return {i, side_by_side}; }
+};
+
+// Some points of a block, with lists of their own.
+struct SelectedPoints {
+  std::vector<int> places;  // in block.points
+  ClusterLists lists;
+};
+
+// Points of a block, in groups.
+class LaneGroups {
+ public:
+  // Those of a part, of a block that has lists.
+  LaneGroups(const Body& body, const MaterialBlock& block, Part part) : points_(&block.points) {
+    const auto [begin, end] = range(block, part);
+    if (begin == end) return;
+    lists_ = &body.domain.families.lists;
+    begin_ = begin;
+    first_ = lists_->holding(block.points[begin]);
+    count_ = lists_->holding(block.points[end - 1]) + 1 - first_;
+  }
+  // Those in some slots of a lattice: first who fill a group side by side in a pencil, whose sums stand so too.
+  LaneGroups(const MaterialBlock& block, const LatticeSums::Chunk& chunk) : points_(&block.points), chunk_(&chunk) {
+    for (const Part part : {Part::interior, Part::boundary}) {
+      const auto [low, high] = range(block, part);
+      const auto [begin, end] = chunk.part_of(block.points, low, high);
+      for (int at = begin; at < end;) {
+        const int apart = LaneGroup::width - 1, last = at + apart;
+        if (last < end && chunk.are_side_by_side(block.points[at], block.points[last], apart)) {
+          full_.push_back(at);
+          at = last + 1;
+        } else {
+          others_.push_back(at++);
+        }
+      }
+    }
+    count_ = static_cast<int>(full_.size()) + groups_of(others_);
+  }
+  LaneGroups(const MaterialBlock& block, const SelectedPoints& chosen)
+      : points_(&block.points), selected_(&chosen.places), lists_(&chosen.lists), count_(chosen.lists.count()) {}
+
+  int count() const { return count_; }
+  LaneGroup operator[](int g) const {
+    const int full = static_cast<int>(full_.size());
+    if (chunk_) {
+      return g < full ? of_run(full_[g], LaneGroup::width, {}) : of_places(others_, g - full, {});
+    }
+    const Cluster cluster = (*lists_)[first_ + g];
+    if (selected_) return of_places(*selected_, g, cluster);
+    return of_run(begin_ + cluster.points[0] - (*points_)[begin_], static_cast<int>(cluster.points.size()), cluster);
+  }
+
+ private:
+  static int groups_of(const std::vector<int>& places) {
+    return (static_cast<int>(places.size()) + LaneGroup::width - 1) / LaneGroup::width;
+  }
+  // Of places that follow upon each other; of the g-th so many of some.
+  LaneGroup of_run(int begin, int count, std::optional<Cluster> cluster) const {
+    return group(count, cluster, chunk_ != nullptr, [begin](int l) { return begin + l; });
+  }
+  LaneGroup of_places(const std::vector<int>& places, int g, std::optional<Cluster> cluster) const {
+    const int begin = g * LaneGroup::width, left = static_cast<int>(places.size()) - begin;
+    return group(std::min(left, LaneGroup::width), cluster, false, [&](int l) { return places[begin + l]; });
+  }
+  template <class PlaceOf>
+  LaneGroup group(int count, std::optional<Cluster> cluster, bool side_by_side, const PlaceOf& place_of) const {
+    LaneGroup group{{}, {}, count, cluster, chunk_, side_by_side};
+    for (int l = 0; l < LaneGroup::width; ++l) {
+      group.k[l] = place_of(std::min(l, count - 1));
+      group.i[l] = (*points_)[group.k[l]];
+    }
+    return group;
+  }
+
+  const std::vector<int>* points_;
+  // Places in block.points: on a lattice the first of each full group, and whoever is in none; those that are chosen.
+  std::vector<int> full_, others_;
+  const std::vector<int>* selected_ = nullptr;
+  const ClusterLists* lists_ = nullptr;
+  int begin_ = 0, first_ = 0, count_ = 0;  // place of the first point; its list; groups
+  const LatticeSums::Chunk* chunk_ = nullptr;
+};
+
+// ---- Sums over the families of a group, of places y or of a field in their stead -----------------------------------
+
+// K = Σ ω V_j ξ ⊗ ξ, of sites in the reference state.
+template <class Weight>
+small::Tensor3<small::Lanes> shapes(const LaneGroup& group, const Site* sites, Weight weight) {
+  if (group.cluster) return bonds::gather(bonds::OfCluster{*group.cluster}, sites, weight);
+  return group.chunk->shapes(group.lane_indices());
+}
+
+// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity,
+// and the pull of springs, Σ ω V_j (v_j − v_i), is put in `pulls` for the sum of forces.
+template <class Weight>
+small::Tensor3<small::Lanes> moments(const LaneGroup& group, const Displacements& u, Weight weight,
+                                     std::vector<Vector>* pulls = nullptr) {
+  if (group.cluster) return bonds::gather(bonds::OfCluster{*group.cluster}, u.sites, weight);
+  return group.chunk->moments(group.lane_indices(), u, pulls);
+}
+
+// The mean gradient's residual.
+template <class Weight>
+bonds::Residual<small::Lanes> residuals(const LaneGroup& group, const Site* places,
+                                        const std::vector<ForceState>& gradients, Weight weight) {
+  if (group.cluster) return bonds::residual(bonds::OfCluster{*group.cluster}, places, gradients.data(), weight);
+  return {group.chunk->residual_forces(group.lane_indices()), group.chunk->residual_moments(group.lane_indices())};
+}
+
+// with_springs: whether any point of the scene has C. In a chunk of a lattice without C_i times the pull.
+template <class Weight>
+small::Vector3<small::Lanes> forces(const LaneGroup& group, const Displacements& u, const std::vector<ForceState>& states,
+                                    bool with_springs, Weight weight) {
+  if (group.cluster) {
+    const bonds::OfCluster family{*group.cluster};
+    const auto own = bonds::own_state(family, states.data());
+    return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
+                        : bonds::force<false>(family, u.sites, states.data(), own, weight);
+  }
+  return group.chunk->forces(group.lane_indices(), u, states);
+}
+
+}  // namespace strut

@@ -1,0 +1,166 @@
+#include "mechanics/kernels/lattice_sums.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "mechanics/kernels/lattice_sweep.hpp"
+
+namespace strut {
+
+LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take) : lattice_(&lattice) {
+  make_rows(body.influence);
+  if (far_y() == 0 || far_z() == 0) throw std::logic_error("a stencil spans space");
+  make_columns(body.influence);
+  mark_places();
+  has_springs_ = body.has_springs();
+  near_.resize(above_.size());
+  columns_near_.resize(columns_.size());
+  targets_.resize(words_);
+  nothing_.assign(residual_inputs, Pencil{});
+  gather_shapes(body, take);
+}
+
+// The place of a kind among some, to which it is added.
+int LatticeSums::place_in(std::vector<Kind>& kinds, const Kind& kind) {
+  const auto known = std::find(kinds.begin(), kinds.end(), kind);
+  const auto place = static_cast<int>(known - kinds.begin());
+  if (known == kinds.end()) kinds.push_back(kind);
+  return place;
+}
+
+// Of a line of cells, so many m apart; `aside`: of the line, m.
+template <class Weight>
+LatticeSums::Kind LatticeSums::kind_of(int reach, double spacing, const Eigen::Array2d& aside, Weight weight) const {
+  Kind kind{.reach = reach};
+  for (int d = 0; d <= reach; ++d) {
+    const double way = d * spacing, length = std::sqrt(way * way + aside.square().sum());
+    kind.weight[d] = weight.of(length / lattice_->frame().horizon);
+    kind.first[d] = kind.weight[d] * way;
+  }
+  return kind;
+}
+
+void LatticeSums::make_rows(Influence influence) {
+  const Vector& h = lattice_->frame().spacing;
+  bonds::with_influence(influence, [&](auto weight) {
+    for (const LatticeFamilies::Row& row : lattice_->rows()) {
+      const double y = row.y * h[1], z = row.z * h[2];
+      const int kind = place_in(kinds_, kind_of(row.reach, h[0], {y, z}, weight));
+      rows_.push_back({y, z, row.y, row.z, row.offset, kind});
+      if (row.z < 0) continue;
+      above_.resize(row.z + 1);
+      above_[row.z].push_back(rows_.back());
+    }
+  });
+}
+
+// A column reaches as high as the rows that it crosses.
+void LatticeSums::make_columns(Influence influence) {
+  const Vector& h = lattice_->frame().spacing;
+  columns_.resize(lattice_->reach() + 1);
+  bonds::with_influence(influence, [&](auto weight) {
+    for (int dx = 0; dx <= lattice_->reach(); ++dx) {
+      for (int dy = -far_y(); dy <= far_y(); ++dy) {
+        int reach = -1;
+        for (const Row& row : rows_) {
+          if (row.dy == dy && kinds_[row.kind].reach >= dx) reach = std::max(reach, row.dz);
+        }
+        if (reach < 0) continue;
+        const double y = dy * h[1];
+        columns_[dx].push_back({y, dy, place_in(column_kinds_, kind_of(reach, h[2], {dx * h[0], y}, weight))});
+      }
+    }
+  });
+}
+
+void LatticeSums::mark_places() {
+  const Eigen::Array3i& shape = lattice_->shape();
+  words_ = (shape[0] + 63) / 64;
+  filled_.assign(static_cast<std::size_t>(shape[1]) * shape[2] * words_, 0);
+  owned_ = filled_;
+  row_begins_.assign(static_cast<std::size_t>(shape[1]) * shape[2] + 1, 0);
+  for (int slot = 1; slot < lattice_->slots(); ++slot) {
+    const int row = lattice_->place(slot) / shape[0], x = lattice_->place(slot) % shape[0];
+    const std::size_t word = static_cast<std::size_t>(row) * words_ + x / 64;
+    const std::uint64_t bit = std::uint64_t{1} << x % 64;
+    filled_[word] |= bit;
+    if (lattice_->is_owned(slot)) owned_[word] |= bit;
+    row_begins_[row + 1] = slot + 1;
+  }
+  row_begins_[0] = 1;
+  for (std::size_t row = 1; row < row_begins_.size(); ++row) {
+    row_begins_[row] = std::max(row_begins_[row], row_begins_[row - 1]);
+  }
+}
+
+// Of the bits of a row those that are set in any plane that a stencil reaches from plane z.
+void LatticeSums::set_bits_near(const std::vector<std::uint64_t>& bits, int z, int y, std::uint64_t* row) const {
+  std::fill_n(row, words_, 0);
+  for (int dz = -far_z(); dz <= far_z(); ++dz) {
+    const std::uint64_t* there = row_of(bits, z + dz, y);
+    for (int w = 0; w < words_; ++w) row[w] |= there[w];
+  }
+}
+
+double LatticeSums::bytes() const {
+  const std::size_t rows = row_begins_.size() * sizeof(int) + 2 * filled_.size() * sizeof(std::uint64_t);
+  return static_cast<double>(rows + sizeof(Pencil) * (row_.size() + ring_.room.size() + across_.size())) +
+         constants_.bytes() + sums_.bytes() + sources_.bytes();
+}
+
+std::pair<int, int> LatticeSums::Chunk::part_of(const std::vector<int>& points, int low, int high) const {
+  const auto place_of = [&](int slot) {
+    const auto is_before = [this](int i, int cell) { return all->lattice_->cell(i) < cell; };
+    const auto at = std::lower_bound(points.begin() + low, points.begin() + high, pencil_width * slot, is_before);
+    return static_cast<int>(at - points.begin());
+  };
+  return {place_of(begin), place_of(end)};
+}
+
+// ---- Strips --------------------------------------------------------------------------------------------------------
+
+// As many rows as leave what is kept of the planes, so many pencils a slot, in a megabyte; twice what a stencil
+// reaches at least, for the rows beside a strip are done once more for the next one.
+std::vector<LatticeSums::Strip> LatticeSums::strips(int pencils) const {
+  constexpr double room = 1 << 20;
+  const Eigen::Array3i& shape = lattice_->shape();
+  double rows = 1;  // that hold anything
+  for (std::size_t row = 1; row < row_begins_.size(); ++row) rows += row_begins_[row] > row_begins_[row - 1];
+  const double a_row = sizeof(Pencil) * pencils * lattice_->slots() / rows;
+  const int height = std::max(4 * far_y() + 2, static_cast<int>(room / a_row));
+  std::vector<Strip> strips;
+  for (int y = far_y(); y < shape[1] - far_y(); y += height) {
+    strips.push_back({y, std::min(y + height, shape[1] - far_y())});
+  }
+  return strips;
+}
+
+void LatticeSums::Planes::keep(int planes) {
+  count_ = planes;
+  if (room_.size() < static_cast<std::size_t>(planes))
+    room_.resize(planes), begins_.resize(planes), ends_.resize(planes);
+}
+
+void LatticeSums::Planes::open(const LatticeSums& all, int z, int y0, int y1, int columns) {
+  columns_ = columns;
+  begins_[z % count_] = all.slots_before(z, y0), ends_[z % count_] = all.slots_before(z, y1);
+  std::vector<Pencil>& room = room_[z % count_];
+  room.resize(std::max(room.size(), static_cast<std::size_t>(end(z) - begin(z)) * columns));
+}
+
+double LatticeSums::Planes::bytes() const {
+  std::size_t pencils = 0;
+  for (const auto& plane : room_) pencils += plane.capacity();
+  return static_cast<double>(sizeof(Pencil) * pencils);
+}
+
+void LatticeSums::take_plane(int z, int columns, const Take& take) {
+  Chunk chunk;
+  chunk.all = this, chunk.begin = sums_.begin(z), chunk.end = sums_.end(z), chunk.columns = columns;
+  if (chunk.begin == chunk.end) return;
+  chunk.sums = sums_.of(z, chunk.begin);
+  take(chunk);
+}
+
+}  // namespace strut

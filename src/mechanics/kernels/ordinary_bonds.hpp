@@ -1,0 +1,107 @@
+// The two sums over a family that ordinary points need. With ξ = X_j − X_i, η = y_j − y_i and e = |η| − |ξ|:
+//   extensions:  Σ ω V_j |ξ| e  (θ = 3/m of it),  Σ ω V_j e²
+//   force:       f_i = Σ ω V_j [ (a_i + a_j)|ξ| + (b_i + b_j) e ] η/|η|
+// For any kind of family, as in bonds.hpp. A square root or a division costs as much as ten other operations; as few as
+// can be are left:
+//   |ξ| e = √(|ξ|² |η|²) − |ξ|²,  |ξ|/|η| = √(|ξ|²/|η|²),  e/|η| = 1 − |ξ|/|η|
+#pragma once
+
+#include "mechanics/kernels/bonds.hpp"
+
+namespace strut::bonds {
+
+// A bond, of the points of a family side by side.
+template <class T>
+struct Stretched {
+  int j;
+  T weight;  // ω V_j; 0 where j is not in the family
+  T xi2;     // |ξ|², and 1 where j is not in the family, for the point itself has none
+  Vector3<T> eta;
+  T eta2;  // |η|², alike
+};
+
+// Calls visit(bond) over a family.
+template <class Family, class Weight, class Visit>
+inline void over_stretched(const Family& family, const Site* sites, Weight weight, Visit&& visit) {
+  using T = ScalarOf<Family>;
+  const Vector3<T> y = own_place(family, sites, &Site::current);
+  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto& present) {
+    const Vector3<T> eta = apart(sites[j].current, y);
+    const T absent = 1 - present;
+    visit(Stretched<T>{j, w, dot(xi, xi) + absent, eta, dot(eta, eta) + absent});
+  });
+}
+
+// What the extension e of a bond is: that of its places …
+template <class Family>
+class OfPlaces {
+ public:
+  using T = ScalarOf<Family>;
+  explicit OfPlaces(const Family&) {}
+  T times_length(const Stretched<T>& bond) const {  // |ξ| e
+    using std::sqrt;
+    return sqrt(bond.xi2 * bond.eta2) - bond.xi2;
+  }
+  T over_length(const Stretched<T>&, const T& shrinkage) const { return 1 - shrinkage; }  // e/|η|
+};
+
+// … or its change η·(v_j − v_i)/|η| along a field v, which stands in the current places of sites of its own.
+template <class Family>
+class OfField {
+ public:
+  using T = ScalarOf<Family>;
+  OfField(const Family& family, const Site* field) : field_(field), own_(own_place(family, field, &Site::current)) {}
+  T times_length(const Stretched<T>& bond) const {
+    using std::sqrt;
+    return sqrt(bond.xi2 / bond.eta2) * eta_times_change(bond);
+  }
+  T over_length(const Stretched<T>& bond, const T&) const { return eta_times_change(bond) / bond.eta2; }
+
+ private:
+  T eta_times_change(const Stretched<T>& bond) const { return dot(bond.eta, apart(field_[bond.j].current, own_)); }
+
+  const Site* field_;
+  Vector3<T> own_;
+};
+
+// Σ ω V |ξ| e
+template <class Family, class Weight, class Extension>
+inline ScalarOf<Family> extensions(const Family& family, const Site* sites, Weight weight, const Extension& extension) {
+  using T = ScalarOf<Family>;
+  T moment = zero_vector<T>().c[0];
+  over_stretched(family, sites, weight,
+                 [&](const Stretched<T>& bond) { moment += bond.weight * extension.times_length(bond); });
+  return moment;
+}
+
+// Σ ω V (|η| − |ξ|)², of the difference of lengths: in that of squares nothing would be left of a small strain's.
+template <class Family, class Weight>
+inline ScalarOf<Family> squared_extensions(const Family& family, const Site* sites, Weight weight) {
+  using T = ScalarOf<Family>;
+  using std::sqrt;
+  T square = zero_vector<T>().c[0];
+  over_stretched(family, sites, weight, [&](const Stretched<T>& bond) {
+    const T e = sqrt(bond.eta2) - sqrt(bond.xi2);
+    square += bond.weight * e * e;
+  });
+  return square;
+}
+
+template <class Family, class Weight, class Extension>
+inline Vector3<ScalarOf<Family>> ordinary_force(const Family& family, const Site* sites, const ScalarState* states,
+                                                Weight weight, const Extension& extension) {
+  using T = ScalarOf<Family>;
+  using std::sqrt;
+  const auto own = family.template own<2>([&](int i) { return &states[i].a; });  // a, b
+  Vector3<T> sum = zero_vector<T>();
+  over_stretched(family, sites, weight, [&](const Stretched<T>& bond) {
+    const ScalarState& there = states[bond.j];
+    const T shrinkage = sqrt(bond.xi2 / bond.eta2);  // |ξ|/|η|
+    const T pull = (own[0] + there.a) * shrinkage + (own[1] + there.b) * extension.over_length(bond, shrinkage);
+    const T weighted = bond.weight * pull;
+    for (int c = 0; c < 3; ++c) sum.c[c] += weighted * bond.eta.c[c];
+  });
+  return sum;
+}
+
+}  // namespace strut::bonds

@@ -1,0 +1,103 @@
+// The sums over a family that quadratic correspondence needs (quadratic_fit.hpp), of one point or of a cluster:
+//   gather: N = Σ ω V_j (y_j − y_i) ⊗ (ξ, q, μ_j, 1)
+//   force:  f_i = Σ ω V_j [ A_i ξ + B_i q + D_i (μ_j − c_i) ] + Σ ω V_j [ A_j ξ − B_j q − D_j (μ_i − c_j) ]
+// with the states A, B, D of the ends (QuadraticState: first, second, correction, offset = D c).
+#pragma once
+
+#include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/formulation/quadratic_fit.hpp"
+
+namespace strut::bonds {
+
+// q of a bond.
+template <class T>
+std::array<T, 6> squares(const Vector3<T>& xi) {
+  const auto& [x, y, z] = xi.c;
+  return {T(0.5 * x * x), T(0.5 * y * y), T(0.5 * z * z), T(x * y), T(y * z), T(z * x)};
+}
+
+template <class T>
+struct QuadraticMoments {
+  Tensor3<T> first = zero_tensor<T>();
+  T second[3][6];
+  Tensor3<T> correction = zero_tensor<T>();
+  Vector3<T> sum = zero_vector<T>();
+};
+
+// In two loops: all sums at once do not fit into the registers.
+template <class Family, class Weight>
+inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family, const Site* sites,
+                                                           const Eigen::Array4d* multipliers, Weight weight) {
+  using T = ScalarOf<Family>;
+  const Vector3<T> y = own_place(family, sites, &Site::current);
+  QuadraticMoments<T> N;
+  {
+    Tensor3<T> first = zero_tensor<T>(), correction = zero_tensor<T>();
+    Vector3<T> sum = zero_vector<T>();
+    over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+      const Vector3<T> eta = apart(sites[j].current, y);
+      const Eigen::Array4d& mu = multipliers[j];
+      for (int r = 0; r < 3; ++r) {
+        const T weighted = w * eta.c[r];
+        sum.c[r] += weighted;
+        for (int c = 0; c < 3; ++c) first.c[r][c] += weighted * xi.c[c];
+        for (int c = 0; c < 3; ++c) correction.c[r][c] += weighted * mu[c];
+      }
+    });
+    N.first = first, N.correction = correction, N.sum = sum;
+  }
+  T second[3][6];
+  for (auto& row : second) {
+    for (T& number : row) number = zero_vector<T>().c[0];
+  }
+  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+    const Vector3<T> eta = apart(sites[j].current, y);
+    const std::array<T, 6> q = squares(xi);
+    for (int r = 0; r < 3; ++r) {
+      const T weighted = w * eta.c[r];
+      for (int k = 0; k < 6; ++k) second[r][k] += weighted * q[k];
+    }
+  });
+  for (int r = 0; r < 3; ++r) std::copy_n(second[r], 6, N.second[r]);
+  return N;
+}
+
+// Of what the far ends give: Σ ω V_j [ A_j ξ − B_j q − D_j (μ_i − c_j) ].
+template <class Family, class Weight>
+inline Vector3<ScalarOf<Family>> quadratic_far_force(const Family& family, const Site* sites,
+                                                     const Eigen::Array4d* multipliers, const QuadraticState* states,
+                                                     Weight weight) {
+  using T = ScalarOf<Family>;
+  const auto mu = family.template own<3>([&](int i) { return multipliers[i].data(); });
+  Vector3<T> linear = zero_vector<T>(), quadratic = zero_vector<T>(), corrected = zero_vector<T>();
+  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+    const QuadraticState& there = states[j];
+    const std::array<T, 6> q = squares(xi);
+    for (int r = 0; r < 3; ++r) {
+      T a = there.first[3 * r] * xi.c[0] + there.first[3 * r + 1] * xi.c[1] + there.first[3 * r + 2] * xi.c[2];
+      T b = there.second[6 * r] * q[0] + there.second[6 * r + 1] * q[1] + there.second[6 * r + 2] * q[2];
+      b += there.second[6 * r + 3] * q[3] + there.second[6 * r + 4] * q[4] + there.second[6 * r + 5] * q[5];
+      const T d = there.offset[r] - there.correction[3 * r] * mu[0] - there.correction[3 * r + 1] * mu[1] -
+                  there.correction[3 * r + 2] * mu[2];
+      linear.c[r] += w * a, quadratic.c[r] += w * b, corrected.c[r] += w * d;
+    }
+  });
+  Vector3<T> sum;
+  for (int r = 0; r < 3; ++r) sum.c[r] = linear.c[r] - quadratic.c[r] + corrected.c[r];
+  return sum;
+}
+
+// Of what the point itself gives: its state times the sums over its family, which stay as they are.
+inline Vector quadratic_own_force(const QuadraticState& state, const QuadraticFit& fit) {
+  Vector sum;
+  for (int r = 0; r < 3; ++r) {
+    double f = -state.offset[r] * fit.sums[0];
+    for (int c = 0; c < 3; ++c) f += state.first[3 * r + c] * fit.sums[1 + c];
+    for (int k = 0; k < 6; ++k) f += state.second[6 * r + k] * fit.sums[4 + k];
+    for (int c = 0; c < 3; ++c) f += state.correction[3 * r + c] * fit.sums[10 + c];
+    sum[r] = f;
+  }
+  return sum;
+}
+
+}  // namespace strut::bonds

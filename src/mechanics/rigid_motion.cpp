@@ -1,0 +1,89 @@
+#include "mechanics/rigid_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace strut {
+
+namespace {
+
+// The range of the points' velocities in the three directions, each with its opposite: the largest v and −v.
+class VelocityRange {
+ public:
+  void add(const Vector& v) {
+    for (int c = 0; c < 3; ++c) {
+      most[2 * c] = std::max(most[2 * c], v[c]);
+      most[2 * c + 1] = std::max(most[2 * c + 1], -v[c]);
+    }
+  }
+  void spoil() { most.fill(std::numeric_limits<double>::infinity()); }
+  bool is_one() const { return most[0] == -most[1] && most[2] == -most[3] && most[4] == -most[5]; }
+
+  std::array<double, 6> most = [] {
+    std::array<double, 6> none;
+    none.fill(-std::numeric_limits<double>::infinity());
+    return none;
+  }();
+};
+
+// Adds the velocities of a block's points; the first that differs from the others settles it.
+void add(const Body& body, const MaterialBlock& block, VelocityRange& range) {
+  for (const int i : block.points) {
+    const Vector& v = body.velocity[i];
+    if (v != body.velocity[block.points.front()]) return range.spoil();
+  }
+  if (!block.points.empty()) range.add(body.velocity[block.points.front()]);
+}
+
+bool is_in_place(const Body& body, const MaterialBlock& block) {
+  return std::all_of(block.points.begin(), block.points.end(), [&](int i) {
+    return (body.domain.sites[i].current.head<3>() == body.domain.sites[i].reference.head<3>()).all();
+  });
+}
+
+}  // namespace
+
+void find_rigid_motion(Body& body) {
+  const std::vector<BlockHorizons>& blocks = body.domain.blocks;
+  std::vector<double> moved(blocks.size(), 0);  // of the first block of a body
+  const auto first_of = [&](std::size_t b) {
+    std::size_t first = 0;
+    while (blocks[first].body != blocks[b].body) ++first;
+    return first;
+  };
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (!is_in_place(body, body.blocks[b])) moved[first_of(b)] = 1;
+  }
+  body.domain.communicator.max(moved);
+  for (std::size_t b = 0; b < blocks.size(); ++b) body.blocks[b].in_rigid_motion = moved[first_of(b)] == 0;
+}
+
+void update_rigid_motion(Body& body) {
+  std::vector<int> bodies;  // that are left
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (body.blocks[b].in_rigid_motion) bodies.push_back(body.domain.blocks[b].body);
+  }
+  if (bodies.empty()) return;
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  std::vector<double> most;
+  for (const int one : bodies) {
+    VelocityRange range;
+    for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+      if (body.domain.blocks[b].body == one) add(body, body.blocks[b], range);
+    }
+    most.insert(most.end(), range.most.begin(), range.most.end());
+  }
+  body.domain.communicator.max(most);
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    VelocityRange range;
+    std::copy_n(most.begin() + 6 * n, 6, range.most.begin());
+    if (range.is_one()) continue;
+    for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+      if (body.domain.blocks[b].body == bodies[n]) body.blocks[b].in_rigid_motion = false;
+    }
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,112 @@
+#include "mechanics/serialize.hpp"
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+void keep_vectors(Archive& archive, const std::string& name, std::vector<Vector>& vectors) {
+  archive.field(name, 3, [&](std::size_t i, int c) -> double& { return vectors[i][c]; });
+}
+
+void keep_numbers(Archive& archive, const std::string& name, std::vector<double>& numbers) {
+  archive.field(name, 1, [&](std::size_t i, int) -> double& { return numbers[i]; });
+}
+
+// Collective. The mesh, to know it again: nothing of it is restored.
+void compare_reference(Archive& archive, const Body& body) {
+  std::vector<Eigen::Array4d> kept;
+  for (int i = 0; i < body.owned(); ++i) kept.push_back(body.domain.sites[i].reference);
+  archive.field("reference", 4, [&](std::size_t i, int c) -> double& { return kept[i][c]; });
+  bool same = true;
+  for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.domain.sites[i].reference).all();
+  raise_together(body.domain.communicator,
+                 same ? ""
+                      : "the mesh is not the one with which the run began: points are at other places, or of "
+                        "other volumes; a run can go on with the same one only");
+}
+
+void keep_motion(Archive& archive, Body& body) {
+  archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
+  keep_vectors(archive, "velocity", body.velocity);
+  keep_vectors(archive, "previous_velocity", body.previous_velocity);
+  keep_vectors(archive, "force_density", body.force_density);
+}
+
+void keep_points(Archive& archive, Body& body) {
+  std::vector<MaterialPoint>& points = body.points;
+  archive.field("deformation_gradient", 9,
+                [&](std::size_t i, int c) -> double& { return points[i].deformation_gradient.data()[c]; });
+  archive.field("rotation", 6, [&](std::size_t i, int c) -> double& { return points[i].rotation.number(c); });
+  archive.field("stress", 6, [&](std::size_t i, int c) -> double& { return points[i].stress.data()[c]; });
+  // A failed point has none left.
+  archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
+  keep_numbers(archive, "residual", body.residual);
+  const auto has_mean_gradient = [](const MaterialBlock& block) { return block.has_mean_gradient(); };
+  if (std::any_of(body.blocks.begin(), body.blocks.end(), has_mean_gradient))
+    keep_numbers(archive, "mean_work", body.mean_work);
+}
+
+// The law points of quadratic correspondence.
+void keep_cells(Archive& archive, MaterialBlock& block) {
+  const int places = block.places_a_point();
+  const auto field = [&](const std::string& name, int width, const auto& number) {
+    archive.field("cell_" + name, width * places, [&block, width, number](std::size_t k, int c) -> double& {
+      return number(block.cells[block.place(k, c / width)], c % width);
+    });
+  };
+  field("deformation_gradient", 9, [](MaterialPoint& p, int c) -> double& { return p.deformation_gradient.data()[c]; });
+  field("rotation", 6, [](MaterialPoint& p, int c) -> double& { return p.rotation.number(c); });
+  field("stress", 6, [](MaterialPoint& p, int c) -> double& { return p.stress.data()[c]; });
+}
+
+void keep_block(Archive& archive, const Body& body, std::size_t number, MaterialBlock& block) {
+  archive.points("block " + std::to_string(number) + " (" + block.name + ")", ids_of(body, block.points));
+  const int places = block.places_a_point();
+  const int columns =
+      std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
+  if (columns > 0) {
+    archive.field("state", columns * places, [&](std::size_t k, int c) -> double& {
+      return block.state_at(c / places, block.place(k, c % places));
+    });
+  }
+  if (block.is_quadratic()) keep_cells(archive, block);
+  if (block.is_ordinary()) {
+    archive.field("dilatation", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].dilatation; });
+    archive.field("energy", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].energy; });
+  }
+  if (block.material.viscosity.any()) {
+    archive.field("viscosity", 3 * places, [&](std::size_t k, int c) -> double& {
+      ViscousPoint& point = block.viscous[block.place(k, c / 3)];
+      return c % 3 == 0 ? point.pressure : c % 3 == 1 ? point.work : point.damping;
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& points) {
+  std::vector<std::int64_t> ids;
+  ids.reserve(points.size());
+  for (const int i : points) ids.push_back(body.domain.cloud.ids[i]);
+  return ids;
+}
+
+void serialize(Archive& archive, Body& body) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    archive.number("undisturbed_" + std::to_string(b), body.blocks[b].in_rigid_motion);
+    keep_block(archive, body, b, body.blocks[b]);
+  }
+  const auto owned = body.domain.cloud.ids.begin() + body.owned();
+  archive.points("all points", {body.domain.cloud.ids.begin(), owned});
+  compare_reference(archive, body);
+  keep_motion(archive, body);
+  keep_points(archive, body);
+  if (!archive.loading()) return;
+  body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+}
+
+}  // namespace strut

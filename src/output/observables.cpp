@@ -1,0 +1,254 @@
+#include "output/observables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <span>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+std::span<const double> components(const double& scalar) { return {&scalar, 1}; }
+template <class Matrix>
+std::span<const double> components(const Matrix& matrix) {
+  return {matrix.data(), static_cast<std::size_t>(matrix.size())};
+}
+
+// An observable from a function of body and point that returns a double, Vector, Symmetric or (row by row) Tensor.
+template <class Value>
+Observable observable(std::string name, std::string meaning, Value value, bool nodal = false) {
+  const auto fill = [value](const Body& body, std::vector<double>& out) {
+    out.clear();
+    for (int i = 0; i < body.owned(); ++i) {
+      const auto v = value(body, i);
+      for (const double c : components(v)) out.push_back(c);
+    }
+  };
+  using Result = decltype(value(std::declval<const Body&>(), 0));
+  int count = 1;
+  if constexpr (!std::is_same_v<Result, double>) count = static_cast<int>(Result::SizeAtCompileTime);
+  return {std::move(name), count, nodal, std::move(meaning), fill};
+}
+
+// Eigen stores columns; files want rows.
+Tensor by_rows(const Tensor& t) { return t.transpose(); }
+
+Symmetric cauchy(const Body& body, int i) {
+  const MaterialPoint& p = body.points[i];
+  const Tensor R = p.rotation.tensor();
+  return symmetric_part(R * to_tensor(p.stress) * R.transpose());
+}
+
+double weighted_volume(const Body& body, int i) { return to_tensor(body.shape_inverse[i]).inverse().trace(); }
+
+// Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
+Observable dilatation() {
+  const auto fill = [](const Body& body, std::vector<double>& out) {
+    out.assign(body.owned(), 0);
+    for (const MaterialBlock& block : body.blocks) {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        const MaterialPoint& p = body.points[block.points[k]];
+        const double traced = p.rotation.tensor().cwiseProduct(p.deformation_gradient).sum() - 3;
+        out[block.points[k]] = block.is_ordinary() ? block.ordinary[k].dilatation : traced;
+      }
+    }
+  };
+  return {"Dilatation", 1, false, "θ of ordinary points, tr U − 3 of others", fill};
+}
+
+std::vector<Observable> kinematic() {
+  return {
+      observable(
+          "Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
+      observable(
+          "Coordinate_X", "of the present place y, m", [](const Body& b, int i) { return b.current(i)[0]; }, true),
+      observable(
+          "Coordinate_Y", "of y, m", [](const Body& b, int i) { return b.current(i)[1]; }, true),
+      observable(
+          "Coordinate_Z", "of y, m", [](const Body& b, int i) { return b.current(i)[2]; }, true),
+      observable(
+          "Radial_Distance", "of y from the z axis, m",
+          [](const Body& b, int i) { return std::hypot(b.current(i)[0], b.current(i)[1]); }, true),
+      observable(
+          "Velocity", "at the time of the frame, m/s",
+          [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
+      observable(
+          "Force", "internal force and loads, N; where points are stepped alone, what acts at the end of a step",
+          [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
+      observable(
+          "Force_Density", "the same per reference volume, N/m³",
+          [](const Body& b, int i) { return b.force_density[i]; }, true),
+      observable("Deformation_Gradient", "F",
+                 [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
+      observable("Rotation_Tensor", "R of F = V R",
+                 [](const Body& b, int i) { return by_rows(b.points[i].rotation.tensor()); }),
+      observable("Left_Stretch_Tensor", "V of F = V R",
+                 [](const Body& b, int i) {
+                   const MaterialPoint& p = b.points[i];
+                   return symmetric_part(p.deformation_gradient * p.rotation.tensor().transpose());
+                 }),
+      observable("Residual", "of F: the root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
+                 [](const Body& b, int i) { return std::sqrt(std::max(0.0, b.residual[i]) / weighted_volume(b, i)); }),
+      observable("Jacobian", "det F",
+                 [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
+      dilatation(),
+  };
+}
+
+std::vector<Observable> stresses() {
+  return {
+      observable("Cauchy_Stress", "Pa", cauchy),
+      observable("Unrotated_Cauchy_Stress", "Rᵀ σ R, Pa", [](const Body& b, int i) { return b.points[i].stress; }),
+      observable("Von_Mises_Stress", "√(3/2 s:s), Pa",
+                 [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
+      observable("Pressure", "−tr σ/3, Pa", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
+  };
+}
+
+std::vector<Observable> fixed_properties() {
+  return {
+      observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volume(i); }),
+      observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
+      observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizon(i); }),
+      observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵", weighted_volume),
+      observable("Number_Of_Neighbors", "size of the family",
+                 [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
+      observable("Element_Id", "the mesh's own number",
+                 [](const Body& b, int i) { return static_cast<double>(b.domain.cloud.element_ids[i]); }),
+      observable("Proc_Num", "the rank that owns the point",
+                 [](const Body& b, int) { return static_cast<double>(b.domain.communicator.rank()); }),
+  };
+}
+
+// One column of the state of the laws that have it.
+Observable state_variable(const std::string& name) {
+  const auto fill = [name](const Body& body, std::vector<double>& out) {
+    out.assign(body.owned(), 0);
+    for (const MaterialBlock& block : body.blocks) {
+      const auto copy = [&]<class L>(const L&) {
+        const auto at = std::find(L::state_names.begin(), L::state_names.end(), name);
+        if (at == L::state_names.end()) return;
+        const double* column = block.state.data() + (at - L::state_names.begin()) * block.law_points();
+        const int places = block.places_a_point();
+        for (std::size_t k = 0; k < block.points.size(); ++k) {
+          double sum = 0;
+          for (int q = 0; q < places; ++q) sum += column[block.place(k, q)];
+          out[block.points[k]] = sum / places;
+        }
+      };
+      std::visit(copy, block.material.law);
+    }
+  };
+  return {name, 1, false, "state of the material law; by quadratic correspondence the mean over the cell", fill};
+}
+
+std::vector<std::string> names_of(const std::vector<Observable>& all, const std::vector<std::string>& prefixes) {
+  std::vector<std::string> names;
+  for (const std::string& prefix : prefixes) {
+    for (const Observable& o : all) names.push_back(prefix + o.name);
+  }
+  return names;
+}
+
+const Observable* find(const std::vector<Observable>& all, const std::string& name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::vector<Observable> observables(const Body& body) {
+  std::vector<Observable> all = kinematic();
+  for (auto group : {stresses(), fixed_properties()}) all.insert(all.end(), group.begin(), group.end());
+  std::set<std::string> states;
+  for (const MaterialBlock& block : body.blocks) {
+    std::visit([&]<class L>(const L&) { states.insert(L::state_names.begin(), L::state_names.end()); },
+               block.material.law);
+  }
+  for (const std::string& name : states) all.push_back(state_variable(name));
+  return all;
+}
+
+std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
+                               const std::string& where) {
+  const std::vector<std::string> valid = names_of(all, {""});
+  std::vector<Observable> result;
+  std::vector<std::string> problems;
+  for (const std::string& name : names) {
+    if (const Observable* found = find(all, name)) {
+      result.push_back(*found);
+    } else {
+      problems.push_back(where + " > " + name + ": no such variable" + did_you_mean(name, valid) + "; valid are " +
+                         joined(valid));
+    }
+  }
+  if (!problems.empty()) throw Error(joined(problems, "\n"));
+  return result;
+}
+
+Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
+                 const std::string& where)
+    : name_(name) {
+  const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
+  const std::string whole = name.substr(0, bracket);
+  const std::string kind = whole.substr(0, 4);
+  const bool extreme = kind == "Max_" || kind == "Min_";
+  const Observable* found = extreme ? find(all, whole.substr(4)) : nullptr;
+  if (!found) {
+    throw Error(where + " > " + name + ": expected Max_ or Min_ and the name of a variable" +
+                did_you_mean(whole, names_of(all, {"Max_", "Min_"})) + "; variables are " +
+                joined(names_of(all, {""})));
+  }
+  if (bracket != std::string::npos) {
+    choose_points(cloud, name.substr(bracket + 1, name.size() - bracket - 2), where);
+  }
+  sign_ = kind == "Max_" ? 1 : -1;
+  observable_ = *found;
+}
+
+// As the Node Set of a condition: a set, else a block.
+void Extreme::choose_points(const PointCloud& cloud, const std::string& group, const std::string& where) {
+  const auto place = [&group](const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), group);
+    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+  };
+  set_ = place(cloud.set_names);
+  if (set_ >= 0) return;
+  block_ = place(cloud.block_names);
+  if (block_ >= 0) return;
+  std::vector<std::string> valid = cloud.set_names;
+  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
+  throw Error(where + " > " + name_ + ": there is no node set or block '" + group + "'" + did_you_mean(group, valid) +
+              "; there are " + joined(valid));
+}
+
+bool Extreme::counts(const PointCloud& cloud, int i) const {
+  if (set_ >= 0) return (cloud.sets[i] >> set_ & 1) != 0;
+  return block_ < 0 || cloud.blocks[i] == block_;
+}
+
+std::int64_t Extreme::points(const PointCloud& cloud) const {
+  std::int64_t count = 0;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) count += counts(cloud, i);
+  return count;
+}
+
+double Extreme::local(const Body& body) const {
+  std::vector<double> values;
+  observable_.fill(body, values);
+  double best = -std::numeric_limits<double>::infinity();
+  const int width = observable_.components;
+  for (int i = 0; i < body.owned(); ++i) {
+    if (!counts(body.domain.cloud, i)) continue;
+    const double* first = &values[static_cast<std::size_t>(i) * width];
+    const double value = width == 1 ? *first : Eigen::Map<const Eigen::VectorXd>(first, width).norm();
+    best = std::max(best, sign_ * value);
+  }
+  return best;
+}
+
+}  // namespace strut

@@ -1,0 +1,42 @@
+#include "output/schedule.hpp"
+
+#include <cmath>
+
+namespace strut {
+
+namespace {
+constexpr double round_off = 1e-9;  // of the interval: times are sums of steps
+}
+
+Schedule::Schedule(bool enabled, std::optional<int> frequency, std::optional<double> interval, double initial_time)
+    : enabled_(enabled),
+      frequency_(frequency),
+      interval_(interval),
+      initial_time_(initial_time),
+      next_time_(initial_time) {}
+
+bool Schedule::due(int step, double time) const {
+  if (!enabled_) return false;
+  if (frequency_) return step % *frequency_ == 0;
+  return interval_ && time >= next_time_ - round_off * *interval_;
+}
+
+void Schedule::serialize(Archive& archive, const std::string& name, double time) {
+  double interval = interval_.value_or(0), next = next_time_;
+  archive.number(name + "_interval", interval);
+  archive.number(name + "_next", next);
+  if (!archive.loading()) return;
+  if (interval == interval_.value_or(0)) {
+    next_time_ = next;
+  } else {
+    done(time);
+  }
+}
+
+void Schedule::done(double time) {
+  if (!interval_) return;
+  const double passed = std::floor((time - initial_time_) / *interval_ + round_off);
+  next_time_ = initial_time_ + (passed + 1) * *interval_;
+}
+
+}  // namespace strut

@@ -1,0 +1,94 @@
+#include "output/writers.hpp"
+
+#include <span>
+
+#include "base/timing.hpp"
+
+namespace strut {
+
+FieldWriter::FieldWriter(const deck::Deck& deck, const OutputVariables& variables)
+    : schedule(deck.output.enabled, deck.output.frequency, deck.output.interval, deck.solver.initial_time),
+      enabled_(deck.output.enabled),
+      file_(deck.output.file),
+      variables_(variables.frame),
+      columns_(variables.frame.size()) {}
+
+void FieldWriter::open(const Body& body) {
+  if (!enabled_) return;
+  std::vector<io::OutputField> fields;
+  for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
+  writer_.emplace(file_, body.domain.communicator, whole_cloud(body.domain), std::move(fields), before_);
+}
+
+void FieldWriter::write(double time, const Body& body) {
+  static Teuchos::Time& timer = phase("Output");
+  const Timed timed(timer);
+  for (std::size_t v = 0; v < variables_.size(); ++v) variables_[v].fill(body, columns_[v]);
+  writer_->write(time, columns_);
+  schedule.done(time);
+  last_ = time;
+}
+
+void FieldWriter::serialize(Archive& archive, double time) {
+  if (writer_) {
+    writer_->sync();
+    before_ = writer_->frames();
+  }
+  archive.number("frames", before_);
+  archive.number("last_frame", last_);
+  schedule.serialize(archive, "frames", time);
+}
+
+History::History(const deck::Deck& deck, const OutputVariables& variables)
+    : schedule(deck.history.enabled, deck.history.frequency, deck.history.interval, deck.solver.initial_time),
+      enabled_(deck.history.enabled),
+      path_(deck.history.file),
+      extremes_(variables.extremes),
+      reactions_(variables.reactions) {}
+
+void History::open(const Body& body) {
+  if (!enabled_) return;
+  std::vector<std::string> names{
+      "Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy",
+      "Contact_Work", "External_Work", "Balance_Error",  "Momentum_X",     "Momentum_Y",   "Momentum_Z"};
+  for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
+  for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
+  file_.emplace(path_, body.domain.communicator, names, before_);
+}
+
+void History::write(const Ledger& now, const Reactions& reactions, const Body& body) {
+  static Teuchos::Time& timer = phase("History");
+  const Timed timed(timer);
+  std::vector<double> row{now.time,          now.dt,         now.kinetic,  now.elastic,       now.dissipated,
+                          now.stabilization, now.contact,    now.external, now.balance_error, now.momentum[0],
+                          now.momentum[1],   now.momentum[2]};
+  const std::size_t fixed = row.size();
+  for (const Extreme& e : extremes_) row.push_back(e.local(body));
+  body.domain.communicator.max(std::span(row).subspan(fixed));
+  for (std::size_t k = 0; k < extremes_.size(); ++k) row[fixed + k] = extremes_[k].value(row[fixed + k]);
+  for (const ReactionComponent& reaction : reactions_) row.push_back(reaction.of(reactions));
+  file_->write(row);
+  schedule.done(now.time);
+  last_ = now.time;
+}
+
+void History::serialize(Archive& archive, double time) {
+  if (file_) {
+    file_->sync();
+    before_ = file_->bytes();
+  }
+  archive.number("history_bytes", before_);
+  archive.number("last_line", last_);
+  schedule.serialize(archive, "history", time);
+}
+
+bool is_over(const deck::Deck& deck, const Communicator& communicator) {
+  double over = 0;
+  if (communicator.rank() == 0 && deck.output.enabled) {
+    const std::optional<double> last = io::last_time_of_result(deck.output.file);
+    over = last && *last >= deck.solver.final_time ? 1 : 0;
+  }
+  return communicator.max(over) > 0;
+}
+
+}  // namespace strut

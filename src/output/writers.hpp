@@ -1,0 +1,103 @@
+// What a run writes as it goes on: frames of the fields, and lines of the history.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/deck.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/text/history.hpp"
+#include "output/schedule.hpp"
+#include "solvers/ledger.hpp"
+#include "output/variables.hpp"
+
+namespace strut {
+
+constexpr double never = -std::numeric_limits<double>::infinity();
+
+// The frames of the result file.
+class FieldWriter {
+ public:
+  FieldWriter(const deck::Deck& deck, const OutputVariables& variables);
+
+  // Collective. Replaces the file, or, of a restored run, goes on with it.
+  void open(const Body& body);
+  void write(double time, const Body& body);  // collective
+  void serialize(Archive& archive, double time);
+
+  bool has(double time) const { return time == last_; }  // a frame of this time was the last one
+  bool enabled() const { return enabled_; }
+  Schedule schedule;
+
+ private:
+  bool enabled_;
+  double last_ = never;
+  std::filesystem::path file_;
+  std::vector<Observable> variables_;
+  std::vector<std::vector<double>> columns_;
+  int before_ = 0;  // frames that a restored run finds
+  std::optional<io::ExodusWriter> writer_;
+};
+
+// The table of the ledger and of asked-for extremes and reactions over time.
+class History {
+ public:
+  History(const deck::Deck& deck, const OutputVariables& variables);
+
+  void open(const Body& body);                                                  // as Frames
+  void write(const Ledger& now, const Reactions& reactions, const Body& body);  // collective
+  void serialize(Archive& archive, double time);
+
+  bool has(double time) const { return time == last_; }
+  bool enabled() const { return enabled_; }
+  bool has_reactions() const { return !reactions_.empty(); }
+  Schedule schedule;
+
+ private:
+  bool enabled_;
+  double last_ = never;
+  std::filesystem::path path_;
+  std::vector<Extreme> extremes_;
+  std::vector<ReactionComponent> reactions_;
+  std::int64_t before_ = 0;  // bytes that a restored run finds
+  std::optional<io::HistoryFile> file_;
+};
+
+// Collective. Whether the result that the deck names is of a run that came to its end.
+bool is_over(const deck::Deck& deck, const Communicator& communicator);
+
+// Both, as one.
+struct OutputWriters {
+  OutputWriters(const deck::Deck& deck, const OutputVariables& variables) : frames(deck, variables), history(deck, variables) {}
+
+  void open(const Body& body) {
+    frames.open(body);
+    history.open(body);
+  }
+  bool due(int step, double time) const { return frames.schedule.due(step, time) || history.schedule.due(step, time); }
+  void serialize(Archive& archive, double time) {
+    frames.serialize(archive, time);
+    history.serialize(archive, time);
+  }
+  // Collective. Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked
+  // where a line is written. Returns its ledger.
+  template <class Solver, class OfConditions>
+  std::optional<Ledger> write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
+    const double now = solver.time();
+    const auto wanted = [&](const auto& sink) {
+      return sink.enabled() && !sink.has(now) && (last || sink.schedule.due(solver.steps(), now));
+    };
+    if (wanted(frames)) frames.write(now, body);
+    if (!wanted(history)) return std::nullopt;
+    const Ledger ledger = solver.ledger();
+    history.write(ledger, reactions(), body);
+    return ledger;
+  }
+
+  FieldWriter frames;
+  History history;
+};
+
+}  // namespace strut

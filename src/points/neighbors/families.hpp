@@ -1,0 +1,142 @@
+// Who is within the horizon of a point: families as lists, or as stencils of a lattice.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/math/small_tensors.hpp"
+#include "points/neighbors/lattice.hpp"
+
+namespace strut {
+
+// Points that kernels take side by side, one a lane, with one list for all of them: who is in the family of any, and in
+// whose. Points of a cluster lie close together, so that most bonds of most of them share their far ends, each of which
+// is read once.
+struct Cluster {
+  static constexpr int width = small::lane_count;
+
+  std::span<const int> points;  // local indices; `width` at most
+  std::span<const int> near;
+  const std::uint8_t* mask;  // of near: bit l is set if it is in the family of points[l]
+};
+
+class ClusterLists {
+ public:
+  class Builder;
+
+  int count() const { return static_cast<int>(first_.size()) - 1; }
+  Cluster operator[](int b) const {
+    const auto slice = [b](const auto& from, const auto& values) {
+      return std::span(values.data() + from[b], values.data() + from[b + 1]);
+    };
+    return {slice(first_, points_), slice(start_, near_), mask_.data() + start_[b]};
+  }
+  std::size_t entries() const { return near_.size(); }
+  double bytes() const {
+    return static_cast<double>(points_.size() * sizeof(int) + near_.size() * (sizeof(int) + sizeof(std::uint8_t)) +
+                               first_.size() * (sizeof(int) + sizeof(std::size_t)));
+  }
+
+  // Where points are numbered in a row: the cluster of point i.
+  int holding(int i) const {
+    const auto begins_after = [this](int point, int b) { return point < points_[b]; };
+    const auto after = std::upper_bound(first_.begin(), first_.end() - 1, i, begins_after);
+    return static_cast<int>(after - first_.begin()) - 1;
+  }
+  // Calls visit(j) over the family of point i, of the same numbering.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    const Cluster cluster = (*this)[holding(i)];
+    const int lane = i - cluster.points[0];
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      if (cluster.mask[n] >> lane & 1) visit(cluster.near[n]);
+    }
+  }
+
+  // Room for so many entries, or more than there will be: what is not filled takes no memory.
+  void reserve(std::size_t entries) { near_.reserve(entries), mask_.reserve(entries); }
+  // Gives all points and neighbors their numbers in `numbers`.
+  void renumber(const std::vector<int>& numbers) {
+    for (int& i : points_) i = numbers[i];
+    for (int& j : near_) j = numbers[j];
+  }
+
+ private:
+  std::vector<int> points_, first_{0};  // of the points of a cluster
+  std::vector<std::size_t> start_{0};   // of the list of a cluster
+  std::vector<int> near_;
+  std::vector<std::uint8_t> mask_;
+};
+
+// Adds one cluster after the other. `members`: how many points there are, neighbors included.
+class ClusterLists::Builder {
+ public:
+  Builder(ClusterLists& clusters, std::size_t members) : lists_(clusters), mask_(members, 0) {}
+
+  // for_each(i, visit): calls visit(j) over the family of i. The list is in the order of key(j).
+  template <class ForEach, class Key>
+  void add(std::span<const int> points, const ForEach& for_each, const Key& key) {
+    near_.clear();
+    for (std::size_t lane = 0; lane < points.size(); ++lane) {
+      for_each(points[lane], [&](int j) {
+        if (mask_[j] == 0) near_.push_back(j);
+        mask_[j] |= 1u << lane;
+      });
+    }
+    std::sort(near_.begin(), near_.end(), [&](int a, int b) { return key(a) < key(b); });
+    lists_.points_.insert(lists_.points_.end(), points.begin(), points.end());
+    for (const int j : near_) {
+      lists_.near_.push_back(j);
+      lists_.mask_.push_back(mask_[j]);
+      mask_[j] = 0;
+    }
+    lists_.first_.push_back(static_cast<int>(lists_.points_.size()));
+    lists_.start_.push_back(lists_.near_.size());
+  }
+
+  // The same of any number of points, so many at a time as a cluster holds.
+  template <class ForEach, class Key>
+  void add_all(std::span<const int> points, const ForEach& for_each, const Key& key) {
+    for (std::size_t at = 0; at < points.size(); at += Cluster::width) {
+      add(points.subspan(at, std::min<std::size_t>(Cluster::width, points.size() - at)), for_each, key);
+    }
+  }
+
+ private:
+  ClusterLists& lists_;
+  std::vector<std::uint8_t> mask_;  // of all members; 0 between calls
+  std::vector<int> near_;
+};
+
+// Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters, of
+// one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids, so
+// that every sum over a family is the same on any number of ranks.
+struct Families {
+  ClusterLists lists;
+  std::vector<LatticeFamilies> lattices;
+  std::vector<int> lattice_of;  // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+
+  const LatticeFamilies* lattice(int i) const {
+    return lattice_of.empty() || lattice_of[i] < 0 ? nullptr : &lattices[lattice_of[i]];
+  }
+
+  // Calls visit(j) over the family of point i.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    if (const LatticeFamilies* stencil = lattice(i)) return stencil->for_each(i, visit);
+    lists.for_each(i, visit);
+  }
+
+  std::size_t size(int i) const {
+    if (const LatticeFamilies* stencil = lattice(i)) return stencil->family_size(i);
+    std::size_t count = 0;
+    lists.for_each(i, [&count](int) { ++count; });
+    return count;
+  }
+  std::size_t bonds() const;  // of all points, both ends counted
+  double bytes() const;
+};
+
+}  // namespace strut

@@ -1,0 +1,99 @@
+#include "run/monitor.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+// Ledgers at the start of a run: its energies are still small, and what is small beside later ones is a large part.
+constexpr int first_ledgers = 10;
+
+// Where the rank has what is largest of all ranks: `text`, else nothing.
+std::string of_largest(const Body& body, double own, const std::string& text) {
+  return own == body.domain.communicator.max(own) ? text : "";
+}
+
+// The point that limits the step.
+std::string fastest_point(const Body& body) {
+  double largest = -1;
+  int fastest = -1;
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const int i = block.points[k];
+      const double here = frequency_bound(body, block, static_cast<int>(k)) * body.share(i);
+      if (here > largest) largest = here, fastest = i;
+    }
+  }
+  std::ostringstream text;
+  if (fastest >= 0) {
+    text << locate(body, fastest) << ", det F = " << body.points[fastest].deformation_gradient.determinant();
+  }
+  return of_largest(body, largest, text.str());
+}
+
+std::string at(double time) {
+  std::ostringstream text;
+  text << "at t = " << time << " s ";
+  return text.str();
+}
+
+}  // namespace
+
+void Monitor::passed(What what, const std::string& text) {
+  if (limits_.stops) raise_together(body_.domain.communicator, text);
+  if (!told_[what] && !text.empty()) tell_("WARNING: " + text + " (told once)");
+  told_[what] = true;
+}
+
+void Monitor::check_step(const CentralDifference& solver) {
+  if (solver.went_on() && !told_[point]) {
+    if (!solver.warning().empty()) tell_("WARNING: " + solver.warning() + " (Watch > Inverted Points; told once)");
+    told_[point] = true;
+  }
+  const double now = solver.critical_time_step();  // the one that is taken may be short for the end of the run
+  if (first_step_ == 0) first_step_ = now;
+  const contact::Contact& contact = solver.contact();
+  if (!(now >= limits_.smallest_step * first_step_) && !(told_[step] && std::isfinite(now))) {
+    std::ostringstream text;
+    const std::string point = fastest_point(body_);
+    text << at(solver.time()) << "the critical time step has fallen to " << now << " s from " << first_step_
+         << " s (Watch > Smallest Step): the stiffest is " << point
+         << ". Likely causes: a point is being crushed flat or turned inside out, too little stabilization, or bodies "
+            "in contact that are far too stiff";
+    passed(step, point.empty() ? "" : text.str());
+    if (!std::isfinite(now)) raise_together(body_.domain.communicator, point.empty() ? "" : text.str());
+  }
+  if (contact.penetration() > limits_.penetration && !told_[penetration]) {
+    const contact::DeepestPenetration deepest = contact.deepest();
+    std::ostringstream text;
+    if (deepest.point >= 0 && deepest.penetration == contact.penetration()) {
+      text << at(solver.time()) << "contact is penetrated by " << 100 * deepest.penetration
+           << " % of the distance at which points touch (Watch > Penetration): " << locate(body_, deepest.point)
+           << ". Likely causes: a Spring Constant that is too small for the speed, a Contact Radius below the spacing";
+    }
+    passed(penetration, text.str());
+  }
+}
+
+void Monitor::serialize(Archive& archive) {
+  archive.number("first_step", first_step_);
+  archive.number("ledgers", ledgers_);
+}
+
+void Monitor::check_energy(const Ledger& ledger) {
+  const bool early = ++ledgers_ <= first_ledgers && std::isfinite(ledger.balance_error);
+  if (early || ledger.balance_error <= limits_.balance_error) return;
+  std::ostringstream text;
+  text << at(ledger.time) << "the balance of energy has an error of " << 100 * ledger.balance_error
+       << " % of the largest energy (Watch > Balance Error): the run has become unstable or is far too coarse in "
+          "time. Likely causes: a Fixed dt above the critical time step, a load too sudden, too few load steps; the last "
+          "frame shows where points fly off";
+  passed(energy, text.str());
+  if (!std::isfinite(ledger.balance_error)) raise_together(body_.domain.communicator, text.str());
+}
+
+}  // namespace strut

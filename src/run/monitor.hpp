@@ -1,0 +1,40 @@
+// What ends a run that has gone wrong without a point that failed: a step that collapses, energy out of nothing, bodies
+// that pass through each other.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "deck/deck.hpp"
+#include "mechanics/body.hpp"
+#include "solvers/explicit/central_difference.hpp"
+#include "solvers/ledger.hpp"
+
+namespace strut {
+
+class Monitor {
+ public:
+  // `tell`: takes a line, on any rank.
+  Monitor(const deck::Watch& limits, const Body& body, std::function<void(const std::string&)> tell)
+      : limits_(limits), body_(body), tell_(std::move(tell)) {}
+
+  // Where a limit is passed each throws Error on all ranks, or tells of it once where the deck says that the run goes
+  // on; else they are free.
+  void check_step(const CentralDifference& solver);  // after advance_velocity()
+  void check_energy(const Ledger& ledger);
+
+  void serialize(Archive& archive);
+
+ private:
+  enum What { step, energy, penetration, point, count };
+  void passed(What what, const std::string& text);
+
+  deck::Watch limits_;
+  const Body& body_;
+  std::function<void(const std::string&)> tell_;
+  double first_step_ = 0;  // s, stable
+  int ledgers_ = 0;
+  bool told_[count] = {};
+};
+
+}  // namespace strut

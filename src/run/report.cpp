@@ -1,0 +1,160 @@
+#include "run/report.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+#include "base/timing.hpp"
+
+namespace strut {
+
+namespace {
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char line[256];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+// Whether a person watches. Open MPI gives every rank a terminal of its own, so under mpirun only tools/run, which
+// sees the real one, can tell (STRUT_TERMINAL).
+bool watched() {
+  if (const char* told = std::getenv("STRUT_TERMINAL")) return std::string(told) == "1";
+  return isatty(STDOUT_FILENO) != 0 && std::getenv("OMPI_COMM_WORLD_RANK") == nullptr;
+}
+
+std::string as_size(double bytes) {
+  return bytes < 1e9 ? formatted("%.1f MB", bytes / 1e6) : formatted("%.2f GB", bytes / 1e9);
+}
+
+}  // namespace
+
+std::string as_duration(double seconds) {
+  if (!std::isfinite(seconds)) return "unknown";
+  if (seconds < 60) return formatted("%.1f s", seconds);
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return formatted("%ld min %ld s", whole / 60, whole % 60);
+  return formatted("%ld h %ld min", whole / 3600, whole % 3600 / 60);
+}
+
+Progress::Progress(const Communicator& communicator, double initial_time, double now, double final_time)
+    : speaks_(communicator.rank() == 0),
+      terminal_(watched()),
+      initial_(initial_time),
+      begin_(now),
+      final_(final_time) {}
+
+double Progress::elapsed() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Progress::show(int step, double time, double dt) {
+  if (!speaks_) return;
+  const double share = (time - initial_) / (final_ - initial_);
+  const int now = static_cast<int>(share * (terminal_ ? 100 : 10) + 1e-9);
+  const bool soon = std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(200);
+  if (terminal_ ? soon && share < 1 : now == shown_) return;
+  shown_ = now;
+  last_ = std::chrono::steady_clock::now();
+  const std::string left = time > begin_ ? as_duration(elapsed() * (final_ - time) / (time - begin_)) : "unknown";
+  const std::string facts =
+      formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
+  if (terminal_) {
+    const int filled = static_cast<int>(30 * share + 1e-9);
+    std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left << "   "
+              << std::flush;
+  } else {
+    std::cout << facts << left << std::endl;
+  }
+}
+
+void Progress::finish() {
+  if (speaks_ && terminal_) std::cout << std::endl;
+}
+
+double predicted_memory(const Scene& scene) {
+  const double solver =
+      scene.quasi_static ? QuasiStatic::bytes(scene.body, *scene.quasi_static) : CriticalTimeStep::bytes(scene.body);
+  return scene.body.domain.communicator.sum(footprint(scene.body) + solver);
+}
+
+std::string describe_scene(const Scene& scene) {
+  std::ostringstream text;
+  const double neighbors = static_cast<double>(scene.bonds) / static_cast<double>(scene.points);
+  const double memory = predicted_memory(scene);
+  const int ranks = scene.body.domain.communicator.size();
+  text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s\n",
+                    static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
+                    as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s");
+  if (scene.dropped > 0) {
+    text << "dropped " << scene.dropped << " points with too few neighbors (Degenerate Points = Drop)\n";
+  }
+  text << scene.warnings;
+  return text.str();
+}
+
+std::string step_warning(const StepControl& control, double limit, double time) {
+  if (!(control.fixed_dt > limit)) return "";
+  return formatted(
+      "WARNING: Fixed dt = %.4g s is above the critical time step of %.4g s at t = %.4g s: expect it to blow up\n",
+      control.fixed_dt, limit, time);
+}
+
+namespace {
+
+std::string table_of_phases(const Scene& scene, double seconds) {
+  std::ostringstream text;
+  text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");
+  for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
+    text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
+  }
+  text << formatted("%-26s %10.3f\n", "whole run", seconds);
+  return text.str();
+}
+
+std::string searches(const contact::Contact& contact) {
+  if (!contact.any()) return "";
+  return formatted("%d searches for contact\n", contact.searches());
+}
+
+std::string energies(const Ledger& ledger) {
+  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilization %.5g;\n",
+                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization) +
+         formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
+                   ledger.external, ledger.contact, ledger.balance_error);
+}
+
+}  // namespace
+
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
+                           int before) {
+  std::ostringstream text;
+  text << table_of_phases(scene, seconds) << searches(solver.contact());
+  const int steps = std::max(1, solver.steps() - before);  // none where a run that was over goes on
+  const double core_seconds = seconds * scene.body.domain.communicator.size();
+  text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
+                    static_cast<double>(scene.points) * steps / seconds,
+                    1e9 * core_seconds / (static_cast<double>(scene.bonds) * steps));
+  if (solver.most_substeps() > 1) {
+    text << formatted("the stiffest points were stepped alone, up to %d times a step: %.2f updates a point and step\n",
+                      solver.most_substeps(), solver.updates() / solver.steps());
+  }
+  return text.str() + energies(ledger);
+}
+
+std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,
+                           int before) {
+  const double point_evaluations = static_cast<double>(scene.points) * solver.evaluations();
+  return table_of_phases(scene, seconds) + searches(solver.contact()) +
+         formatted("%d load steps, %d iterations, %d evaluations of forces or tangent, %.3g points*evaluations/s\n",
+                   solver.steps() - before, solver.iterations(), solver.evaluations(), point_evaluations / seconds) +
+         energies(ledger);
+}
+
+}  // namespace strut

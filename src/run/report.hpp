@@ -1,0 +1,48 @@
+// What a run tells the person who waits for it. Rank 0 speaks.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "deck/deck.hpp"
+#include "setup/setup.hpp"
+
+namespace strut {
+
+// A bar with the time left on a terminal; a line every tenth of the way in a log.
+class Progress {
+ public:
+  // `now`: where this run begins, which is later than the initial time where it goes on with another.
+  Progress(const Communicator& communicator, double initial_time, double now, double final_time);
+  void show(int step, double time, double dt);
+  void finish();
+
+ private:
+  double elapsed() const;
+  bool speaks_, terminal_;
+  double initial_, begin_, final_;
+  int shown_ = -1;  // hundredths on a terminal, tenths in a log
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+};
+
+// What was read: points, bonds, memory, blocks.
+std::string describe_scene(const Scene& scene);
+
+// Bytes that points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) take on all
+// ranks; the program itself has some 50 MB a rank, 80 with equilibria.
+double predicted_memory(const Scene& scene);
+
+// A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
+std::string step_warning(const StepControl& control, double limit, double time);
+
+// Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end. `before`: steps
+// that were made by an earlier run.
+std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
+                           int before);
+std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,
+                           int before);
+
+// "1.3 s", "4 min 10 s", "2 h 3 min"
+std::string as_duration(double seconds);
+
+}  // namespace strut

@@ -1,0 +1,20 @@
+// A run, from deck to result.
+#pragma once
+
+#include <filesystem>
+
+namespace strut {
+
+class Communicator;
+
+enum class Start { anew, continued };  // continued: from where an earlier run of the deck was kept, if one was
+
+// Collective. Runs the deck; what it writes is where the deck says. Throws Error on all ranks. Returns false when a
+// signal (SIGINT, SIGTERM) ended it early, with everything written so far readable, and what it takes to go on.
+bool run(const std::filesystem::path& deck, const Communicator& communicator, Start start = Start::anew);
+
+// Collective. Validates the deck and its mesh and prints what the run would do: points, bonds, memory, critical time step,
+// number of steps, time.
+void check(const std::filesystem::path& deck, const Communicator& communicator);
+
+}  // namespace strut

@@ -1,0 +1,318 @@
+#include "solvers/explicit/central_difference.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "mechanics/serialize.hpp"
+#include "mechanics/rigid_motion.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+namespace {
+
+// The estimate is renewed when the largest frequency bound has grown by this factor since the last one (until then the step
+// shrinks in proportion), and after so many steps in any case, when it may also grow again.
+constexpr double renewal_growth = 1.1;
+constexpr int renewal_steps = 1000;
+
+constexpr double round_off = 1e-6;  // of a step: times are sums of up to millions of steps
+
+}  // namespace
+
+CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
+                                     double initial_time)
+    : body_(body),
+      conditions_(std::move(conditions)),
+      contact_(std::move(contact)),
+      control_(control),
+      time_(initial_time) {
+  body_.time_levels.clear();
+  for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
+  find_rigid_motion(body_);
+  StepReport report = advance_stress(body_, 0, true);
+  reassign_levels(report);
+  sum_forces(body_, true);
+  contact_.add_forces(kinematics(), 0, body_.force_density);
+  check(report);
+  estimate_step();
+}
+
+contact::Kinematics CentralDifference::kinematics() const { return {body_.domain, body_.velocity, body_.density}; }
+
+void CentralDifference::estimate_step() {
+  critical_at_estimate_ = critical_time_step_.estimate(body_);
+  bound_at_estimate_ = frequency_bound_;
+  estimate_due_ = false;
+  steps_since_estimate_ = 0;
+}
+
+// The points that limit the step are chosen anew.
+void CentralDifference::reassign_levels(StepReport& report) {
+  levels_due_ = false;
+  estimate_due_ = true;
+  if (!control_.subcycling || control_.fixed_dt > 0) return;
+  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor);
+  restrict_conditions();
+}
+
+void CentralDifference::restrict_conditions() {
+  conditions_of_level_.clear();
+  for (int m = 1; m <= multi_stepping_.level_count(); ++m) {
+    conditions_of_level_.push_back(restricted_to(conditions_, multi_stepping_.motion_levels(), m));
+  }
+}
+
+void CentralDifference::choose_step(double final_time) {
+  previous_dt_ = dt_;
+  const double left = final_time - time_;
+  if (left <= 0 && steps_ > 0) return;  // no step follows: velocities at the end are the mean about equal ones
+  // A fixed step is watched, too, more closely where it may have become too large: a warning should be true.
+  const double growth = control_.fixed_dt > critical_time_step() ? 1.01 : renewal_growth;
+  if (estimate_due_) estimate_step();
+  levels_due_ = frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps;
+  if (control_.fixed_dt > 0) {
+    // What round-off leaves after the last full step is no step of its own.
+    dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
+  } else {
+    // Equal steps to the end: a jump in dt at the last one would cost energy.
+    dt_ = left / std::ceil(left / (control_.safety_factor * critical_time_step()) * (1 - round_off));
+  }
+  next_time_ = dt_ == left ? final_time : time_ + dt_;
+}
+
+void CentralDifference::advance_velocity(double final_time) {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  choose_step(final_time);
+  const Timed timed(timer);
+  add_body_forces(conditions_, time_, body_);
+  if (steps_ == 0) start();
+  const double impulse_time = 0.5 * (previous_dt_ + dt_);
+  work_ = work_ + impulse_work_.before + impulse_work_.after;
+  impulse_work_ = {};
+  for_each_point(0, body_.owned(), [&](int i) {
+    body_.previous_velocity[i] = body_.velocity[i];
+    body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
+  });
+  Impulses impulses(static_cast<int>(reactions_.size()));
+  constrain(conditions_, time_, point_steps(), body_, impulse_work_, impulses);
+  take_reactions(impulses, impulse_time);
+  add_work_of_body_forces(conditions_, time_, impulse_time, body_, impulse_work_);
+  add_work_of_friction(impulse_time);
+  if (steps_ == 0) initial_energy_ = 0, initial_energy_ = imbalance(ledger());
+}
+
+// ω² of a sum of operators is at most the sum of theirs. A damping by the velocities of the mid-step before takes as
+// much of the step as the formula of StepReport says.
+double CentralDifference::critical_time_step() const {
+  const double alone = critical_at_estimate_ * std::min(1.0, bound_at_estimate_ / frequency_bound_);
+  const double undamped = alone / std::sqrt(1 + 0.25 * alone * alone * contact_.stiffness());
+  return undamped * (std::sqrt(1 + damping_ * damping_) - damping_);
+}
+
+void CentralDifference::add_work_of_friction(double impulse_time) {
+  const contact::FrictionWork work = contact_.friction_work(impulse_time, body_.previous_velocity, body_.velocity);
+  impulse_work_.before.contact += work.before;
+  impulse_work_.after.contact += work.after;
+}
+
+void CentralDifference::gather_reactions(int conditions) {
+  reactions_.assign(conditions, Vector::Zero());
+  between_ = Impulses(conditions);
+}
+
+// What a substep gives belongs to the step before this kick. The first kick begins half a step back, with velocities
+// that conditions have not changed, and so they answer for half of it.
+void CentralDifference::take_reactions(const Impulses& now, double impulse_time) {
+  const double length = steps_ == 0 ? 0.5 * impulse_time : impulse_time;
+  for (std::size_t c = 0; c < reactions_.size(); ++c) {
+    reactions_[c] = now.sums()[c] / length + between_.sums()[c] / previous_dt_;
+  }
+  between_ = Impulses(static_cast<int>(reactions_.size()));
+}
+
+Reactions CentralDifference::reactions() const {
+  Reactions all{reactions_};
+  if (!all.forces.empty()) body_.domain.communicator.sum(std::span(all.forces[0].data(), 3 * all.forces.size()));
+  return all;
+}
+
+// Initial velocities belong to the initial time: the mid-step before it is half a step back.
+void CentralDifference::start() {
+  previous_dt_ = dt_;
+  start_motions(conditions_, time_, dt_, body_);
+  for_each_point(0, body_.owned(),
+                 [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
+}
+
+// Between time() and the next: the kicks of the points that are stepped alone. Times of order m come every dt/2^m.
+StepReport CentralDifference::substeps() {
+  StepReport first;
+  const int levels = multi_stepping_.level_count();
+  if (levels == 0) return first;
+  static Teuchos::Time& timer = phase("Substeps");
+  const Timed timed(timer);
+  const int count = 1 << levels;
+  for (int n = 1; n < count; ++n) {
+    const int level = levels - std::countr_zero(static_cast<unsigned>(n));
+    const StepReport report = substep(level, time_ + n * (dt_ / count));
+    take_worse(report.failure, first.failure);
+  }
+  return first;
+}
+
+StepReport CentralDifference::substep(int level, double t) {
+  const PointSteps steps = point_steps();
+  const std::vector<int>& moved = multi_stepping_.moved(level);
+  const int count = static_cast<int>(moved.size());
+  for_each_point(0, count, [&](int n) {
+    const int i = moved[n];
+    body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
+  });
+  const double impulse_time = std::ldexp(dt_, -level);
+  const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
+  for_each_point(0, count, [&](int n) {
+    const int i = moved[n];
+    body_.previous_velocity[i] = body_.velocity[i];
+    body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
+  });
+  ImpulseWork work;
+  constrain(conditions_of_level_[level - 1], t, steps, body_, work, between_);
+  work_ = work_ + work.before + work.after;
+  return report;
+}
+
+void CentralDifference::advance_position(bool with_diagnostics) {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  update_rigid_motion(body_);
+  const StepReport between = substeps();
+  {
+    const Timed timed(timer);
+    const PointSteps steps = point_steps();
+    for_each_point(0, body_.owned(),
+                   [&](int i) { body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array(); });
+  }
+  time_ = next_time_;
+  ++steps_;
+  ++steps_since_estimate_;
+  updates_ += multi_stepping_.updates_a_point();
+  most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
+  StepReport report = advance_stress(body_, dt_, with_diagnostics);
+  take_worse(between.failure, report.failure);
+  if (levels_due_) reassign_levels(report);
+  sum_forces(body_, with_diagnostics);
+  contact_.add_forces(kinematics(), dt_, body_.force_density);
+  check(report);
+}
+
+// One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
+// contact needs.
+void CentralDifference::check(const StepReport& report) {
+  std::vector<double> agreed{static_cast<double>(severity(report)), static_cast<double>(request_), report.frequency_bound,
+                             report.damping};
+  const std::size_t own = agreed.size();
+  contact_.append_to_agree(kinematics(), agreed);
+  {
+    static Teuchos::Time& timer = phase("Agreement of ranks");
+    const Timed timed(timer);
+    body_.domain.communicator.max(agreed);
+  }
+  agreed_request_ = static_cast<Request>(agreed[1]);
+  request_ = Request::none;
+  frequency_bound_ = agreed[2];
+  damping_ = agreed[3];
+  contact_.take_agreed(std::span(agreed).subspan(own), dt_);
+  const auto severity = static_cast<Severity>(agreed[0]);
+  went_on_ = severity == passable;
+  warning_.clear();
+  if (severity == harmless) return;
+  std::ostringstream text;
+  if (report.failure) {
+    text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);
+  }
+  if (!went_on_) raise_together(body_.domain.communicator, text.str());
+  warning_ = text.str();
+}
+
+// A point that only is turned inside out has a place; others take their neighbors with them.
+CentralDifference::Severity CentralDifference::severity(const StepReport& report) const {
+  if (!report.failure) return harmless;
+  return control_.with_inverted && report.failure->kind == Failure::Kind::inverted ? passable : fatal;
+}
+
+void CentralDifference::serialize(Archive& archive) {
+  strut::serialize(archive, body_);
+  multi_stepping_.serialize(archive, body_);
+  critical_time_step_.serialize(archive, body_);
+  archive.number("time", time_);
+  archive.number("steps", steps_);
+  archive.number("steps_since_estimate", steps_since_estimate_);
+  archive.number("most_substeps", most_substeps_);
+  archive.number("updates", updates_);
+  archive.number("dt", dt_);
+  archive.number("limit", critical_at_estimate_);
+  archive.number("pace", frequency_bound_);
+  archive.number("pace_at_estimate", bound_at_estimate_);
+  archive.number("damping", damping_);
+  archive.number("regroup_due", levels_due_);
+  archive.number("estimate_due", estimate_due_);
+  serialize_work(archive);
+  contact_.serialize(archive, kinematics(), dt_);
+  if (!archive.loading()) return;
+  restrict_conditions();
+  for (MaterialBlock& block : body_.blocks) {
+    if (block.in_rigid_motion) block.rest_frequency_bound = largest_frequency_bound(body_, block);
+  }
+}
+
+void CentralDifference::serialize_work(Archive& archive) {
+  archive.number("put_in", initial_energy_);
+  archive.number("largest_energy", largest_energy_);
+  const auto keep = [&archive](const std::string& when, Work& work) {
+    archive.share("external_work" + when, work.external);
+    archive.share("contact_work" + when, work.contact);
+  };
+  keep("", work_);
+  keep("_before", impulse_work_.before);
+  keep("_after", impulse_work_.after);
+  between_.serialize(archive);
+}
+
+// What the body holds and has dissipated, less what was put in.
+double CentralDifference::imbalance(const Ledger& now) const {
+  return now.kinetic + now.elastic + now.dissipated + now.stabilization - now.contact - now.external - initial_energy_;
+}
+
+Ledger CentralDifference::ledger() {
+  Ledger now;
+  now.time = time_;
+  now.dt = dt_;
+  const Work done = work_ + impulse_work_.before;
+  double sums[6] = {0, done.contact - contact_.energy(), done.external, 0, 0, 0};
+  for (int i = 0; i < body_.owned(); ++i) {
+    const Vector &before = body_.previous_velocity[i], &after = body_.velocity[i];
+    // ½ m v⁻·v⁺: with it central differences conserve the energy of a linear body exactly, at a constant step.
+    sums[0] += 0.5 * body_.mass(i) * before.dot(after);
+    for (int c = 0; c < 3; ++c) sums[3 + c] += body_.mass(i) * 0.5 * (before[c] + after[c]);
+  }
+  body_.domain.communicator.sum(sums);
+  const Energies stored = stored_energies(body_);
+  now.kinetic = sums[0];
+  now.contact = sums[1];
+  now.external = sums[2];
+  now.momentum = Vector(sums[3], sums[4], sums[5]);
+  now.elastic = stored.elastic;
+  now.dissipated = stored.dissipated;
+  now.stabilization = stored.stabilization;
+  const double held = now.kinetic + now.elastic + now.dissipated + now.stabilization;
+  largest_energy_ = std::max({largest_energy_, held, std::abs(initial_energy_ + now.contact + now.external)});
+  now.balance_error = largest_energy_ > 0 ? std::abs(imbalance(now)) / largest_energy_ : 0;
+  return now;
+}
+
+}  // namespace strut

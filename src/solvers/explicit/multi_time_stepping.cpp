@@ -1,0 +1,392 @@
+#include "solvers/explicit/multi_time_stepping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "mechanics/kernels/quadratic_bonds.hpp"
+#include "mechanics/formulation/correspondence.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr int max_level = 6;
+
+// The fastest motion of a point whose stress is stepped by Δt/2^h turns by no more than twice this angle in its step,
+// and by four times in the step before the last halving: less than half a period (README).
+constexpr double most_turn = 0.6;
+
+// A substep of a point, with its share of the points that it moves, beside a whole step of a point.
+constexpr double cost_of_substep = 1.5;
+
+// Families between points that are halved h times and those that are halved h − 2 times or less (README).
+constexpr int families_between_levels = 2;
+
+constexpr double worth_while = 0.75;  // of the cost of a run without
+
+// How many points have which frequency bound, in classes that are an eighth of an octave wide.
+class FrequencyHistogram {
+ public:
+  static constexpr int classes_per_octave = 8, octaves = 32, classes = classes_per_octave * octaves;
+
+  FrequencyHistogram(double fastest, double margin) : fastest_(fastest), margin_(margin) {}
+  void add(double frequency_bound) { counts_[class_of(frequency_bound)] += 1; }
+  void agree(const Communicator& communicator) { communicator.sum(counts_); }
+
+  // Paces of points that are not halved are below this, where the run costs least.
+  double best() const {
+    int best = 0;
+    const int last = static_cast<int>(classes_per_octave * (max_level + std::log2(margin_)));
+    for (int c = 1; c <= last; ++c) {
+      if (cost(c) < cost(best)) best = c;
+    }
+    return bound(best);
+  }
+
+ private:
+  double bound(int c) const { return fastest_ * std::exp2(-static_cast<double>(c) / classes_per_octave); }
+  int class_of(double frequency_bound) const {
+    const double c = std::floor(classes_per_octave * std::log2(fastest_ / frequency_bound));
+    return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
+  }
+  // Of the same time, with steps for points of the frequency bound bound(c) and below.
+  double cost(int c) const;
+
+  double fastest_, margin_;
+  std::array<double, classes> counts_{};
+};
+
+// A point that is halved is at most `margin` times as fast in its own steps as one that is not.
+int level_of(double frequency_bound, double bound, double margin) {
+  if (!(frequency_bound > bound)) return 0;
+  return std::clamp(static_cast<int>(std::ceil(std::log2(frequency_bound / (margin * bound)))), 1, max_level);
+}
+
+// The cost of a step of a point, in that of one that is not halved.
+double cost_of(int levels) { return 1 + cost_of_substep * ((1 << levels) - 1); }
+
+double FrequencyHistogram::cost(int c) const {
+  double points = 0;
+  for (int k = 0; k < classes; ++k) {
+    points += counts_[k] * cost_of(k < c ? level_of(bound(k), bound(c), margin_) : 0);
+  }
+  return points * bound(c);
+}
+
+// Whether the points of a block may be stepped alone: not in a body with ordinary points, whose forces act once a step.
+bool may_be_subcycled(const Body& body, std::size_t block) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (body.domain.blocks[b].body == body.domain.blocks[block].body && body.blocks[b].is_ordinary()) return false;
+  }
+  return true;
+}
+
+bool moves_rigidly(const Body& body, int i) { return body.blocks[body.domain.cloud.blocks[i]].in_rigid_motion; }
+
+// Calls visit(i, whether it may be halved) for the owned points.
+template <class Visit>
+void over_points(const Body& body, Visit&& visit) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const bool may = may_be_subcycled(body, b);
+    for (const int i : body.blocks[b].points) visit(i, may);
+  }
+}
+
+// The frequency bounds of owned points over all ranks: the largest, and the largest of those that may not be halved.
+struct FrequencyBounds {
+  std::vector<double> values;
+  double largest = 0, floor = 0;
+};
+
+FrequencyBounds frequency_bounds_of(const Body& body) {
+  FrequencyBounds bounds{std::vector<double>(body.owned(), 0)};
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      bounds.values[block.points[k]] = frequency_bound(body, block, static_cast<int>(k));
+    }
+  }
+  double agreed[] = {0, 0};
+  over_points(body, [&](int i, bool may) {
+    agreed[0] = std::max(agreed[0], bounds.values[i]);
+    if (!may) agreed[1] = std::max(agreed[1], bounds.values[i]);
+  });
+  body.domain.communicator.max(agreed);
+  bounds.largest = agreed[0], bounds.floor = agreed[1];
+  return bounds;
+}
+
+// The ghosts' too.
+void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) {
+  std::vector<double> values(numbers.begin(), numbers.end());
+  values.resize(body.domain.sites.size());
+  halo.exchange(values.data(), 1, 1);
+  numbers.assign(values.begin(), values.end());
+}
+
+// Points near those that are halved h times are halved h − 1 times at least.
+void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
+  for (int n = 0; n < families_between_levels; ++n) {
+    const std::vector<std::uint8_t> before = levels;
+    over_points(body, [&](int i, bool) {
+      body.domain.families.for_each(i, [&](int j) {
+        if (before[j] > levels[i] + 1) levels[i] = before[j] - 1;
+      });
+    });
+    levels.resize(body.owned());
+    exchange(body, body.domain.halo, levels);
+  }
+}
+
+// The time-step levels of owned points and ghosts, or none where they are not worth while: points between stiff ones count,
+// too.
+std::vector<std::uint8_t> chosen_levels(Body& body, double margin) {
+  const FrequencyBounds bounds = frequency_bounds_of(body);
+  FrequencyHistogram histogram(bounds.largest, margin);
+  for (const double p : bounds.values) histogram.add(p);
+  histogram.agree(body.domain.communicator);
+  const double bound = std::max(histogram.best(), bounds.floor);
+  if (!(bound < bounds.largest)) return {};
+  std::vector<std::uint8_t> levels(body.owned(), 0);
+  over_points(body, [&](int i, bool may) { levels[i] = may ? level_of(bounds.values[i], bound, margin) : 0; });
+  exchange(body, body.domain.halo, levels);
+  smooth_levels(body, levels);
+  double costs[] = {0, static_cast<double>(body.owned())};
+  for (int i = 0; i < body.owned(); ++i) costs[0] += cost_of(levels[i]);
+  body.domain.communicator.sum(costs);
+  const bool pays = costs[0] * bound < worth_while * costs[1] * bounds.largest;
+  return pays ? levels : std::vector<std::uint8_t>{};
+}
+
+// How often the motion of each point is halved: as the stress of any point that moves it.
+std::vector<std::uint8_t> motion_levels_of(const Body& body, const std::vector<std::uint8_t>& levels) {
+  std::vector<std::uint8_t> motion_levels(levels.begin(), levels.begin() + body.owned());
+  for_each_point(0, body.owned(), [&](int i) {
+    body.domain.families.for_each(i, [&](int j) { motion_levels[i] = std::max(motion_levels[i], levels[j]); });
+  });
+  return motion_levels;
+}
+
+void scale(QuadraticState& state, double factor) {
+  double* numbers = state.first;
+  for (std::size_t n = 0; n < sizeof(QuadraticState) / sizeof(double); ++n) numbers[n] *= factor;
+}
+
+// Half of the impulse belongs to the interval before, half to the one after.
+void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
+  over_points(body, [&](int i, bool) {
+    const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
+    if (share == old_share) return;
+    const double mean = 0.5 * (old_share + share);
+    if (!body.force_states.tensors.empty()) {
+      for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
+    }
+    if (!body.force_states.quadratics.empty()) scale(body.force_states.quadratics[i], mean / old_share);
+    if (body.has_mean_gradient(i)) body.force_states.gradients[i].column[1][3] = mean;
+  });
+}
+
+template <class State>
+void exchange_states(Halo& halo, std::vector<State>& states) {
+  constexpr int width = sizeof(State) / sizeof(double);
+  if (!states.empty()) halo.exchange(reinterpret_cast<double*>(states.data()), width, width);
+}
+
+// The pull of the points' own springs, Σ ω V (y_j − y_i), put in force_density until the forces are summed up.
+void keep_pulls(Body& body, const LaneGroups& groups) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) {
+      const LaneGroup group = groups[g];
+      const auto pull = bonds::pull(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), weight);
+      for (int l = 0; l < group.count; ++l) body.force_density[group.i[l]] = small::at(pull, l);
+    });
+  });
+}
+
+// What the far ends of the bonds of a cluster give to the forces on its points.
+template <class Weight>
+small::Vector3<small::Lanes> far_force(const Body& body, const bonds::OfCluster& family, Weight weight) {
+  const ForceStates& states = body.force_states;
+  const Site* sites = body.domain.sites.data();
+  small::Vector3<small::Lanes> sum = bonds::zero_vector<small::Lanes>();
+  const auto add = [&sum](const small::Vector3<small::Lanes>& force) {
+    for (int c = 0; c < 3; ++c) sum.c[c] += force.c[c];
+  };
+  if (!states.tensors.empty()) {
+    const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(),
+                                             small::Lanes::Zero()};
+    add(bonds::force<true>(family, sites, states.tensors.data(), none, weight));
+  }
+  if (!states.quadratics.empty()) {
+    add(bonds::quadratic_far_force(family, sites, body.fits->multipliers(), states.quadratics.data(), weight));
+  }
+  return sum;
+}
+
+// What a point that is due gives to the force on itself. `moment`: Σ ω V ξ. force_density: of its stabilization.
+Vector own_force(const Body& body, int i, const Vector& moment) {
+  if (body.blocks[body.domain.cloud.blocks[i]].is_quadratic()) {
+    return bonds::quadratic_own_force(body.force_states.quadratics[i], (*body.fits)[i]);
+  }
+  const ForceState& own = body.force_states.tensors[i];
+  Vector sum = Vector::Zero();
+  for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
+  if (body.has_mean_gradient(i)) sum += body.force_density[i];
+  if (own.column[0][3] > 0) sum += own.column[0][3] * body.force_density[i];
+  return sum;
+}
+
+// Global ids of owned points and ghosts.
+std::vector<double> all_ids(Body& body) {
+  std::vector<double> ids(body.domain.cloud.ids.begin(), body.domain.cloud.ids.end());
+  ids.resize(body.domain.sites.size());
+  body.domain.halo.exchange(ids.data(), 1, 1);
+  return ids;
+}
+
+}  // namespace
+
+double MultiTimeStepping::choose(Body& body, double safety_factor) {
+  const std::vector<std::uint8_t> before = std::move(body.time_levels);
+  body.time_levels = chosen_levels(body, std::min(1.0, most_turn / safety_factor));
+  make_levels(body);
+  spread_impulses(body, before);
+  double fastest = 0;
+  for (MaterialBlock& block : body.blocks) {
+    const double of_block = largest_frequency_bound(body, block);
+    if (block.in_rigid_motion) block.rest_frequency_bound = of_block;
+    fastest = std::max(fastest, of_block);
+  }
+  return fastest;
+}
+
+// What the time-step levels of the points mean for their steps.
+void MultiTimeStepping::make_levels(Body& body) {
+  levels_.clear();
+  motion_levels_.clear();
+  updates_ = 1;
+  double agreed[] = {0};  // the most time-step levels of any point
+  for (const std::uint8_t h : body.time_levels) agreed[0] = std::max<double>(agreed[0], h);
+  body.domain.communicator.max(agreed);
+  const int count = static_cast<int>(agreed[0]);
+  if (count == 0) return;
+  motion_levels_ = motion_levels_of(body, body.time_levels);
+  std::vector<std::uint8_t> everywhere = motion_levels_;
+  exchange(body, body.domain.halo, everywhere);
+  const std::vector<double> ids = all_ids(body);
+  for (int m = 1; m <= count; ++m) levels_.push_back(make_level(body, everywhere, ids, m));
+  double updates[] = {0, static_cast<double>(body.owned())};
+  for (int i = 0; i < body.owned(); ++i) updates[0] += 1 << body.time_levels[i];
+  body.domain.communicator.sum(updates);
+  updates_ = updates[0] / updates[1];
+}
+
+void MultiTimeStepping::serialize(Archive& archive, Body& body) {
+  bool any = body.domain.communicator.max(body.time_levels.empty() ? 0.0 : 1.0) > 0;  // ranks without points have none
+  std::vector<std::uint8_t> levels(body.owned(), 0);
+  if (!body.time_levels.empty()) std::copy_n(body.time_levels.begin(), body.owned(), levels.begin());
+  archive.number("has_halvings", any);
+  archive.field("halvings", 1, [&](std::size_t i, int) -> std::uint8_t& { return levels[i]; });
+  if (!archive.loading()) return;
+  body.time_levels.clear();
+  if (any) {
+    exchange(body, body.domain.halo, levels);
+    body.time_levels = std::move(levels);
+  }
+  make_levels(body);
+}
+
+MultiTimeStepping::Level MultiTimeStepping::make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels,
+                                     const std::vector<double>& ids, int level) const {
+  std::vector<std::uint8_t> wanted(motion_levels.size());
+  for (std::size_t i = 0; i < motion_levels.size(); ++i) wanted[i] = motion_levels[i] >= level;
+  Level result{.halo = body.domain.halo.restricted_to(body.domain.communicator, wanted)};
+  const auto by_id = [&](int j) { return ids[j]; };
+  const auto family = [&](int i, const auto& visit) { body.domain.families.for_each(i, visit); };
+  for (const MaterialBlock& block : body.blocks) {
+    SelectedPoints& stressed = result.stressed.emplace_back();
+    std::vector<int> points;
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      if (body.time_levels[block.points[k]] < level) continue;
+      stressed.places.push_back(static_cast<int>(k));
+      points.push_back(block.points[k]);
+    }
+    ClusterLists::Builder(stressed.lists, motion_levels.size()).add_all(points, family, by_id);
+  }
+  for (int i = 0; i < body.owned(); ++i) {
+    if (motion_levels[i] >= level) result.moved.push_back(i);
+  }
+  const auto sources = [&](int i, const auto& visit) {
+    body.domain.families.for_each(i, [&](int j) {
+      if (body.time_levels[j] >= level) visit(j);
+    });
+  };
+  ClusterLists::Builder(result.sources, motion_levels.size()).add_all(result.moved, sources, by_id);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for (const int i : result.moved) {
+      Vector& moment = result.first_moments.emplace_back(Vector::Zero());
+      bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
+                  [&](int, double w, const auto& xi, double) { moment += w * Vector(xi.c[0], xi.c[1], xi.c[2]); });
+    }
+  });
+  return result;
+}
+
+StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
+  Level& now = levels_[level - 1];
+  StepReport report;
+  now.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    MaterialBlock& block = body.blocks[b];
+    if (block.in_rigid_motion || now.stressed[b].places.empty()) continue;
+    const LaneGroups groups(block, now.stressed[b]);
+    if (block.is_quadratic()) {
+      advance_quadratic(body, block, {dt, level}, groups, report);
+    } else {
+      advance_stress(body, block, {dt, level}, groups, report);
+    }
+    if (block.has_springs()) keep_pulls(body, groups);
+  }
+  add_residuals(body, now, level);
+  exchange_states(now.halo, body.force_states.tensors);
+  exchange_states(now.halo, body.force_states.quadratics);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, now.sources.count(), [&, weight](int b) {
+      const bonds::OfCluster family{now.sources[b]};
+      const small::Vector3<small::Lanes> far = far_force(body, family, weight);
+      for (int l = 0; l < static_cast<int>(family.cluster.points.size()); ++l) {
+        const int i = family.cluster.points[l];
+        if (moves_rigidly(body, i)) continue;  // its force is zero, and its states are not kept
+        Vector sum = at(far, l);
+        if (body.time_levels[i] >= level) {
+          sum += own_force(body, i, now.first_moments[static_cast<std::size_t>(b) * Cluster::width + l]);
+        }
+        body.force_density[i] = sum;
+      }
+    });
+  });
+  return report;
+}
+
+// The stabilization by the mean gradient, of the bonds between points that are due: its force begins the sum in
+// force_density, and the rest is in A (mechanics.cpp).
+void MultiTimeStepping::add_residuals(Body& body, Level& now, int level) const {
+  ForceStates& states = body.force_states;
+  if (states.gradients.empty()) return;
+  exchange_states(now.halo, states.gradients);
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, now.sources.count(), [&, weight](int b) {
+      const bonds::OfCluster family{now.sources[b]};
+      const auto sums = bonds::residual(family, body.domain.sites.data(), states.gradients.data(), weight);
+      for (int l = 0; l < static_cast<int>(family.cluster.points.size()); ++l) {
+        const int i = family.cluster.points[l];
+        if (body.time_levels[i] < level || !body.has_mean_gradient(i) || moves_rigidly(body, i)) continue;
+        take_residual(states.tensors[i], at(sums.moment, l), body.shape_inverse[i]);
+        body.force_density[i] = at(sums.force, l);
+      }
+    });
+  });
+}
+
+}  // namespace strut

@@ -1,0 +1,62 @@
+// The points whose stress limits the step, stepped alone more often.
+//
+// The stress of a point moves its family by impulses: of most points one a step Δt, of a stiff one one every Δt/2^h, to
+// which its stress follows the motion (impulse multiple time stepping, r-RESPA: Tuckerman, Berne & Martyna 1992). So
+// momenta are conserved as before. Contact and loads act once a step.
+#pragma once
+
+#include "base/archive.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/mechanics.hpp"
+
+namespace strut {
+
+class MultiTimeStepping {
+ public:
+  // Collective. Chooses how often the step of each point is halved (body.time-step levels), by its frequency bound: what costs least; none
+  // where that saves little. The forces of the points whose time-step levels change are halved accordingly, so that their
+  // impulse ends the last interval and begins the next: between advance_stress and sum_forces.
+  // Returns the largest frequency bound of a point of this rank, as a part of its step.
+  // `safety_factor`: the step will be such a part of the stable one.
+  double choose(Body& body, double safety_factor);
+
+  // A step has 2^orders() substeps. Of the times between them, those of order m come every Δt/2^m.
+  int level_count() const { return static_cast<int>(levels_.size()); }
+
+  // In a step, the mean of all points of all ranks.
+  double updates_a_point() const { return updates_; }
+
+  // Of owned points: how often the step of their motion is halved, as the one of the stiffest point that moves them.
+  // Empty: of none.
+  const std::vector<std::uint8_t>& motion_levels() const { return motion_levels_; }
+
+  // Owned points that move at times of this order (1 … orders()), in ascending order.
+  const std::vector<int>& moved(int level) const { return levels_[level - 1].moved; }
+
+  // Collective. The choice, after serialize() of the body: it leaves the archive at the group of all owned points.
+  void serialize(Archive& archive, Body& body);
+
+  // Collective. At a time of this order, `dt` after the last: the stresses of the points that are due, and in
+  // body.force_density of the moved points the force of these stresses, for an impulse of length dt.
+  StepReport forces(Body& body, int level, double dt);
+
+ private:
+  // What happens at times of one order.
+  struct Level {
+    std::vector<SelectedPoints> stressed;  // of each block: those that are due
+    std::vector<int> moved;
+    ClusterLists sources;                    // of the moved points: the stressed points of their families
+    std::vector<Vector> first_moments;  // Σ ω V ξ over the family of each moved point, m⁴
+    Halo halo;
+  };
+  void add_residuals(Body& body, Level& now, int level) const;
+  void make_levels(Body& body);
+  Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, const std::vector<double>& ids,
+                 int level) const;
+
+  std::vector<Level> levels_;
+  std::vector<std::uint8_t> motion_levels_;
+  double updates_ = 1;
+};
+
+}  // namespace strut

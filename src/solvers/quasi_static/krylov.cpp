@@ -1,0 +1,156 @@
+#include "solvers/quasi_static/krylov.hpp"
+
+#include <BelosPseudoBlockGmresSolMgr.hpp>
+#include <BelosTpetraAdapter.hpp>
+#include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <Tpetra_CrsMatrix.hpp>
+
+namespace strut {
+
+namespace {
+
+using Map = Tpetra::Map<>;
+using Matrix = Tpetra::CrsMatrix<double>;
+using Vectors = Tpetra::MultiVector<double>;
+using Operator = Tpetra::Operator<double>;
+using Teuchos::RCP;
+using Teuchos::rcp;
+
+void copy(const Field& field, Vectors& vectors, std::size_t column = 0) {
+  const auto data = vectors.getDataNonConst(column);
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    for (int c = 0; c < 3; ++c) data[3 * i + c] = field[i][c];
+  }
+}
+
+void copy(const Vectors& vectors, Field& field) {
+  const auto data = vectors.getData(0);
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    for (int c = 0; c < 3; ++c) field[i][c] = data[3 * i + c];
+  }
+}
+
+// A product with fields as Belos wants it.
+class ProductOperator : public Operator {
+ public:
+  ProductOperator(const Krylov::Product& product, RCP<const Map> map, std::size_t owned)
+      : product_(product), map_(std::move(map)), in_(owned), out_(owned) {}
+  RCP<const Map> getDomainMap() const override { return map_; }
+  RCP<const Map> getRangeMap() const override { return map_; }
+  void apply(const Vectors& X, Vectors& Y, Teuchos::ETransp, double alpha, double beta) const override {
+    copy(X, in_);
+    product_(in_, out_);
+    if (beta == 0) return copy_scaled(alpha, Y);
+    Vectors product(map_, 1);
+    copy(out_, product);
+    Y.update(alpha, product, beta);
+  }
+
+ private:
+  void copy_scaled(double alpha, Vectors& Y) const {
+    if (alpha != 1) {
+      for (Eigen::Vector3d& v : out_) v *= alpha;
+    }
+    copy(out_, Y);
+  }
+
+  const Krylov::Product& product_;
+  RCP<const Map> map_;
+  mutable Field in_, out_;
+};
+
+RCP<Matrix> assembled(const BlockRows& rows, const RCP<const Map>& map) {
+  using Global = Map::global_ordinal_type;
+  std::size_t widest = 0;
+  for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
+    widest = std::max(widest, 3 * (rows.start[i + 1] - rows.start[i]));
+  }
+  const RCP<Matrix> matrix = rcp(new Matrix(map, widest));
+  std::vector<Global> columns;
+  std::vector<double> values;
+  for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      columns.clear(), values.clear();
+      for (std::size_t e = rows.start[i]; e < rows.start[i + 1]; ++e) {
+        for (int d = 0; d < 3; ++d) {
+          columns.push_back(3 * static_cast<Global>(rows.columns[e]) + d);
+          values.push_back(rows.blocks[e](c, d));
+        }
+      }
+      const Global row = map->getGlobalElement(static_cast<int>(3 * i + c));
+      matrix->insertGlobalValues(row, Teuchos::ArrayView<const Global>(columns),
+                                 Teuchos::ArrayView<const double>(values));
+    }
+  }
+  matrix->fillComplete();
+  return matrix;
+}
+
+}  // namespace
+
+struct Krylov::Implementation {
+  RCP<const Map> map;
+  std::size_t owned;
+  RCP<Operator> hierarchy;  // null: none yet
+};
+
+Krylov::Krylov(const RCP<const Teuchos::Comm<int>>& ranks, int owned) {
+  const auto everywhere = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  const RCP<const Map> map = rcp(new Map(everywhere, 3 * static_cast<std::size_t>(owned), 0, ranks));
+  implementation_ = std::make_unique<Implementation>(Implementation{map, static_cast<std::size_t>(owned), {}});
+}
+
+Krylov::~Krylov() = default;
+
+std::int64_t Krylov::first() const {
+  return implementation_->owned == 0 ? 0 : implementation_->map->getMinGlobalIndex() / 3;
+}
+
+bool Krylov::is_preconditioned() const { return !implementation_->hierarchy.is_null(); }
+
+void Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kernel) {
+  const RCP<const Map>& map = implementation_->map;
+  const RCP<Vectors> modes = rcp(new Vectors(map, kernel.size()));
+  for (std::size_t m = 0; m < kernel.size(); ++m) copy(kernel[m], *modes, m);
+  Teuchos::ParameterList options;
+  options.set("verbosity", "none");
+  options.set("number of equations", 3);
+  options.set("multigrid algorithm", "sa");
+  options.set("coarse: max size", 300);
+  // The matrix only resembles the system: more smoothing of it takes longer than the iterations that it saves.
+  options.set("smoother: type", "CHEBYSHEV");
+  options.sublist("smoother: params").set("chebyshev: degree", 1);
+  options.set("smoother: pre or post", "pre");
+  options.sublist("user data").set("Nullspace", modes);
+  RCP<Operator> matrix = assembled(rows, map);
+  implementation_->hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
+}
+
+Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure measure, double tolerance, int most,
+                              Field& x) {
+  constexpr int kept = 200;  // directions before a restart
+  const RCP<const Map>& map = implementation_->map;
+  const RCP<Operator> product = rcp(new ProductOperator(K, map, implementation_->owned));
+  const RCP<Vectors> solution = rcp(new Vectors(map, 1)), wanted = rcp(new Vectors(map, 1));
+  copy(right, *wanted);
+  const auto problem = rcp(new Belos::LinearProblem<double, Vectors, Operator>(product, solution, wanted));
+  const bool by_error = measure == Measure::error && is_preconditioned();
+  if (by_error) problem->setLeftPrec(implementation_->hierarchy);
+  if (!by_error && is_preconditioned()) problem->setRightPrec(implementation_->hierarchy);
+  problem->setProblem();
+  const RCP<Teuchos::ParameterList> options = rcp(new Teuchos::ParameterList);
+  options->set("Convergence Tolerance", tolerance);
+  options->set("Num Blocks", std::min(kept, most));
+  options->set("Maximum Restarts", most / kept);
+  options->set("Maximum Iterations", most);
+  const char* const scaling = by_error ? "Norm of Preconditioned Initial Residual" : "Norm of RHS";
+  options->set("Implicit Residual Scaling", scaling);
+  options->set("Explicit Residual Scaling", scaling);
+  Belos::PseudoBlockGmresSolMgr<double, Vectors, Operator> solver(problem, options);
+  const bool converged = solver.solve() == Belos::Converged;
+  x.resize(implementation_->owned);
+  copy(*solution, x);
+  return {solver.getNumIters(), converged};
+}
+
+}  // namespace strut

@@ -1,0 +1,43 @@
+// Equilibrium by Newton's method: the consistent tangent, GMRES, a search along the step; and damping where the tangent
+// leads nowhere.
+#pragma once
+
+#include "solvers/quasi_static/krylov.hpp"
+#include "solvers/quasi_static/search.hpp"
+
+namespace strut {
+
+class Newton {
+ public:
+  Newton(Equilibrium& equilibrium, const Observer& observer);
+
+  // The next search does not depend on earlier ones.
+  void begin_anew() { preconditioner_due_ = true; }
+
+  // Collective. From the present places, within the step that the equilibrium has begun.
+  Search solve(const Tolerance& tolerance);
+
+ private:
+  int correct(const Field& way, bool moves, double accuracy, Field& step);
+  Imbalance advance(const Imbalance& now, const Field& step, bool moves);
+  void renew_preconditioner();
+  double mean_spring(const BlockRows& matrix) const;
+  void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
+  void damp_less(double factor);
+  void damp_more(double factor);
+  void tell(const Search& search, int products) const;
+
+  Equilibrium& equilibrium_;
+  const Observer& audience_;
+  Krylov krylov_;
+  double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
+  int products_when_new_ = 0;
+  bool preconditioner_due_ = true;
+
+  // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.
+  double damping_ = 0, damping_when_new_ = 0;
+  std::vector<double> drag_;  // N/m: what a point's near neighbors hold it with
+  int damped_ = 0;            // iterations with damping in this search
+};
+
+}  // namespace strut

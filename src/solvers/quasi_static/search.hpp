@@ -1,0 +1,36 @@
+// What the methods of finding an equilibrium are asked for, and how it went.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "solvers/quasi_static/equilibrium.hpp"
+
+namespace strut {
+
+struct Tolerance {
+  double relative = 1e-6;    // the forces that are left, over reactions, loads and contact
+  int most_iterations = 20;  // Newton's
+};
+
+// Who waits for a search.
+struct Observer {
+  std::function<void(const std::string&)> load_steps;  // a line each; on rank 0
+  std::function<void(const std::string&)> iterations;  // a line each, where somebody wants it; else empty
+  std::function<bool()> leaves;                        // wants the run to end: on any rank, at any time
+};
+
+struct Search {
+  bool converged = false;
+  int iterations = 0;
+  int evaluations = 0;  // of the forces, or of the tangent times a field
+  Imbalance left;
+  bool interrupted = false;
+  int rounds = 1;  // of the multipliers of tools
+};
+
+inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
+  return !now.failed && now.norm <= tolerance.relative * now.scale;
+}
+
+}  // namespace strut

@@ -1,1 +1,0 @@
-strut_test(test_tool SOURCES ${CMAKE_CURRENT_LIST_DIR}/test_tool.cpp SEES mechanics RANKS 1)
