@@ -65,11 +65,14 @@ void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact
   contact_pair.due = false;
   if (!contact_pair.searched) contact_pair.frame = frame_of(kinematics, contact_pair.blocks, contact_pair.pairs);
   contact_pair.mean_velocity = mean_velocity(kinematics, contact_pair.blocks, contact_pair.frame);
-  if (contact_pair.searched) contact_pair.used = part_used(kinematics, contact_pair.blocks, contact_pair.frame, contact_pair.places, contact_pair.skins);
+  if (contact_pair.searched)
+    contact_pair.used =
+        part_used(kinematics, contact_pair.blocks, contact_pair.frame, contact_pair.places, contact_pair.skins);
   if (!contact_pair.searched || contact_pair.used > most_used) search(kinematics, dt, contact_pair);
 }
 
-void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair, std::vector<Vector>& force_density) {
+void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
+                         std::vector<Vector>& force_density) {
   Pairs& pairs = contact_pair.pairs;
   if (pairs.empty() && !pairs.halo) return;
   static Teuchos::Time& timer = phase("Contact forces");
@@ -94,7 +97,8 @@ void Contact::add_stiffness(std::span<const Vector> field, std::span<Vector> res
 }
 
 void Contact::add_springs(std::span<Tensor> springs) const {
-  for (const ContactPair& contact_pair : contact_pairs_) contact::add_springs(contact_pair.model, contact_pair.pairs, springs);
+  for (const ContactPair& contact_pair : contact_pairs_)
+    contact::add_springs(contact_pair.model, contact_pair.pairs, springs);
 }
 
 void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const {
@@ -124,10 +128,12 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   archive.number("contact_stiffness", stiffness_);
   archive.number("penetration", penetration_);
   if (!archive.loading()) return;
-  std::vector<Vector> forces(kinematics.domain.owned, Vector::Zero());  // the solver has them; here are pairs and friction
+  std::vector<Vector> forces(kinematics.domain.owned,
+                             Vector::Zero());  // the solver has them; here are pairs and friction
   for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.due = true;
   add_forces(kinematics, dt, forces);
-  for (ContactPair& contact_pair : contact_pairs_) contact_pair.due = true;  // how far points may go in the next step, nobody has asked
+  for (ContactPair& contact_pair : contact_pairs_)
+    contact_pair.due = true;  // how far points may go in the next step, nobody has asked
 }
 
 double Contact::energy() const {

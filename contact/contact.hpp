@@ -82,7 +82,8 @@ class Contact {
   };
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
-  void add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair, std::vector<Vector>& force_density);
+  void add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
+                  std::vector<Vector>& force_density);
 
   std::vector<ContactPair> contact_pairs_;
   double stiffness_ = 0, penetration_ = 0;

@@ -94,7 +94,8 @@ double largest_eigenvalue(const Tensor& springs, double floor) {
 
 }  // namespace
 
-ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs, std::vector<Vector>& force_density) {
+ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs,
+                              std::vector<Vector>& force_density) {
   bring_to_present(kinematics, pairs);
   ForceResult result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
@@ -114,8 +115,8 @@ ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, 
   return result;
 }
 
-void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
-                  std::vector<Vector>& friction) {
+void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
+                  std::vector<Vector>& force_density, std::vector<Vector>& friction) {
   friction.assign(pairs.owned.size(), Vector::Zero());
   const std::vector<Slider> all = sliders(kinematics, model, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {

@@ -28,12 +28,13 @@ struct ForceResult {
 };
 
 // Collective. Brings the pairs to the present places and adds the penalty to force_density (N/m³).
-ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs, std::vector<Vector>& force_density);
+ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs,
+                              std::vector<Vector>& force_density);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
 // pairs.owned[k] (N), so that its work can be counted. dt: the length of the step (s).
-void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs, std::vector<Vector>& force_density,
-                  std::vector<Vector>& friction);
+void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
+                  std::vector<Vector>& force_density, std::vector<Vector>& friction);
 
 // Collective, after add_normal_forces. Adds the stiffness of the touching pairs, times a field of the body's owned
 // points, to result (N/m times the field's unit). The turning of a pair's direction is left out.

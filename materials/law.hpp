@@ -7,10 +7,10 @@
 //             not ask for is not computed.
 //   State     a struct of doubles only; state_names names them in order, as they appear in output. State{} is that of
 //             an undeformed point; a law whose output should begin with other numbers says so in virgin_state().
-//   moduli    the elastic moduli that bound the critical time step, of the Cauchy stress; of the state, where they change.
-//   energies  elastic_energy and dissipation feed the ledger of a run.
-//   flow_stress  what the equivalent stress equals while the point yields; infinity where it never yields.
-//   has_flowed  of a law whose flow keeps the volume: whether the point ever did. Where several law points follow one
+//   moduli    the elastic moduli that bound the critical time step, of the Cauchy stress; of the state, where they
+//   change. energies  elastic_energy and dissipation feed the ledger of a run. flow_stress  what the equivalent stress
+//   equals while the point yields; infinity where it never yields. has_flowed  of a law whose flow keeps the volume:
+//   whether the point ever did. Where several law points follow one
 //             motion, they then share their change of volume (volumetric locking: src/mechanics/quadratic.md).
 //   side by side  a law may take points side by side, a lane each: its step and its StateOf<T> are then templates over
 //             the number, double or RawLanes, and State is StateOf<double>. All lanes are computed; those where J is

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/build_facts.hpp"
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
 #include "run/simulation.hpp"
 

@@ -13,8 +13,8 @@
 #include <variant>
 #include <vector>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
 #include "point/request.hpp"
 #include "point_driver.hpp"

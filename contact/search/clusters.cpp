@@ -91,7 +91,7 @@ class Clusters {
   std::vector<int> in_block_;  // members of the pool
   CellGrid grid_;              // of these
   BoundingVolumes cells_, clusters_;
-  std::vector<int> first_cell_{0};    // of each cell of the grid, or after it
+  std::vector<int> first_cell_{0};     // of each cell of the grid, or after it
   std::vector<int> first_cluster_{0};  // of each clump
   std::vector<std::size_t> start_{0};  // of each cluster's members
   std::vector<int> members_;           // of the pool, by clusters
@@ -199,8 +199,8 @@ void Clusters::visit_members_near(const Candidate& point, int c, const Reach& re
 }
 
 // The pairs of owned members of a cluster with members of others.
-void add_pairs(const CandidatePool& candidates, const Criterion& may_touch, const Reach& reach, std::span<const int> members,
-               const Clusters& others, const std::vector<int>& near, IndexPairs& pairs) {
+void add_pairs(const CandidatePool& candidates, const Criterion& may_touch, const Reach& reach,
+               std::span<const int> members, const Clusters& others, const std::vector<int>& near, IndexPairs& pairs) {
   for (const int m : members) {
     if (!candidates.owns(m)) continue;
     const Candidate& member = candidates.members[m];

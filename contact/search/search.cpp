@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "contact/search/clusters.hpp"
 #include "contact/search/candidates.hpp"
+#include "contact/search/clusters.hpp"
 #include "points/bounding_box.hpp"
 #include "points/nearby_ranks.hpp"
 
@@ -47,7 +47,8 @@ Box box_of(const Kinematics& kinematics, const BlockPair& blocks, int block) {
 
 // The points, as indices of parties.points, that may have a partner: those near the box of the other party. Others,
 // which are at a distance D from it, may go half of D − r_c, and no pair of them has come nearer than that.
-std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& blocks, double radius, SkinDistances& skins) {
+std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& blocks, double radius,
+                             SkinDistances& skins) {
   std::vector<int> near(blocks.points.size());
   std::iota(near.begin(), near.end(), 0);
   if (blocks.self()) return near;
@@ -65,8 +66,8 @@ std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& bloc
 }
 
 // The points parties.points[k], k in `near`, and those near them on other ranks.
-CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& blocks, const std::vector<int>& near, const SkinDistances& skins,
-             double radius) {
+CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& blocks, const std::vector<int>& near,
+                            const SkinDistances& skins, double radius) {
   CandidatePool candidates;
   std::vector<Vector> places;
   candidates.members.reserve(near.size());
@@ -76,8 +77,8 @@ CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& block
   }
   candidates.owned = candidates.members.size();
   const double reach = (radius + 2 * skins.largest) * (1 + 1e-9);  // a pair at the limit is found by both ranks
-  const auto others =
-      from_nearby_ranks<Candidate>(box_around(places), places, candidates.members, reach, kinematics.domain.communicator);
+  const auto others = from_nearby_ranks<Candidate>(box_around(places), places, candidates.members, reach,
+                                                   kinematics.domain.communicator);
   candidates.members.insert(candidates.members.end(), others.begin(), others.end());
   return candidates;
 }

@@ -77,7 +77,8 @@ Vector mean_velocity(const Kinematics& kinematics, const BlockPair& blocks, cons
   return mean(kinematics.domain.communicator, frame, [&](int k) { return kinematics.velocities[blocks.points[k]]; });
 }
 
-SkinDistances skin_distances_by_speed(const Kinematics& kinematics, const BlockPair& blocks, const Vector& mean_velocity, double usual, double dt) {
+SkinDistances skin_distances_by_speed(const Kinematics& kinematics, const BlockPair& blocks,
+                                      const Vector& mean_velocity, double usual, double dt) {
   std::vector<double> speeds;
   speeds.reserve(blocks.points.size());
   for (const int i : blocks.points) speeds.push_back((kinematics.velocities[i] - mean_velocity).norm());
@@ -95,7 +96,8 @@ SkinDistances skin_distances_by_speed(const Kinematics& kinematics, const BlockP
   return skins;
 }
 
-double largest_use(const Kinematics& kinematics, const BlockPair& blocks, const Vector& mean_velocity, const SkinDistances& skins) {
+double largest_use(const Kinematics& kinematics, const BlockPair& blocks, const Vector& mean_velocity,
+                   const SkinDistances& skins) {
   double most = 0;  // squared
   for (std::size_t k = 0; k < skins.of.size(); ++k) {
     const double skin = skins.of[k];
@@ -104,8 +106,8 @@ double largest_use(const Kinematics& kinematics, const BlockPair& blocks, const 
   return std::sqrt(most);
 }
 
-double part_used(const Kinematics& kinematics, const BlockPair& blocks, const Frame& frame, std::span<const Vector> places,
-                 const SkinDistances& skins) {
+double part_used(const Kinematics& kinematics, const BlockPair& blocks, const Frame& frame,
+                 std::span<const Vector> places, const SkinDistances& skins) {
   const auto way = [&](std::size_t k) -> Vector { return kinematics.domain.current(blocks.points[k]) - places[k]; };
   const Vector together = mean(kinematics.domain.communicator, frame, way);
   double most[] = {0};

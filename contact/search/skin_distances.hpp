@@ -18,13 +18,15 @@ Vector mean_velocity(const Kinematics& kinematics, const BlockPair& blocks, cons
 // Collective. Skins for points that go on as they do, in proportion to their speed beside the frame: `usual` (m) for a
 // speed that few exceed, so that these do not decide when the next search is due, and within limits.
 // `dt`: of a step, s; 0 if that is not known, and all skins are the usual one.
-SkinDistances skin_distances_by_speed(const Kinematics& kinematics, const BlockPair& blocks, const Vector& mean_velocity, double usual, double dt);
+SkinDistances skin_distances_by_speed(const Kinematics& kinematics, const BlockPair& blocks,
+                                      const Vector& mean_velocity, double usual, double dt);
 
 // The largest part of its skin that a point of this rank uses in a second, 1/s.
-double largest_use(const Kinematics& kinematics, const BlockPair& blocks, const Vector& mean_velocity, const SkinDistances& skins);
+double largest_use(const Kinematics& kinematics, const BlockPair& blocks, const Vector& mean_velocity,
+                   const SkinDistances& skins);
 
 // Collective. The largest part of its skin that any point has used on its way from `places`, beside the frame's.
-double part_used(const Kinematics& kinematics, const BlockPair& blocks, const Frame& frame, std::span<const Vector> places,
-                 const SkinDistances& skins);
+double part_used(const Kinematics& kinematics, const BlockPair& blocks, const Frame& frame,
+                 std::span<const Vector> places, const SkinDistances& skins);
 
 }  // namespace strut::contact

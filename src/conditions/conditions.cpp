@@ -191,7 +191,8 @@ OpenEnd open_end(const std::vector<int>& points, const Vector& normal, const Bod
   return end;
 }
 
-void add_work_of_body_forces(const Conditions& conditions, double t, double update, const Body& body, ImpulseWork& work) {
+void add_work_of_body_forces(const Conditions& conditions, double t, double update, const Body& body,
+                             ImpulseWork& work) {
   for (const BodyForce& load : conditions.body_forces) {
     const int c = load.component;
     for (const int i : load.points) {

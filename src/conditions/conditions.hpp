@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/math/function.hpp"
-#include "mechanics/body.hpp"
 #include "conditions/reactions.hpp"
 #include "conditions/tool.hpp"
+#include "mechanics/body.hpp"
 
 namespace strut {
 
@@ -72,7 +72,7 @@ struct ImpulseWork {
 
 // How long a point moves on before it is kicked again: the whole step, or a part of it where it is halved.
 struct PointSteps {
-  double whole;                                         // s
+  double whole;                                       // s
   const std::vector<std::uint8_t>* levels = nullptr;  // of owned points; none if null or empty
 
   int level(int i) const { return !levels || levels->empty() ? 0 : (*levels)[i]; }
@@ -98,6 +98,7 @@ OpenEnd open_end(const std::vector<int>& points, const Vector& normal, const Bod
 Conditions restricted_to(const Conditions& conditions, const std::vector<std::uint8_t>& levels, int level);
 
 // Adds the work of the body forces over a kick of length `kick`, once velocities are final.
-void add_work_of_body_forces(const Conditions& conditions, double t, double update, const Body& body, ImpulseWork& work);
+void add_work_of_body_forces(const Conditions& conditions, double t, double update, const Body& body,
+                             ImpulseWork& work);
 
 }  // namespace strut

@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "deck/check.hpp"
 #include "deck/laws.hpp"
 #include "deck/numbers.hpp"

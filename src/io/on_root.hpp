@@ -4,8 +4,8 @@
 #include <exception>
 #include <string>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut::io {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {

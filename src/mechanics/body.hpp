@@ -164,7 +164,7 @@ struct Body {
 
   // Owned points.
   std::vector<MaterialPoint> points;
-  Deduplicated<Symmetric> shape_inverse;          // K⁻¹, 1/m⁵
+  Deduplicated<Symmetric> shape_inverse;      // K⁻¹, 1/m⁵
   std::shared_ptr<const QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
   std::vector<double> density;                // kg/m³
   std::vector<Vector> velocity;               // at mid-step, m/s

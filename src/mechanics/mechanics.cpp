@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "base/timing.hpp"
-#include "mechanics/kernels/ordinary_bonds.hpp"
+#include "mechanics/formulation/correspondence.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
-#include "mechanics/formulation/correspondence.hpp"
 #include "mechanics/formulation/tangent.hpp"
+#include "mechanics/kernels/ordinary_bonds.hpp"
 
 namespace strut {
 
@@ -362,7 +362,9 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
 
 }  // namespace
 
-StepReport advance_stress(Body& body, double dt, bool with_diagnostics) { return advance(body, {dt}, with_diagnostics); }
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics) {
+  return advance(body, {dt}, with_diagnostics);
+}
 
 void sum_forces(Body& body, bool with_diagnostics) {
   static Teuchos::Time& stabilizing = phase("Stabilization");

@@ -22,17 +22,18 @@ inline void take_worse(const std::optional<Failure>& other, std::optional<Failur
 }
 
 struct StepReport {
-  double frequency_bound = 0;  // 1/s, the largest of any point, as a part of its step: the critical time step shrinks with it
+  double frequency_bound =
+      0;  // 1/s, the largest of any point, as a part of its step: the critical time step shrinks with it
   // ζ, the largest part of the critical damping by viscosity: the critical time step is √(1 + ζ²) − ζ of that without.
   double damping = 0;
   std::optional<Failure> failure;  // the worst on this rank; its stress is the old one
 };
 
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
-// dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_diagnostics`: also what forces
-// do not need but a look at the body does, the energy of the stabilization, and F, R and stress of ordinary points,
-// which are a view of their families only. force_density is spoiled: on lattices it holds the pull of springs on their
-// own points until the one sum_forces that is to follow.
+// dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_diagnostics`: also what
+// forces do not need but a look at the body does, the energy of the stabilization, and F, R and stress of ordinary
+// points, which are a view of their families only. force_density is spoiled: on lattices it holds the pull of springs
+// on their own points until the one sum_forces that is to follow.
 StepReport advance_stress(Body& body, double dt, bool with_diagnostics);
 
 // Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is

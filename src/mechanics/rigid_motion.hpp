@@ -10,8 +10,8 @@ namespace strut {
 // and no others. The solver does at its start; who moves points by hand then does it again.
 void find_rigid_motion(Body& body);
 
-// Collective while any body is in rigid motion, else free. Takes the mark off the bodies whose points no longer have one
-// velocity, to the last bit. To be asked when velocities are final, before the points move.
+// Collective while any body is in rigid motion, else free. Takes the mark off the bodies whose points no longer have
+// one velocity, to the last bit. To be asked when velocities are final, before the points move.
 void update_rigid_motion(Body& body);
 
 }  // namespace strut

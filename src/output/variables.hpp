@@ -1,9 +1,9 @@
 // What a deck asks to see of a body, by name.
 #pragma once
 
+#include "conditions/reactions.hpp"
 #include "deck/deck.hpp"
 #include "output/observables.hpp"
-#include "conditions/reactions.hpp"
 
 namespace strut {
 

@@ -10,8 +10,8 @@
 #include "io/exodus/exodus.hpp"
 #include "io/text/history.hpp"
 #include "output/schedule.hpp"
-#include "solvers/ledger.hpp"
 #include "output/variables.hpp"
+#include "solvers/ledger.hpp"
 
 namespace strut {
 
@@ -70,7 +70,8 @@ bool is_over(const deck::Deck& deck, const Communicator& communicator);
 
 // Both, as one.
 struct OutputWriters {
-  OutputWriters(const deck::Deck& deck, const OutputVariables& variables) : frames(deck, variables), history(deck, variables) {}
+  OutputWriters(const deck::Deck& deck, const OutputVariables& variables)
+      : frames(deck, variables), history(deck, variables) {}
 
   void open(const Body& body) {
     frames.open(body);

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "base/parallel/communicator.hpp"
 #include "base/math/tensors.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

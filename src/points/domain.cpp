@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "base/errors.hpp"
-#include "points/neighbors/cell_grid.hpp"
 #include "points/bounding_box.hpp"
 #include "points/nearby_ranks.hpp"
-#include "points/partition.hpp"
+#include "points/neighbors/cell_grid.hpp"
 #include "points/neighbors/through_material.hpp"
+#include "points/partition.hpp"
 
 namespace strut {
 
@@ -49,8 +49,8 @@ struct CandidatePool {
   std::vector<double> deltas;  // δ, m: horizons are those of the search
 };
 
-CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
-             const std::vector<Candidate>& others) {
+CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons,
+                            const std::vector<BlockBonds>& bonds, const std::vector<Candidate>& others) {
   CandidatePool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
   const auto add_block = [&](std::int64_t block) {
     pool.bodies.push_back(bonds[block].body);
@@ -150,7 +150,8 @@ struct JointOf {
 // Each joint with a pool member that has it, of some blocks. Collective: the candidates' come from their owners, which
 // go through the same points in the same order as for the candidates themselves.
 std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, const std::vector<char>& blocks,
-                                                    const CandidatePool& pool, double reach, const Communicator& communicator) {
+                                                    const CandidatePool& pool, double reach,
+                                                    const Communicator& communicator) {
   std::vector<std::pair<std::int64_t, int>> joints;
   std::vector<Vector> places;
   std::vector<JointOf> mine;
@@ -163,7 +164,8 @@ std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, con
     }
   }
   std::size_t member = cloud.size();
-  for (const JointOf& one : from_nearby_ranks<JointOf>(box_around(cloud.positions), places, mine, reach, communicator)) {
+  for (const JointOf& one :
+       from_nearby_ranks<JointOf>(box_around(cloud.positions), places, mine, reach, communicator)) {
     while (pool.ids[member] != one.id) ++member;
     joints.emplace_back(one.joint, static_cast<int>(member));
   }
@@ -193,8 +195,8 @@ LeftOut left_out_of(std::vector<std::pair<int, int>> pairs, int owned) {
 }
 
 // Collective.
-LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const CandidatePool& pool, const CellGrid& grid,
-                 double reach, const Communicator& communicator) {
+LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const CandidatePool& pool,
+                 const CellGrid& grid, double reach, const Communicator& communicator) {
   const std::vector<char> blocks = concerned(bonds);
   if (std::find(blocks.begin(), blocks.end(), 1) == blocks.end()) return {};
   check_through_material(cloud, bonds, communicator);
@@ -290,7 +292,8 @@ bool is_faster(const LatticeFamilies& lattice, const CandidatePool& pool, int ow
 
 // Calls visit(j) for the family of owned point i, by its stencil or by a search.
 template <class Visit>
-void for_each_neighbor(const Stencils& stencils, const Search& search, const CandidatePool& pool, int i, Visit&& visit) {
+void for_each_neighbor(const Stencils& stencils, const Search& search, const CandidatePool& pool, int i,
+                       Visit&& visit) {
   if (stencils.of[i] >= 0) {
     stencils.lattices[stencils.of[i]].for_each(i, visit);
   } else {
@@ -319,7 +322,8 @@ std::vector<int> by_blocks(const Stencils& stencils, const std::vector<int>& blo
   return points;
 }
 
-Order order_of(const Stencils& stencils, const Search& search, const CandidatePool& pool, const std::vector<int>& blocks) {
+Order order_of(const Stencils& stencils, const Search& search, const CandidatePool& pool,
+               const std::vector<int>& blocks) {
   Order order;
   const int owned = static_cast<int>(blocks.size());
   std::vector<char> needs_ghost(owned, 0), used(pool.ids.size(), 0);
@@ -346,8 +350,8 @@ Order order_of(const Stencils& stencils, const Search& search, const CandidatePo
 
 // Lists of the points in their order, neighbors by local[], from a second look at the grid. A cluster is of points that
 // follow upon each other, of one block, and of the interior or the boundary.
-ClusterLists lists_of(const Stencils& stencils, const Search& search, const CandidatePool& pool, const std::vector<int>& blocks,
-                 const Order& order, const std::vector<int>& local) {
+ClusterLists lists_of(const Stencils& stencils, const Search& search, const CandidatePool& pool,
+                      const std::vector<int>& blocks, const Order& order, const std::vector<int>& local) {
   ClusterLists lists;
   lists.reserve(order.listed);
   ClusterLists::Builder builder(lists, pool.ids.size());
@@ -401,7 +405,8 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
   }
   const int owned = static_cast<int>(cloud.size());
-  const CandidatePool pool = candidates_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
+  const CandidatePool pool =
+      candidates_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
   const std::vector<LatticeFrame> found = lattice_frames(cloud, own_horizons, bonds, communicator);
   Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
   std::vector<LatticeFrame> frames;

@@ -6,8 +6,8 @@
 
 #include "base/parallel/communicator.hpp"
 #include "points/cloud.hpp"
-#include "points/neighbors/families.hpp"
 #include "points/halo.hpp"
+#include "points/neighbors/families.hpp"
 #include "points/site.hpp"
 
 namespace strut {

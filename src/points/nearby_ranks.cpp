@@ -27,8 +27,8 @@ std::vector<Eigen::AlignedBox3d> boxes_of_all(const Eigen::AlignedBox3d& mine, c
 }  // namespace
 
 std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
-                                            std::span<const double> records, int width, double reach,
-                                            const Communicator& communicator) {
+                                              std::span<const double> records, int width, double reach,
+                                              const Communicator& communicator) {
   if (communicator.size() == 1) return {};
   const auto boxes = boxes_of_all(box, communicator);
   std::vector<double> outgoing;

@@ -5,22 +5,22 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/parallel/communicator.hpp"
 #include "base/math/tensors.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 
 // `width` doubles a place. Used through the template below.
 std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
-                                            std::span<const double> records, int width, double reach,
-                                            const Communicator& communicator);
+                                              std::span<const double> records, int width, double reach,
+                                              const Communicator& communicator);
 
 // Collective. records[k] belongs to the point at places[k]. Sends every other rank the records whose places lie within
 // `reach` (m) of that rank's `box`, and returns what the others sent, in the order of ranks.
 // All ranks learn all boxes: fine up to some thousand ranks.
 template <class Record>
 std::vector<Record> from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
-                                    std::span<const Record> records, double reach, const Communicator& communicator) {
+                                      std::span<const Record> records, double reach, const Communicator& communicator) {
   static_assert(std::is_trivially_copyable_v<Record> && sizeof(Record) % sizeof(double) == 0);
   constexpr int width = sizeof(Record) / sizeof(double);
   const std::span<const double> outgoing(reinterpret_cast<const double*>(records.data()), records.size() * width);

@@ -10,8 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

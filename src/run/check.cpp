@@ -5,10 +5,10 @@
 #include <iostream>
 
 #include "deck/deck.hpp"
-#include "run/report.hpp"
-#include "setup/setup.hpp"
-#include "run/simulation.hpp"
 #include "output/variables.hpp"
+#include "run/report.hpp"
+#include "run/simulation.hpp"
+#include "setup/setup.hpp"
 
 namespace strut {
 
@@ -47,8 +47,8 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const double steps = std::ceil((deck.solver.final_time - deck.solver.initial_time) / dt);
   const std::string scene_text = describe_scene(scene);
   if (communicator.rank() != 0) return;
-  std::cout << scene_text << step_warning(scene.control, limit, deck.solver.initial_time) << "critical time step " << limit
-            << " s at the start; about " << steps << " steps of " << dt
+  std::cout << scene_text << step_warning(scene.control, limit, deck.solver.initial_time) << "critical time step "
+            << limit << " s at the start; about " << steps << " steps of " << dt
             << " s (more where the step must shrink with the deformation)\n"
             << "estimated time " << as_duration(steps * step_time) << " (" << step_time << " s a step, measured)\n"
             << deck_file.string() << ": no errors\n";

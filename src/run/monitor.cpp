@@ -90,7 +90,8 @@ void Monitor::check_energy(const Ledger& ledger) {
   std::ostringstream text;
   text << at(ledger.time) << "the balance of energy has an error of " << 100 * ledger.balance_error
        << " % of the largest energy (Watch > Balance Error): the run has become unstable or is far too coarse in "
-          "time. Likely causes: a Fixed dt above the critical time step, a load too sudden, too few load steps; the last "
+          "time. Likely causes: a Fixed dt above the critical time step, a load too sudden, too few load steps; the "
+          "last "
           "frame shows where points fly off";
   passed(energy, text.str());
   if (!std::isfinite(ledger.balance_error)) raise_together(body_.domain.communicator, text.str());

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "deck/deck.hpp"
-#include "setup/setup.hpp"
+#include "setup/scene.hpp"
 
 namespace strut {
 
@@ -28,8 +28,8 @@ class Progress {
 // What was read: points, bonds, memory, blocks.
 std::string describe_scene(const Scene& scene);
 
-// Bytes that points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) take on all
-// ranks; the program itself has some 50 MB a rank, 80 with equilibria.
+// Bytes that points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) take
+// on all ranks; the program itself has some 50 MB a rank, 80 with equilibria.
 double predicted_memory(const Scene& scene);
 
 // A fixed step above the stable one, `limit` at `time` (s); "" where it is not.

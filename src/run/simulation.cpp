@@ -5,13 +5,13 @@
 #include <iostream>
 
 #include "base/errors.hpp"
-#include "deck/deck.hpp"
-#include "output/writers.hpp"
-#include "run/report.hpp"
 #include "checkpoint/checkpoint.hpp"
-#include "setup/setup.hpp"
+#include "deck/deck.hpp"
 #include "output/variables.hpp"
+#include "output/writers.hpp"
 #include "run/monitor.hpp"
+#include "run/report.hpp"
+#include "setup/setup.hpp"
 
 namespace strut {
 
@@ -79,15 +79,16 @@ Ledger step_through(const deck::Deck& deck, Scene& scene, CentralDifference& sol
     const int step = solver.steps() + 1;
     ending = solver.agreed_request() == Request::stop;
     saving = solver.agreed_request() == Request::save;
-    solver.advance_position(next >= final_time || ending || saving || records.due(step, next) || checkpoint.due(step, next));
+    solver.advance_position(next >= final_time || ending || saving || records.due(step, next) ||
+                            checkpoint.due(step, next));
   }
   progress.finish();
   return solver.ledger();
 }
 
 // The same by load steps.
-Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, OutputWriters& records, Checkpoint& checkpoint,
-                    Monitor& watch) {
+Ledger load_through(const deck::Deck& deck, Scene& scene, QuasiStatic& solver, OutputWriters& records,
+                    Checkpoint& checkpoint, Monitor& watch) {
   const int conditions = records.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   const Communicator& ranks = scene.body.domain.communicator;
   const auto record = [&](bool last) {
@@ -166,7 +167,8 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   }
   Scene scene = set_up(deck, communicator);
   say(communicator, describe_scene(scene));
-  const OutputVariables variables = output_variables_of(deck, scene.body);  // all names are checked before a file is replaced
+  const OutputVariables variables =
+      output_variables_of(deck, scene.body);  // all names are checked before a file is replaced
   OutputWriters records(deck, variables);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,

@@ -13,8 +13,8 @@ enum class Start { anew, continued };  // continued: from where an earlier run o
 // signal (SIGINT, SIGTERM) ended it early, with everything written so far readable, and what it takes to go on.
 bool run(const std::filesystem::path& deck, const Communicator& communicator, Start start = Start::anew);
 
-// Collective. Validates the deck and its mesh and prints what the run would do: points, bonds, memory, critical time step,
-// number of steps, time.
+// Collective. Validates the deck and its mesh and prints what the run would do: points, bonds, memory, critical time
+// step, number of steps, time.
 void check(const std::filesystem::path& deck, const Communicator& communicator);
 
 }  // namespace strut

@@ -42,7 +42,8 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
     all[domain.cloud.blocks[i]].velocities.extend(velocities[i]);
   }
   for (Trajectory& trajectory : all) {
-    for (Eigen::AlignedBox3d* box : {&trajectory.places, &trajectory.velocities}) *box = common_box(*box, domain.communicator);
+    for (Eigen::AlignedBox3d* box : {&trajectory.places, &trajectory.velocities})
+      *box = common_box(*box, domain.communicator);
   }
   return all;
 }
@@ -82,7 +83,7 @@ bool declared(const std::vector<contact::Interaction>& interactions, int a, int 
 }  // namespace
 
 std::string undeclared_contacts(const Scene& scene, const std::vector<contact::Interaction>& interactions, double start,
-                             double duration) {
+                                double duration) {
   const Domain& domain = scene.body.domain;
   const std::vector<Trajectory> all = trajectories(scene, start, duration);
   std::ostringstream text;

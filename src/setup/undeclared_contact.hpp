@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "setup/setup.hpp"
+#include "setup/scene.hpp"
 
 namespace strut {
 
@@ -13,6 +13,6 @@ namespace strut {
 // the velocities of the start (initial and prescribed), overlap before `duration` (s) is over. Blocks that are bonded
 // to each other are no such pair. A forecast: who is thrown at somebody later is not seen.
 std::string undeclared_contacts(const Scene& scene, const std::vector<contact::Interaction>& interactions, double start,
-                             double duration);
+                                double duration);
 
 }  // namespace strut

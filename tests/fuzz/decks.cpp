@@ -10,10 +10,10 @@
 #include "files.hpp"
 #include "meshes.hpp"
 #include "mutate.hpp"
+#include "output/variables.hpp"
 #include "setup/setup.hpp"
 #include "subjects.hpp"
 #include "unit/deck_under_test.hpp"
-#include "output/variables.hpp"
 
 namespace strut::fuzz {
 

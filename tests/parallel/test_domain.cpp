@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "points/domain.hpp"
 #include "points/partition.hpp"
 

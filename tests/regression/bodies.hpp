@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
 #include "io/exodus/exodus.hpp"
 #include "setup/setup.hpp"

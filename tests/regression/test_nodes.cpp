@@ -4,8 +4,8 @@
 #include <set>
 
 #include "bodies.hpp"
-#include "output/observables.hpp"
 #include "mechanics/rigid_motion.hpp"
+#include "output/observables.hpp"
 
 namespace strut::regression {
 namespace {

@@ -89,7 +89,7 @@ TEST(DialectOfPeridigm, CubesInContact) {
       section("soft", key("Contact Model", "Short Range Force") + typed("Contact Radius", "double", "1e-3") +
                           typed("Spring Constant", "double", "3e10"));
   const std::string trajectory = along("left", "Initial Velocity", "block_1", "x", "20") +
-                             along("right", "Initial Velocity", "block_2", "x", "-20");
+                                 along("right", "Initial Velocity", "block_2", "x", "-20");
   const std::string compute =
       section("stress", key("Compute Class", "Block_Data") + key("Calculation Type", "Maximum") +
                             key("Block", "block_1") + key("Variable", "Von_Mises_Stress") + key("Output Label", "Top"));

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
 #include "temporary_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/parallel/communicator.hpp"
+#include "base/deduplicated.hpp"
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
-#include "base/deduplicated.hpp"
-#include "base/parallel/reproducible_sum.hpp"
 #include "base/math/tensors.hpp"
+#include "base/parallel/communicator.hpp"
+#include "base/parallel/reproducible_sum.hpp"
 #include "base/timing.hpp"
 
 namespace strut {

@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "bricks.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <random>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/text/history.hpp"

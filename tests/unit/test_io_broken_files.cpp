@@ -7,8 +7,8 @@
 #include <iterator>
 #include <random>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
 #include "temporary_folder.hpp"

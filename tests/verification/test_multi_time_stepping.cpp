@@ -36,7 +36,8 @@ void swing(Body& body) {
 }
 
 int max_level(const Body& body) {
-  return static_cast<int>(largest_over(body, [&](int i) { return body.time_levels.empty() ? 0.0 : body.time_levels[i]; }));
+  return static_cast<int>(
+      largest_over(body, [&](int i) { return body.time_levels.empty() ? 0.0 : body.time_levels[i]; }));
 }
 
 struct Case {

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t least_neighbours = 4;
 constexpr double least_spread = 0.02;
 
-// In spacings. The longer a merged cell, the smaller the critical time step (of a recipe foam: 1 % smaller at 3, 8 % at 4).
+// In spacings. The longer a merged cell, the smaller the critical time step (of a recipe foam: 1 % smaller at 3, 8 % at
+// 4).
 constexpr double longest = 3;
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace strut::io {
 // the new one is whole on disk, not before: a write that is killed spoils nothing. `deck`: the text of the deck.
 // Throws Error on all ranks: the file cannot be created, the disk is full.
 void write_checkpoint(const std::filesystem::path& file, const Communicator& communicator, const Snapshot& snapshot,
-                   const std::string& deck);
+                      const std::string& deck);
 
 // Fills a snapshot that was saved from the same deck, by any number of ranks: each gets the values of the points that
 // it has; of shares each rank its own, or, where their number is another, rank 0 the sums. Returns the text of the

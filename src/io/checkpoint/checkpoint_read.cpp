@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "base/build_facts.hpp"
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/checkpoint/checkpoint_file.hpp"
+#include "io/checkpoint/checkpoint_layout.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/netcdf/netcdf_lists.hpp"
 #include "io/netcdf/trial_read.hpp"
-#include "io/checkpoint/checkpoint_file.hpp"
-#include "io/checkpoint/checkpoint_layout.hpp"
 
 namespace strut::io {
 

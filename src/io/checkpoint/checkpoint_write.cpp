@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "base/build_facts.hpp"
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
-#include "io/netcdf/netcdf_lists.hpp"
-#include "io/on_root.hpp"
+#include "base/parallel/communicator.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 #include "io/checkpoint/checkpoint_layout.hpp"
+#include "io/netcdf/netcdf_lists.hpp"
+#include "io/on_root.hpp"
 #include "io/to_disk.hpp"
 
 namespace strut::io {
@@ -101,7 +101,7 @@ void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, co
 }  // namespace
 
 void write_checkpoint(const fs::path& path, const Communicator& communicator, const Snapshot& snapshot,
-                   const std::string& deck) {
+                      const std::string& deck) {
   std::optional<NetcdfLists> file;
   OnRoot on_root(communicator);
   fill(file, communicator, snapshot, deck, part_of(path), on_root);

@@ -5,14 +5,14 @@
 #include <numeric>
 #include <optional>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
-#include "io/netcdf/classic_netcdf.hpp"
+#include "base/parallel/communicator.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
-#include "io/file_lock.hpp"
 #include "io/exodus/numbering.hpp"
+#include "io/file_lock.hpp"
+#include "io/netcdf/classic_netcdf.hpp"
 #include "io/on_root.hpp"
 #include "io/to_disk.hpp"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "io/distribute.hpp"
 
 namespace strut::io {

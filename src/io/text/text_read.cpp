@@ -4,8 +4,8 @@
 #include <numeric>
 #include <sstream>
 
-#include "base/parallel/communicator.hpp"
 #include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
 #include "io/distribute.hpp"
 #include "io/exodus/exodus.hpp"
 

@@ -35,10 +35,12 @@ struct StressPass {
   int order = 0;
   bool of_any_size = false;
 };
-void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups, StepReport& report);
+void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
+                    StepReport& report);
 void advance_quadratic(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
                        StepReport& report);
-void advance_ordinary(Body& body, MaterialBlock& block, bool with_diagnostics, const LaneGroups& groups, StepReport& report);
+void advance_ordinary(Body& body, MaterialBlock& block, bool with_diagnostics, const LaneGroups& groups,
+                      StepReport& report);
 
 // By quadratic correspondence: F and R of each point, and its stress, from those of its cell.
 void diagnose_cells(Body& body, const MaterialBlock& block, const LaneGroups& groups);

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "base/math/rotation.hpp"
-#include "mechanics/kernels/ordinary_bonds.hpp"
 #include "mechanics/formulation/correspondence.hpp"
+#include "mechanics/kernels/ordinary_bonds.hpp"
 
 namespace strut {
 
@@ -63,7 +63,8 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
 
 }  // namespace
 
-void advance_ordinary(Body& body, MaterialBlock& block, bool with_diagnostics, const LaneGroups& groups, StepReport& report) {
+void advance_ordinary(Body& body, MaterialBlock& block, bool with_diagnostics, const LaneGroups& groups,
+                      StepReport& report) {
   WorstFailure failure;
   bonds::with_influence(body.influence, [&](auto weight) {
     advance_points(body, block, weight, groups, failure);

@@ -2,9 +2,9 @@
 // cell, rotation, law and first Piola–Kirchhoff stress there.
 #include <array>
 
-#include "mechanics/formulation/stress_update.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
+#include "mechanics/formulation/stress_update.hpp"
 
 namespace strut {
 

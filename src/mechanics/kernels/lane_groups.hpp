@@ -139,8 +139,8 @@ bonds::Residual<small::Lanes> residuals(const LaneGroup& group, const Site* plac
 
 // with_springs: whether any point of the scene has C. In a chunk of a lattice without C_i times the pull.
 template <class Weight>
-small::Vector3<small::Lanes> forces(const LaneGroup& group, const Displacements& u, const std::vector<ForceState>& states,
-                                    bool with_springs, Weight weight) {
+small::Vector3<small::Lanes> forces(const LaneGroup& group, const Displacements& u,
+                                    const std::vector<ForceState>& states, bool with_springs, Weight weight) {
   if (group.cluster) {
     const bonds::OfCluster family{*group.cluster};
     const auto own = bonds::own_state(family, states.data());

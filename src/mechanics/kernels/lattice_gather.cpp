@@ -358,7 +358,9 @@ void LatticeSums::gather_residuals(int slot, int z) {
   std::copy_n(force, 3, sums_.of(z, slot) + 9);
 }
 
-LaneVector LatticeSums::Chunk::residual_forces(const LaneIndices& points) const { return OfGroup(*this, points).vector(9); }
+LaneVector LatticeSums::Chunk::residual_forces(const LaneIndices& points) const {
+  return OfGroup(*this, points).vector(9);
+}
 LaneTensor LatticeSums::Chunk::residual_moments(const LaneIndices& points) const {
   return OfGroup(*this, points).tensor(0);
 }

@@ -262,8 +262,8 @@ class LatticeSums {
   std::vector<Kind> column_kinds_;
   // A bit for each place of the grid: whether there is a slot; one with points of this rank's own.
   std::vector<std::uint64_t> filled_, owned_;
-  int words_ = 0;                  // of these bits a row
-  std::vector<int> row_begins_;    // the first slot of each row of the grid, and of the next ones if it has none
+  int words_ = 0;                      // of these bits a row
+  std::vector<int> row_begins_;        // the first slot of each row of the grid, and of the next ones if it has none
   Deduplicated<Constants> constants_;  // of owned points
   bool has_springs_ = false;
 

@@ -4,8 +4,8 @@
 // with the states A, B, D of the ends (QuadraticState: first, second, correction, offset = D c).
 #pragma once
 
-#include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
 
 namespace strut::bonds {
 

@@ -110,9 +110,9 @@ class ClusterLists::Builder {
   std::vector<int> near_;
 };
 
-// Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters, of
-// one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids, so
-// that every sum over a family is the same on any number of ranks.
+// Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters,
+// of one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids,
+// so that every sum over a family is the same on any number of ranks.
 struct Families {
   ClusterLists lists;
   std::vector<LatticeFamilies> lattices;

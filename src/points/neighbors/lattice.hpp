@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/parallel/communicator.hpp"
 #include "base/math/pencil.hpp"
 #include "base/math/tensors.hpp"
+#include "base/parallel/communicator.hpp"
 
 namespace strut {
 

@@ -8,16 +8,16 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
-#include "mechanics/serialize.hpp"
 #include "mechanics/rigid_motion.hpp"
+#include "mechanics/serialize.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
 
 namespace {
 
-// The estimate is renewed when the largest frequency bound has grown by this factor since the last one (until then the step
-// shrinks in proportion), and after so many steps in any case, when it may also grow again.
+// The estimate is renewed when the largest frequency bound has grown by this factor since the last one (until then the
+// step shrinks in proportion), and after so many steps in any case, when it may also grow again.
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
@@ -213,8 +213,8 @@ void CentralDifference::advance_position(bool with_diagnostics) {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{static_cast<double>(severity(report)), static_cast<double>(request_), report.frequency_bound,
-                             report.damping};
+  std::vector<double> agreed{static_cast<double>(severity(report)), static_cast<double>(request_),
+                             report.frequency_bound, report.damping};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(kinematics(), agreed);
   {

@@ -1,12 +1,12 @@
 // Explicit central differences (leap-frog form): velocities live at mid-steps, places and forces at steps.
 #pragma once
 
-#include "contact/contact.hpp"
 #include "conditions/conditions.hpp"
+#include "contact/contact.hpp"
 #include "mechanics/mechanics.hpp"
+#include "solvers/explicit/critical_time_step.hpp"
 #include "solvers/explicit/multi_time_stepping.hpp"
 #include "solvers/ledger.hpp"
-#include "solvers/explicit/critical_time_step.hpp"
 
 namespace strut {
 
@@ -34,8 +34,9 @@ class CentralDifference {
   double critical_time_step() const;
   const contact::Contact& contact() const { return contact_; }
 
-  // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then advance_position().
-  // kick: velocities from the mid-step before time() to the one after. The step does not pass `final_time`.
+  // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then
+  // advance_position(). kick: velocities from the mid-step before time() to the one after. The step does not pass
+  // `final_time`.
   void advance_velocity(double final_time);
   // move: places to time() + dt, then stresses and forces there. Throws Error on all ranks when a point fails.
   // `with_diagnostics`: the ledger, or a look at the body, will be asked for at the new time.
@@ -48,7 +49,8 @@ class CentralDifference {
   // Collective; after advance_velocity(). Forces at time(): impulses over the times that they stand for.
   Reactions reactions() const;
 
-  // What the last advance_position() went on with, on the ranks that have such a point; the same on all ranks: whether any has.
+  // What the last advance_position() went on with, on the ranks that have such a point; the same on all ranks: whether
+  // any has.
   const std::string& warning() const { return warning_; }
   bool went_on() const { return went_on_; }
 
@@ -57,8 +59,8 @@ class CentralDifference {
   Request agreed_request() const { return agreed_request_; }
   void request(Request request) { request_ = request; }
 
-  // Collective; between advance_position() and advance_velocity(). All that the next steps depend on, of the body too. The run that restores it
-  // goes on to the last bit on as many ranks.
+  // Collective; between advance_position() and advance_velocity(). All that the next steps depend on, of the body too.
+  // The run that restores it goes on to the last bit on as many ranks.
   void serialize(Archive& archive);
 
  private:
@@ -87,7 +89,7 @@ class CentralDifference {
   MultiTimeStepping multi_stepping_;
   std::vector<Conditions> conditions_of_level_;  // of the points that move at times between steps
   Work work_;                                    // up to the mid-step before time()
-  ImpulseWork impulse_work_;                           // of the impulses at time()
+  ImpulseWork impulse_work_;                     // of the impulses at time()
   std::vector<Vector> reactions_;  // N, on this rank's points at time(), by condition; empty: not asked for
   Impulses between_;               // of the substeps since the last kick
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/formulation/correspondence.hpp"
+#include "mechanics/kernels/quadratic_bonds.hpp"
 
 namespace strut {
 
@@ -139,8 +139,8 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
-// The time-step levels of owned points and ghosts, or none where they are not worth while: points between stiff ones count,
-// too.
+// The time-step levels of owned points and ghosts, or none where they are not worth while: points between stiff ones
+// count, too.
 std::vector<std::uint8_t> chosen_levels(Body& body, double margin) {
   const FrequencyBounds bounds = frequency_bounds_of(body);
   FrequencyHistogram histogram(bounds.largest, margin);
@@ -298,7 +298,7 @@ void MultiTimeStepping::serialize(Archive& archive, Body& body) {
 }
 
 MultiTimeStepping::Level MultiTimeStepping::make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels,
-                                     const std::vector<double>& ids, int level) const {
+                                                       const std::vector<double>& ids, int level) const {
   std::vector<std::uint8_t> wanted(motion_levels.size());
   for (std::size_t i = 0; i < motion_levels.size(); ++i) wanted[i] = motion_levels[i] >= level;
   Level result{.halo = body.domain.halo.restricted_to(body.domain.communicator, wanted)};

@@ -13,11 +13,11 @@ namespace strut {
 
 class MultiTimeStepping {
  public:
-  // Collective. Chooses how often the step of each point is halved (body.time-step levels), by its frequency bound: what costs least; none
-  // where that saves little. The forces of the points whose time-step levels change are halved accordingly, so that their
-  // impulse ends the last interval and begins the next: between advance_stress and sum_forces.
-  // Returns the largest frequency bound of a point of this rank, as a part of its step.
-  // `safety_factor`: the step will be such a part of the stable one.
+  // Collective. Chooses how often the step of each point is halved (body.time-step levels), by its frequency bound:
+  // what costs least; none where that saves little. The forces of the points whose time-step levels change are halved
+  // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
+  // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
+  // the step will be such a part of the stable one.
   double choose(Body& body, double safety_factor);
 
   // A step has 2^orders() substeps. Of the times between them, those of order m come every Δt/2^m.
@@ -45,14 +45,14 @@ class MultiTimeStepping {
   struct Level {
     std::vector<SelectedPoints> stressed;  // of each block: those that are due
     std::vector<int> moved;
-    ClusterLists sources;                    // of the moved points: the stressed points of their families
+    ClusterLists sources;               // of the moved points: the stressed points of their families
     std::vector<Vector> first_moments;  // Σ ω V ξ over the family of each moved point, m⁴
     Halo halo;
   };
   void add_residuals(Body& body, Level& now, int level) const;
   void make_levels(Body& body);
   Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, const std::vector<double>& ids,
-                 int level) const;
+                   int level) const;
 
   std::vector<Level> levels_;
   std::vector<std::uint8_t> motion_levels_;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "contact/contact.hpp"
-#include "mechanics/mechanics.hpp"
 #include "mechanics/formulation/tangent.hpp"
+#include "mechanics/mechanics.hpp"
 #include "solvers/quasi_static/constraints.hpp"
 #include "solvers/quasi_static/tool_contact.hpp"
 

@@ -81,7 +81,8 @@ void Newton::renew_preconditioner() {
   if (damping_ > 0) {
     for (std::size_t i = 0; i < extra.size(); ++i) extra[i] += damping_ * drag_[i] * Tensor::Identity();
   }
-  const BlockRows matrix = preconditioner_matrix(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, krylov_.first());
+  const BlockRows matrix =
+      preconditioner_matrix(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, krylov_.first());
   krylov_.precondition(matrix, rigid_motions(body));
   spring_ = mean_spring(matrix);
   renew_drag(matrix, extra);

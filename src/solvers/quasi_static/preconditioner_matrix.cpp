@@ -49,7 +49,8 @@ double spread(const Body& body, const std::vector<End>& ends, int i) {
   return sum;
 }
 
-std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, const Constraints& held, std::int64_t first) {
+std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
+                         std::int64_t first) {
   std::vector<End> ends(body.domain.sites.size());
   for (int i = 0; i < body.owned(); ++i) {
     ends[i] = {static_cast<double>(first + i), 0, body.domain.cloud.spacings[i], held.free_projection(i)};
@@ -71,7 +72,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
 }  // namespace
 
 BlockRows preconditioner_matrix(Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
-                      const std::vector<Tensor>& extra, std::int64_t first) {
+                                const std::vector<Tensor>& extra, std::int64_t first) {
   const std::vector<End> ends = ends_of(body, tangents, held, first);
   BlockRows rows;
   for (int i = 0; i < body.owned(); ++i) {

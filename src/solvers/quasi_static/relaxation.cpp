@@ -24,8 +24,8 @@ double dot(const Field& a, const Field& b) {
 
 }  // namespace
 
-// m = ω²_max/(2 safety)² times what makes all frequency bounds alike: the body's by its elastic tangent, contact by its springs,
-// where two points of equal mass have twice the stiffness of one.
+// m = ω²_max/(2 safety)² times what makes all frequency bounds alike: the body's by its elastic tangent, contact by its
+// springs, where two points of equal mass have twice the stiffness of one.
 void Relaxation::renew_masses() {
   Body& body = equilibrium_.body();
   const std::vector<double> density = body.density;

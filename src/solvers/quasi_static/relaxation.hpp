@@ -2,8 +2,8 @@
 // keep frequency bound with each other and a damping that adapts to the slowest of them. It needs no tangent.
 #pragma once
 
-#include "solvers/quasi_static/search.hpp"
 #include "solvers/explicit/critical_time_step.hpp"
+#include "solvers/quasi_static/search.hpp"
 
 namespace strut {
 

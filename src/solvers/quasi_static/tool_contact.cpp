@@ -109,7 +109,8 @@ double ToolContact::violation(double largest_pressure) const {
     if (contact.now.pressure == 0) continue;
     const double friction = tools_[contact.tool].friction;
     const double lag = friction > 0 ? std::abs(contact.now.pressure - contact.multiplier) / largest_pressure : 0;
-    const double soft = contact.sticks ? (contact.now.drag - contact.tangential).norm() / (friction * largest_pressure) : 0;
+    const double soft =
+        contact.sticks ? (contact.now.drag - contact.tangential).norm() / (friction * largest_pressure) : 0;
     largest = std::max(
         {largest, std::abs(contact.gap) / (most_penetration * contact.spacing), soft / most_softness, lag / most_lag});
   }
@@ -127,7 +128,8 @@ bool ToolContact::has_changed() {
 }
 
 void ToolContact::augment() {
-  for (ContactPoint& contact : contact_points_) contact.multiplier = contact.now.pressure, contact.tangential = contact.now.drag;
+  for (ContactPoint& contact : contact_points_)
+    contact.multiplier = contact.now.pressure, contact.tangential = contact.now.drag;
 }
 
 void ToolContact::commit() {

@@ -1,0 +1,156 @@
+#include "setup/blocks.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
+#include "mechanics/thin_members.hpp"
+
+namespace strut {
+
+namespace {
+
+Formulation formulation_of(deck::Formulation formulation) {
+  switch (formulation) {
+    case deck::Formulation::ordinary:
+      return Formulation::ordinary;
+    case deck::Formulation::quadratic:
+      return Formulation::quadratic;
+    default:
+      return Formulation::correspondence;
+  }
+}
+
+}  // namespace
+
+bool is_quadratic(const deck::Material& material) { return material.formulation == deck::Formulation::quadratic; }
+
+const deck::Block* section_of(const deck::Deck& deck, const std::string& block) {
+  const deck::Block* general = nullptr;
+  for (const deck::Block& section : deck.blocks) {
+    for (const std::string& name : section.block_names) {
+      if (name == block) return &section;
+      if (name == "all" || name == "default") general = &section;
+    }
+  }
+  return general;
+}
+
+void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problems& problems) {
+  for (const deck::Block& section : deck.blocks) {
+    for (const std::string& name : section.block_names) {
+      const auto& valid = cloud.block_names;
+      if (name == "all" || name == "default" || std::find(valid.begin(), valid.end(), name) != valid.end()) continue;
+      problems.add("Blocks > " + section.name + " > Block Names",
+                   "the mesh has no block '" + name + "'" + did_you_mean(name, valid) + "; it has " + joined(valid));
+    }
+  }
+  for (const std::string& name : cloud.block_names) {
+    if (section_of(deck, name)) continue;
+    problems.add("Blocks", "block '" + name + "' of the mesh has no material: name it in a section's Block Names");
+  }
+}
+
+std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<BlockMaterial> materials;
+  for (const std::string& name : cloud.block_names) {
+    const deck::Material& material = deck.materials[section_of(deck, name)->material];
+    const auto coefficient = [&material](deck::StabilizationType type) {
+      return material.stabilization == type ? material.stabilization_coefficient : 0.0;
+    };
+    const bool ordinary = material.formulation == deck::Formulation::ordinary;
+    materials.push_back({material.density,
+                         material.law,
+                         coefficient(deck::StabilizationType::silling),
+                         formulation_of(material.formulation),
+                         ordinary ? 0.0 : coefficient(deck::StabilizationType::mean_gradient),
+                         {material.linear_viscosity, material.quadratic_viscosity}});
+  }
+  return materials;
+}
+
+// Sections that are bodies of their own are numbered by their place, from 1; all others are body 0.
+std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<BlockBonds> bonds;
+  for (const std::string& name : cloud.block_names) {
+    const deck::Block* section = section_of(deck, name);
+    const int place = static_cast<int>(section - deck.blocks.data());
+    const int body = section->separate_body ? place + 1 : 0;
+    bonds.push_back(section->horizon_factor ? BlockBonds::per_spacing(*section->horizon_factor, body)
+                                            : BlockBonds(*section->horizon, body));
+    const deck::Material& material = deck.materials[section->material];
+    const bool by_touch = is_quadratic(material) && cloud.joined;
+    const bool is_alike = deck.discretization.influence == deck::Influence::one;  // others fade with the distance
+    bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
+    bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
+    const bool any = bonds.back().touching || bonds.back().through_material;
+    if (any || material.formulation != deck::Formulation::correspondence) bonds.back().families = FamilyKind::lists;
+  }
+  return bonds;
+}
+
+// The mean spacing of each block's points over all ranks, m; 0 where it has none.
+std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& communicator) {
+  std::vector<double> sums(2 * cloud.block_names.size(), 0);  // spacings and number of points of each block
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    sums[2 * cloud.blocks[i]] += cloud.spacings[i];
+    sums[2 * cloud.blocks[i] + 1] += 1;
+  }
+  communicator.sum(sums);
+  std::vector<double> result;
+  for (std::size_t b = 0; b < sums.size(); b += 2) result.push_back(sums[b] / std::max(1.0, sums[b + 1]));
+  return result;
+}
+
+// A horizon in m that is smaller than the spacing, or a hundred times as large, is a slip of units.
+void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                    deck::Problems& problems) {
+  for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
+    const deck::Block* section = section_of(deck, cloud.block_names[b]);
+    if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks tells of blocks without a section
+    if (*section->horizon > spacings[b] && *section->horizon < 20 * spacings[b]) continue;
+    std::ostringstream text;
+    text << *section->horizon << " m does not fit the points of block " << cloud.block_names[b]
+         << ", whose mean spacing is " << spacings[b]
+         << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
+    problems.add("Blocks > " + section->name + " > Horizon", text.str());
+  }
+}
+
+Influence influence_of(deck::Influence influence) {
+  switch (influence) {
+    case deck::Influence::one:
+      return Influence::one;
+    case deck::Influence::linear_decay:
+      return Influence::linear_decay;
+    default:
+      return Influence::cubic_decay;
+  }
+}
+
+std::string thin_members(const Body& body) {
+  constexpr double worth_saying = 0.9;
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    const double thickness = thickness_of(body.domain, static_cast<int>(b));
+    const double spacing = body.domain.blocks[b].spacing;
+    const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
+    const Formulation formulation = block.material.formulation;
+    const double kept = bending_stiffness_kept(formulation, horizon, thickness);
+    if (kept >= worth_saying) continue;
+    text << "block '" << block.name << "': members are " << thickness
+         << " spacings thick (4 volume/surface); so thin they keep about " << 100 * kept
+         << " % of their bending stiffness";
+    if (formulation == Formulation::correspondence) {
+      text << ", by Formulation 'Quadratic Correspondence' some "
+           << 100 * bending_stiffness_kept(Formulation::quadratic, horizon, thickness) << " %";
+    }
+    text << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace strut

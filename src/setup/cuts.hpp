@@ -1,0 +1,14 @@
+// What a partition weighs: the cost of each block's points, and along which axes cuts are cheap.
+#pragma once
+
+#include "deck/deck.hpp"
+#include "points/cloud.hpp"
+#include "points/partition.hpp"
+
+namespace strut {
+
+// Collective. `spacings`: the mean one of each block, m.
+Cuts cuts(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+          const Communicator& communicator);
+
+}  // namespace strut

@@ -1,0 +1,78 @@
+#include "setup/families.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "mechanics/formulation/quadratic_fit.hpp"
+#include "points/partition.hpp"
+#include "setup/blocks.hpp"
+
+namespace strut {
+
+namespace {
+
+// Owned points whose family cannot carry a shape tensor; `text` tells of the first.
+std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, std::string& text) {
+  std::vector<int> found;
+  std::vector<char> by_cells;  // of blocks
+  for (const std::string& name : domain.cloud.block_names) {
+    by_cells.push_back(is_quadratic(deck.materials[section_of(deck, name)->material]));
+  }
+  for (int i = 0; i < domain.owned; ++i) {
+    const LatticeFamilies* stencil = domain.families.lattice(i);
+    if (stencil && stencil->spans_space(i)) continue;  // without a sum over the family
+    const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
+    if (!reason && by_cells[domain.cloud.blocks[i]] && !spans_cell(domain, i)) reason = "they hardly span space";
+    if (!reason) continue;
+    found.push_back(i);
+    if (found.size() > 1) continue;
+    const Vector X = domain.reference(i);
+    std::ostringstream line;
+    line << word(domain.cloud.at) << " " << domain.cloud.element_ids[i] << " of block "
+         << domain.cloud.block_names[domain.cloud.blocks[i]] << " at (" << X[0] << ", " << X[1] << ", " << X[2]
+         << ") m has " << domain.families.size(i) << " neighbors: " << reason;
+    text = line.str();
+  }
+  return found;
+}
+
+PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+    if (!std::binary_search(dropped.begin(), dropped.end(), i)) kept.push_back(i);
+  }
+  return reordered(cloud, kept);
+}
+
+}  // namespace
+
+// Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
+Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
+                      std::int64_t& dropped) {
+  const Timed timed(phase("Families"));
+  const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
+  for (;;) {
+    Domain domain = make_domain(std::move(cloud), bonds, communicator);
+    std::string text;
+    const std::vector<int> degenerate = degenerate_points(deck, domain, text);
+    const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
+    if (count == 0) return domain;
+    if (deck.discretization.degenerate == deck::DegeneratePoints::error) {
+      if (!text.empty()) {
+        text = "Discretization > Degenerate Points: " + std::to_string(count) +
+               " points have too few neighbors for a shape tensor; " + text +
+               ". Enlarge the horizon, mend the mesh, or say \"Drop\" to leave such points out";
+      }
+      raise_together(communicator, text);
+    }
+    dropped += count;
+    cloud = without(whole_cloud(domain), degenerate);
+    if (communicator.sum(static_cast<std::int64_t>(cloud.size())) == 0) {
+      raise_together(communicator, "Discretization > Degenerate Points: no point is left after dropping");
+    }
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,16 @@
+// Families of the points that are left when those are dropped that cannot carry a shape tensor.
+#pragma once
+
+#include <cstdint>
+
+#include "deck/deck.hpp"
+#include "points/domain.hpp"
+
+namespace strut {
+
+// Collective. Families of the partitioned cloud, less the points that the deck lets go; `dropped` counts these over all
+// ranks. Throws Error on all ranks where the deck does not let them go.
+Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
+                      std::int64_t& dropped);
+
+}  // namespace strut

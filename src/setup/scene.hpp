@@ -1,0 +1,26 @@
+// The objects of a run.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "conditions/conditions.hpp"
+#include "contact/contact.hpp"
+#include "mechanics/body.hpp"
+#include "solvers/explicit/central_difference.hpp"
+#include "solvers/quasi_static/quasi_static.hpp"
+
+namespace strut {
+
+struct Scene {
+  Body body;
+  Conditions conditions;
+  contact::Contact contact;
+  StepControl control;
+  std::optional<QuasiStaticControl> quasi_static;   // in its place
+  std::int64_t points = 0, bonds = 0, dropped = 0;  // over all ranks
+  std::string warnings;                             // what may be meant otherwise, a line each
+};
+
+}  // namespace strut
