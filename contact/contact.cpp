@@ -3,21 +3,22 @@
 #include <algorithm>
 
 #include "base/timing.hpp"
+#include "contact/search/search.hpp"
 
 namespace strut::contact {
 
 namespace {
 
-// The usual skins of a pair together, in units of the smaller horizon. Points that are not bonded start at least a
-// horizon apart, and a pair touches at 0.9 of its distance at the most: with less than a tenth, no pair of undeformed
-// material is in a list but those of fast points, and what is left of the tenth is the strain at which others get
-// there.
+// The usual skin distances of a pair together, in units of the smaller horizon. Points that are not bonded start at
+// least a horizon apart, and a pair touches at 0.9 of its distance at the most: with less than a tenth, no pair of
+// undeformed material is in a list but those of fast points, and what is left of the tenth is the strain at which
+// others get there.
 constexpr double skin_share = 0.08;
 
-// A search is due this many steps before a skin is used up, since the motion of the next step is a forecast.
+// A search is due this many steps before a skin distance is used up, since the motion of the next step is a forecast.
 constexpr double forecast = 2;
 
-// A search is made where a point has really used this part of its skin; by the bound it often only trembles.
+// A search is made where a point has really used this part of its skin distance; by the bound it often only trembles.
 constexpr double most_used = 0.5;
 
 // The bound of the stiffness falls so slowly after points have parted: a step that jumps with every touch costs energy.
@@ -48,7 +49,7 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.places.clear();
   for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
-  contact_pair.pairs = find_pairs(kinematics, blocks, contact_pair.model, contact_pair.skins);
+  contact_pair.pairs = find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.used = 0;
@@ -78,7 +79,7 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& c
   static Teuchos::Time& timer = phase("Contact forces");
   const Timed timed(timer);
   const Model& model = contact_pair.model;
-  contact_pair.result = add_normal_forces(kinematics, model, pairs, force_density);
+  contact_pair.result = add_normal_forces(kinematics, model.law, pairs, force_density);
   if (model.friction > 0 && dt > 0) add_friction(kinematics, model, dt, pairs, force_density, contact_pair.friction);
 }
 
@@ -92,13 +93,13 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Ve
 void Contact::add_stiffness(std::span<const Vector> field, std::span<Vector> result) {
   for (ContactPair& contact_pair : contact_pairs_) {
     if (contact_pair.pairs.empty() && !contact_pair.pairs.halo) continue;
-    contact::add_stiffness(contact_pair.model, contact_pair.pairs, field, result);
+    contact::add_stiffness(contact_pair.model.law, contact_pair.pairs, field, result);
   }
 }
 
 void Contact::add_springs(std::span<Tensor> springs) const {
   for (const ContactPair& contact_pair : contact_pairs_)
-    contact::add_springs(contact_pair.model, contact_pair.pairs, springs);
+    contact::add_springs(contact_pair.model.law, contact_pair.pairs, springs);
 }
 
 void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const {

@@ -7,7 +7,7 @@
 
 #include "base/archive.hpp"
 #include "contact/forces.hpp"
-#include "contact/search/search.hpp"
+#include "contact/search/pairs.hpp"
 #include "contact/search/skin_distances.hpp"
 
 namespace strut::contact {
@@ -34,13 +34,13 @@ class Contact {
   // here (s), 0 at the start.
   void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
-  // Collective, after add_forces. Adds the stiffness of what touches, times a field of the owned points, to result (N/m
-  // times the field's unit). Without friction.
+  // Collective, after add_forces. Adds the tangent stiffness of what touches, times a field of the owned points, to
+  // result (N/m times the field's unit). Without friction.
   void add_stiffness(std::span<const Vector> field, std::span<Vector> result);
   void add_springs(std::span<Tensor> springs) const;  // what of it acts on a point by its own motion, N/m
 
-  // Collective. What forces leave behind. Of a restored run, `crowd` and `dt` are those of its last forces; pairs are
-  // searched for anew, which does not change what they do.
+  // Collective. What forces leave behind. Of a restored run, `kinematics` and `dt` are those of its last forces; pairs
+  // are searched for anew, which does not change what they do.
   void serialize(Archive& archive, const Kinematics& kinematics, double dt);
 
   // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
@@ -62,20 +62,20 @@ class Contact {
   int searches() const { return searches_; }  // so far, of all interactions
 
  private:
-  // One interaction as it goes on.
+  // An interaction as it goes on: two blocks and the pairs of their points.
   struct ContactPair {
     Model model;
     BlockPair blocks;
-    double skin = 0;  // m: the usual one of a point
+    double skin = 0;  // the usual skin distance of a point, m
     // As of the last search.
     Frame frame = {};
-    std::vector<Vector> places = {};  // of parties.points, m
+    std::vector<Vector> places = {};  // of blocks.points, m
     SkinDistances skins = {};
     Pairs pairs = {};
     bool searched = false;
     // As of the last look.
     Vector mean_velocity = Vector::Zero();  // m/s
-    double used = 0;  // a bound of the part of its skin that any point has used since the last search
+    double used = 0;  // a bound of the part of its skin distance that any point has used since the last search
     bool due = true;  // that has come near 1
     ForceResult result = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned

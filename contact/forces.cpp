@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/laws/friction.hpp"
+
 namespace strut::contact {
 
 namespace {
@@ -24,36 +26,50 @@ void bring_to_present(const Kinematics& kinematics, Pairs& pairs) {
 // touching: their stiffness belongs into the first step.
 constexpr double just = 1 + 1e-9;
 
+// The stiffness that bounds the next step is that of so many times the present overlap.
+constexpr double growth = 2;
+
 // A pair that touches.
+template <ContactLaw L>
 struct Touch {
+  const L& law;
+  PointPair pair;
   int partner;
   Vector direction;  // from the point to its partner, unit length
-  double distance, touching, stiffness;
-  double force() const { return normal_force(stiffness, touching, distance); }
+  double distance, touching;
+
+  double overlap() const { return std::max(0.0, touching - distance); }
+  double penetration() const { return 1 - distance / touching; }
+  double force() const { return law.normal_force(pair, overlap()); }
+  double energy() const { return law.stored_energy(pair, overlap()); }
+  double stiffness() const { return law.tangent_stiffness(pair, overlap()); }
+  double stiffness_to_come() const { return law.tangent_stiffness(pair, growth * overlap()); }
 };
 
-double reference_distance(const Site& a, const Site& b) {
-  return (b.reference - a.reference).head<3>().matrix().norm();
+PointPair pair_of(const Site& a, const Site& b, bool one_body) {
+  return {{a.reference[3], b.reference[3]},
+          0.5 * (a.current[3] + b.current[3]),
+          (b.reference - a.reference).head<3>().matrix().norm(),
+          one_body};
 }
 
 // Calls visit(Touch) for the partners of owned[k] that touch it.
-template <class Visit>
-void for_each_touch(const Pairs& pairs, const Model& model, std::size_t k, Visit&& visit) {
+template <ContactLaw L, class Visit>
+void for_each_touch(const Pairs& pairs, const L& law, std::size_t k, Visit&& visit) {
   const Site& here = pairs.sites[k];
-  const double radius2 = just * model.radius * model.radius;
+  const double radius2 = just * law.radius * law.radius;
   for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
     const Site& there = pairs.sites[pairs.partners[p]];
     const Vector eta = (there.current - here.current).head<3>().matrix();
     const double distance2 = eta.squaredNorm();
     if (!(distance2 < radius2)) continue;
-    const double touching = touching_distance(model.radius, reference_distance(here, there), pairs.one_body);
+    const PointPair pair = pair_of(here, there, pairs.one_body);
+    const double touching = law.touching_distance(pair);
     if (!(distance2 < just * touching * touching)) continue;
     const double distance = std::sqrt(distance2);
     // Two points at the same place have no direction: nothing parts them in this step.
     const Vector direction = distance > 0 ? Vector(eta / distance) : Vector::Zero();
-    const double horizon = 0.5 * (here.current[3] + there.current[3]);
-    const double stiffness = penalty_stiffness(model.penalty, horizon) * (here.reference[3] * there.reference[3]);
-    visit(Touch{pairs.partners[p], direction, distance, touching, stiffness});
+    visit(Touch<L>{law, pair, pairs.partners[p], direction, distance, touching});
   }
 }
 
@@ -65,11 +81,11 @@ struct Slider {
 };
 constexpr int slider_width = sizeof(Slider) / sizeof(double);
 
-std::vector<Slider> sliders(const Kinematics& kinematics, const Model& model, Pairs& pairs) {
+std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto& law, Pairs& pairs) {
   std::vector<Slider> all(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     all[k].velocity = kinematics.velocities[pairs.owned[k]];
-    for_each_touch(pairs, model, k, [&](const Touch& touch) {
+    for_each_touch(pairs, law, k, [&](const auto& touch) {
       all[k].push -= touch.force() * touch.direction;
       all[k].contacts += 1;
     });
@@ -92,21 +108,18 @@ double largest_eigenvalue(const Tensor& springs, double floor) {
   return Eigen::SelfAdjointEigenSolver<Tensor>(springs, Eigen::EigenvaluesOnly).eigenvalues()[2];
 }
 
-}  // namespace
-
-ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs,
-                              std::vector<Vector>& force_density) {
-  bring_to_present(kinematics, pairs);
+template <ContactLaw L>
+ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>& force_density) {
   ForceResult result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector force = Vector::Zero();
     Tensor springs = Tensor::Zero();
-    for_each_touch(pairs, model, k, [&](const Touch& touch) {
+    for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
       force -= touch.force() * touch.direction;
-      result.deepest.take({1 - touch.distance / touch.touching, pairs.owned[k]});
-      result.energy += 0.5 * stored_energy(touch.stiffness, touch.touching, touch.distance);
+      result.deepest.take({touch.penetration(), pairs.owned[k]});
+      result.energy += 0.5 * touch.energy();
       const double mass = pairs.masses[k];
-      const double weight = touch.stiffness * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
+      const double weight = touch.stiffness_to_come() * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
       springs += weight * touch.direction * touch.direction.transpose();
     });
     force_density[pairs.owned[k]] += force / pairs.sites[k].reference[3];
@@ -115,41 +128,68 @@ ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, 
   return result;
 }
 
-void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
-                  std::vector<Vector>& force_density, std::vector<Vector>& friction) {
-  friction.assign(pairs.owned.size(), Vector::Zero());
-  const std::vector<Slider> all = sliders(kinematics, model, pairs);
+// Of friction, on pairs.owned[k], N.
+template <ContactLaw L>
+std::vector<Vector> friction_forces(const Kinematics& kinematics, const L& law, double coefficient, double dt,
+                                    Pairs& pairs) {
+  std::vector<Vector> friction(pairs.owned.size(), Vector::Zero());
+  const std::vector<Slider> all = sliders(kinematics, law, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const Slider& here = all[k];
-    for_each_touch(pairs, model, k, [&](const Touch& touch) {
+    for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
       const Slider& there = all[touch.partner];
       const Vector normal = surface_normal(here, there, touch.direction);
       const double load = touch.force() * std::abs(normal.dot(touch.direction));
       const double mobility = here.contacts / pairs.masses[k] + there.contacts / pairs.masses[touch.partner];
-      friction[k] += friction_force(model.friction, load, there.velocity - here.velocity, normal, mobility, dt);
+      friction[k] += friction_force(coefficient, load, there.velocity - here.velocity, normal, mobility, dt);
     });
+  }
+  return friction;
+}
+
+// Calls visit(k, partner, n, stiffness) for the touching pairs, k of the points pairs.owned.
+template <class Visit>
+void for_each_spring(const Law& law, const Pairs& pairs, const Visit& visit) {
+  std::visit(
+      [&](const auto& one) {
+        for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+          for_each_touch(pairs, one, k,
+                         [&](const auto& touch) { visit(k, touch.partner, touch.direction, touch.stiffness()); });
+        }
+      },
+      law);
+}
+
+}  // namespace
+
+ForceResult add_normal_forces(const Kinematics& kinematics, const Law& law, Pairs& pairs,
+                              std::vector<Vector>& force_density) {
+  bring_to_present(kinematics, pairs);
+  return std::visit([&](const auto& one) { return normal_forces(one, pairs, force_density); }, law);
+}
+
+void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
+                  std::vector<Vector>& force_density, std::vector<Vector>& friction) {
+  friction = std::visit([&](const auto& law) { return friction_forces(kinematics, law, model.friction, dt, pairs); },
+                        model.law);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k)
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].reference[3];
-  }
 }
 
-void add_springs(const Model& model, const Pairs& pairs, std::span<Tensor> springs) {
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    for_each_touch(pairs, model, k, [&](const Touch& touch) {
-      springs[pairs.owned[k]] += touch.stiffness * touch.direction * touch.direction.transpose();
-    });
-  }
+void add_springs(const Law& law, const Pairs& pairs, std::span<Tensor> springs) {
+  for_each_spring(law, pairs, [&](std::size_t k, int, const Vector& n, double stiffness) {
+    springs[pairs.owned[k]] += stiffness * n * n.transpose();
+  });
 }
 
-void add_stiffness(const Model& model, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
+void add_stiffness(const Law& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
   std::vector<Vector> values(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) values[k] = field[pairs.owned[k]];
   if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(values.data()), 3, 3);
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    for_each_touch(pairs, model, k, [&](const Touch& touch) {
-      const double approach = touch.direction.dot(values[k] - values[touch.partner]);
-      result[pairs.owned[k]] += touch.stiffness * approach * touch.direction;
-    });
-  }
+  for_each_spring(law, pairs, [&](std::size_t k, int partner, const Vector& n, double stiffness) {
+    const double approach = n.dot(values[k] - values[partner]);
+    result[pairs.owned[k]] += stiffness * approach * n;
+  });
 }
 
 }  // namespace strut::contact

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "contact/search/search.hpp"
+#include "contact/laws/laws.hpp"
+#include "contact/search/pairs.hpp"
 
 namespace strut::contact {
 
@@ -21,14 +22,17 @@ struct DeepestPenetration {
 // Of this rank's points.
 struct ForceResult {
   DeepestPenetration deepest;
-  double energy = 0;  // stored by the penalty, J: half of each pair
+  double energy = 0;  // stored by the pairs that touch, J: half of each
   // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n. For a
-  // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)².
+  // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)². With k that of twice the present
+  // overlap, so that it holds in the next step too: two points approach by v Δt a step, and have done so since they
+  // touch. Only in the first step after the one within which a touch began may it be more, by less than the bound that
+  // follows then; a touch that nobody has foreseen is no better with any law.
   double stiffness = 0;
 };
 
-// Collective. Brings the pairs to the present places and adds the penalty to force_density (N/m³).
-ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, Pairs& pairs,
+// Collective. Brings the pairs to the present places and adds their normal forces to force_density (N/m³).
+ForceResult add_normal_forces(const Kinematics& kinematics, const Law& law, Pairs& pairs,
                               std::vector<Vector>& force_density);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
@@ -36,11 +40,11 @@ ForceResult add_normal_forces(const Kinematics& kinematics, const Model& model, 
 void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
                   std::vector<Vector>& force_density, std::vector<Vector>& friction);
 
-// Collective, after add_normal_forces. Adds the stiffness of the touching pairs, times a field of the body's owned
-// points, to result (N/m times the field's unit). The turning of a pair's direction is left out.
-void add_stiffness(const Model& model, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);
+// Collective, after add_normal_forces. Adds the tangent stiffness of the touching pairs, times a field of the body's
+// owned points, to result (N/m times the field's unit). The turning of a pair's direction is left out.
+void add_stiffness(const Law& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);
 
 // Of each owned point alone, N/m.
-void add_springs(const Model& model, const Pairs& pairs, std::span<Tensor> springs);
+void add_springs(const Law& law, const Pairs& pairs, std::span<Tensor> springs);
 
 }  // namespace strut::contact

@@ -1,18 +1,18 @@
-// Inside the search of contact: groups of points that are asked as wholes, as many at a time as a register holds,
-// whether any of their points may touch (clusters.hpp).
+// Bounding volumes of cells and clusters of points: what rules out that any of their points touch, asked of as many at
+// a time as a register holds (clusters.hpp).
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
 #include "base/math/small_tensors.hpp"
-#include "contact/search/candidates.hpp"
+#include "contact/laws/contact_law.hpp"
 
 namespace strut::contact {
 
 using small::Lanes;
 
-// What is asked of wholes and in registers must not rule out a pair by round-off.
+// What is asked of bounding volumes and in registers must not rule out a pair by round-off.
 inline constexpr double round_off = 1e-9;
 
 // Numbers that are read some at a time, from any place.
@@ -39,10 +39,11 @@ struct Columns3 {
   Vector operator[](std::size_t i) const { return {c[0][i], c[1][i], c[2][i]}; }
 };
 
-// Points as a whole: y = place + rotation (X − reference) but for `spread`.
+// Of points that move as one: y = place + rotation (X − reference) but for `spread`.
 struct BoundingVolume {
-  Vector place, reference;            // of its centre, m
-  double radius, size, spread, skin;  // the largest |y − place|, |X − reference|, and skin of a point, m
+  Vector place, reference;  // of its center, m
+  // The largest |y − place|, |X − reference|, distance to where this motion puts a point, and skin distance; m.
+  double radius, size, spread, skin;
   Tensor rotation;
 };
 
@@ -54,7 +55,7 @@ struct Reach {
 
 inline Lanes squared_length(const Lanes* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-// Wholes side by side.
+// Bounding volumes side by side.
 class BoundingVolumes {
  public:
   void add(const BoundingVolume& volume);
@@ -64,7 +65,7 @@ class BoundingVolumes {
   double skin(int n) const { return skin_[n]; }
   double largest_skin() const { return largest_skin_; }
 
-  // What rules some out beside `one`, from n on, is not negative.
+  // Of those from n on: not negative where no point of them can touch one of `one`.
   Lanes ruled_out(int n, const BoundingVolume& one, const Reach& reach) const;
 
  private:

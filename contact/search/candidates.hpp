@@ -1,17 +1,18 @@
-// Inside contact: the points that a search on this rank knows.
+// Candidates: the points that a search on this rank knows, and which two of them may touch.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "contact/search/search.hpp"
+#include "contact/laws/contact_law.hpp"
+#include "contact/search/pairs.hpp"
 
 namespace strut::contact {
 
 // A point as it travels to other ranks.
 struct Candidate {
   double reference[4], current[4];  // of Site
-  double mass, skin;                // kg; m, of this point alone
+  double mass, skin;                // kg; its skin distance, m
   std::int64_t id, block, owned;    // owned: its local index on the rank that owns it
 };
 
@@ -26,7 +27,7 @@ struct CandidatePool {
   bool owns(int m) const { return m < static_cast<int>(owned); }
 };
 
-// Whether two members may touch before both have used up their skins.
+// Whether two candidates may touch before both have used up their skin distances.
 struct Criterion {
   double radius;  // r_c, m
   const BlockPair& blocks;
@@ -34,7 +35,7 @@ struct Criterion {
   bool operator()(const Candidate& a, const Candidate& b) const {
     const Vector xi = reference(b) - reference(a);
     const double reach =
-        touching_distance(radius, xi.norm(), blocks.one_body) + (a.skin + b.skin);  // the same from both
+        largest_touching_distance(radius, xi.norm(), blocks.one_body) + (a.skin + b.skin);  // the same from both
     const double distance2 = (place(b) - place(a)).squaredNorm();
     return distance2 <= reach * reach && !(blocks.one_body && bonded(a.current[3], b.current[3], xi));
   }

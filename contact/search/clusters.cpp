@@ -18,7 +18,7 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 constexpr int width = small::lane_count;
 
-// A whole whose points are this near to where they were, in units of its size, is not asked how it has turned.
+// Points that are this near to where they were, in units of their extent: how they have turned is not asked.
 constexpr double hardly_turned = 2e-3;
 
 // The rotation R that comes nearest to y − place = R (X − reference): of the moment Σ (y − place) ⊗ (X − reference).
@@ -47,7 +47,7 @@ void visit_below_zero(const Lanes& values, int begin, int end, const Visit& visi
   }
 }
 
-// The clusters of one block's members, in clumps.
+// The clusters of one block's candidates, in cells.
 class Clusters {
  public:
   Clusters(const CandidatePool& candidates, int block);
@@ -63,8 +63,8 @@ class Clusters {
     return {members_.data() + start_[begin], members_.data() + start_[end]};
   }
 
-  // Calls visit for the clumps that are not ruled out as wholes beside `one`; for the clusters of one of them; for the
-  // members of a cluster that are not ruled out beside a point.
+  // Calls visit for the cells whose bounding volumes are not ruled out beside `one`; for the clusters of one of them;
+  // for the candidates in a cluster that are not ruled out beside a point.
   template <class Visit>
   void visit_cells_near(const BoundingVolume& one, const Reach& reach, const Visit& visit) const;
   template <class Visit>
@@ -88,13 +88,13 @@ class Clusters {
   void add_cell(const CandidatePool& candidates, int cell);
   BoundingVolume volume(const CandidatePool& candidates, std::size_t begin, std::size_t end) const;
 
-  std::vector<int> in_block_;  // members of the pool
+  std::vector<int> in_block_;  // candidates
   CellGrid grid_;              // of these
   BoundingVolumes cells_, clusters_;
   std::vector<int> first_cell_{0};     // of each cell of the grid, or after it
-  std::vector<int> first_cluster_{0};  // of each clump
-  std::vector<std::size_t> start_{0};  // of each cluster's members
-  std::vector<int> members_;           // of the pool, by clusters
+  std::vector<int> first_cluster_{0};  // of each cell that is not empty
+  std::vector<std::size_t> start_{0};  // of each cluster's members_
+  std::vector<int> members_;           // candidates, by clusters
   Columns3 place_, reference_;         // theirs
 };
 
@@ -105,17 +105,17 @@ Clusters::Clusters(const CandidatePool& candidates, int block)
     first_cell_.push_back(cells_.count());
   }
   for (Columns3* columns : {&place_, &reference_}) columns->close();
-  for (BoundingVolumes* wholes : {&cells_, &clusters_}) wholes->close();
+  for (BoundingVolumes* volumes : {&cells_, &clusters_}) volumes->close();
 }
 
-// The points of a cell. Its clusters are the octants about their centre.
+// The candidates of a cell. Its clusters are the octants about their center.
 void Clusters::add_cell(const CandidatePool& candidates, int cell) {
   const std::span<const int> of_cell = grid_.members(cell);
-  Vector centre = Vector::Zero();
-  for (const int n : of_cell) centre += place(candidates.members[in_block_[n]]) / static_cast<double>(of_cell.size());
+  Vector center = Vector::Zero();
+  for (const int n : of_cell) center += place(candidates.members[in_block_[n]]) / static_cast<double>(of_cell.size());
   std::array<std::vector<int>, 8> octants;
   for (const int n : of_cell) {
-    const Vector apart = place(candidates.members[in_block_[n]]) - centre;
+    const Vector apart = place(candidates.members[in_block_[n]]) - center;
     octants[(apart[0] > 0) + 2 * (apart[1] > 0) + 4 * (apart[2] > 0)].push_back(in_block_[n]);
   }
   const std::size_t begin = members_.size();
@@ -178,8 +178,8 @@ void Clusters::visit_cells_near(const BoundingVolume& one, const Reach& reach, c
 
 template <class Visit>
 void Clusters::visit_members_near(const Candidate& point, int c, const Reach& reach, const Visit& visit) const {
-  // The square of where a pair would touch, both skins added: of r_c, and of a share of |ξ| in the form a |ξ|² + b, for
-  // |ξ| ≤ (|ξ|²/δ + δ)/2.
+  // The square of where a pair would touch, both skin distances added: of r_c, and of a share of |ξ| in the form a |ξ|²
+  // + b, for |ξ| ≤ (|ξ|²/δ + δ)/2.
   const auto [radius, horizon] = reach;
   const double skins = point.skin + clusters_.skin(c) + reach.slack(), most = (radius + skins) * (radius + skins);
   const double a = reference_share * (reference_share + (horizon > 0 ? skins / horizon : 0));
@@ -198,7 +198,7 @@ void Clusters::visit_members_near(const Candidate& point, int c, const Reach& re
   }
 }
 
-// The pairs of owned members of a cluster with members of others.
+// The pairs of owned candidates of a cluster with those of other clusters.
 void add_pairs(const CandidatePool& candidates, const Criterion& may_touch, const Reach& reach,
                std::span<const int> members, const Clusters& others, const std::vector<int>& near, IndexPairs& pairs) {
   for (const int m : members) {

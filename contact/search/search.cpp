@@ -45,7 +45,7 @@ Box box_of(const Kinematics& kinematics, const BlockPair& blocks, int block) {
   return common_box(mine, kinematics.domain.communicator);
 }
 
-// The points, as indices of parties.points, that may have a partner: those near the box of the other party. Others,
+// The points, as indices of blocks.points, that may have a partner: those near the box of the other block. Others,
 // which are at a distance D from it, may go half of D − r_c, and no pair of them has come nearer than that.
 std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& blocks, double radius,
                              SkinDistances& skins) {
@@ -65,7 +65,7 @@ std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& bloc
   return near;
 }
 
-// The points parties.points[k], k in `near`, and those near them on other ranks.
+// The points blocks.points[k], k in `near`, and those near them on other ranks.
 CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& blocks, const std::vector<int>& near,
                             const SkinDistances& skins, double radius) {
   CandidatePool candidates;
@@ -83,7 +83,7 @@ CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& block
   return candidates;
 }
 
-// Of each of some members, places in the pool.
+// Of each of some candidates, a list of candidates.
 struct Lists {
   std::vector<std::size_t> start;
   std::vector<int> members;
@@ -91,7 +91,8 @@ struct Lists {
   auto of(std::size_t k) const { return std::span(members).subspan(start[k], start[k + 1] - start[k]); }
 };
 
-// Lists of `count` members that are filled in the order of for_each(visit), which calls visit(k, member of its list).
+// Lists of `count` candidates that are filled in the order of for_each(visit), which calls visit(k, member of its
+// list).
 template <class ForEach>
 Lists lists_from(std::size_t count, const ForEach& for_each) {
   Lists lists{std::vector<std::size_t>(count + 1, 0), {}};
@@ -103,7 +104,7 @@ Lists lists_from(std::size_t count, const ForEach& for_each) {
   return lists;
 }
 
-// Partners of the pool's owned members, ordered by id: all partners are gone through in this order.
+// Partners of the owned candidates, ordered by id: all partners are gone through in this order.
 Lists lists_of(const CandidatePool& candidates, const IndexPairs& pairs) {
   const Lists owned = lists_from(candidates.members.size(), [&](const auto& visit) {
     for (const auto& [k, partner] : pairs) visit(partner, k);
@@ -120,7 +121,7 @@ Lists lists_of(const CandidatePool& candidates, const IndexPairs& pairs) {
   });
 }
 
-// The members of the pool that are in a pair: owned ones, then the others by id.
+// The candidates that are in a pair: owned ones, then the others by id.
 std::vector<int> paired_members(const CandidatePool& candidates, const Lists& lists) {
   std::vector<int> members, others;
   for (std::size_t k = 0; k < candidates.owned; ++k) {
@@ -161,10 +162,10 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
 
 }  // namespace
 
-Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, const Model& model, SkinDistances& skins) {
-  const std::vector<int> near = near_points(kinematics, blocks, model.radius, skins);
-  const CandidatePool candidates = candidates_of(kinematics, blocks, near, skins, model.radius);
-  const Lists lists = lists_of(candidates, pairs_in(candidates, {model.radius, blocks}));
+Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, double radius, SkinDistances& skins) {
+  const std::vector<int> near = near_points(kinematics, blocks, radius, skins);
+  const CandidatePool candidates = candidates_of(kinematics, blocks, near, skins, radius);
+  const Lists lists = lists_of(candidates, pairs_in(candidates, {radius, blocks}));
   return pairs_of(candidates, lists, blocks.one_body, kinematics.domain.communicator);
 }
 

@@ -9,11 +9,11 @@ namespace strut::contact {
 
 namespace {
 
-// The fastest points, so many of all at the most, are faster than usual. Skins are so many times the usual one: wider
-// ones have more partners, and slow points may become faster.
+// The fastest points, so many of all at the most, are faster than usual. Skin distances are so many times the
+// usual one: wider ones have more partners, and slow points may become faster.
 constexpr double share_of_fast = 0.005, narrowest = 0.4, widest = 4;
 
-// Searches this many steps apart cost little; no skin is made wider than that takes.
+// Searches this many steps apart cost little; no skin distance is made wider than that takes.
 constexpr double steps_between = 32;
 
 // A frame is of those who have partners where these are so many of all, not a spur that flies off; otherwise one in
@@ -21,7 +21,7 @@ constexpr double steps_between = 32;
 constexpr double fewest = 0.01;
 constexpr std::size_t sampling = 16;
 
-// Collective. Of vectors that `of` gives for indices of parties.points.
+// Collective. Of vectors that `of` gives for indices of blocks.points.
 template <class Of>
 Vector mean(const Communicator& communicator, const Frame& frame, const Of& of) {
   double sums[4] = {};

@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "deck/check.hpp"
+#include "deck/contact_laws.hpp"
 #include "deck/laws.hpp"
 #include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
@@ -291,10 +292,8 @@ std::vector<Block> blocks(const Values& values, const std::vector<Material>& mat
 std::vector<ContactModel> contact_models(const Values& values) {
   std::vector<ContactModel> all;
   for (const Values& section : values.sections()) {
-    all.push_back({.name = section.name(),
-                   .radius = section.real("Contact Radius"),
-                   .penalty = section.real("Spring Constant"),
-                   .friction = section.real("Friction Coefficient")});
+    all.push_back(
+        {.name = section.name(), .law = make_contact_law(section), .friction = section.real("Friction Coefficient")});
   }
   return all;
 }

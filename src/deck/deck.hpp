@@ -10,6 +10,7 @@
 
 #include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
+#include "contact/laws/laws.hpp"
 #include "materials/laws.hpp"
 
 namespace strut {
@@ -83,8 +84,7 @@ struct Interaction {
 
 struct ContactModel {
   std::string name;
-  double radius = 0;    // m
-  double penalty = 0;   // Pa
+  contact::Law law;
   double friction = 0;  // Coulomb's coefficient
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "deck/contact_laws.hpp"
 #include "deck/laws.hpp"
 #include "deck/numbers.hpp"
 
@@ -181,24 +182,24 @@ Section blocks() {
 
 Section contact() {
   const std::string found = "the program finds out when to search";
+  Key law = {.name = "Contact Model",
+             .kind = Kind::choice,
+             .required = true,
+             .meaning = "The law; it decides on further keys.",
+             .hints = {{"Time-Dependent Short Range Force", "there are no coefficients that depend on time"}}};
+  std::vector<Section> cases;
+  for (const ContactLawEntry& entry : contact_laws()) cases.push_back(entry.schema);
   Section model = {
       .name = any_name,
       .required = true,
       .meaning = "One model of contact.",
       .keys = {
-          {.name = "Contact Model",
-           .kind = Kind::choice,
-           .choices = {"Short Range Force"},
-           .required = true,
-           .meaning = "The law: f = K_c (r_c − d) V₁ V₂ with K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon.",
-           .hints = {{"Time-Dependent Short Range Force", "there are no coefficients that depend on time"}}},
           {.name = "Contact Radius",
            .unit = "m",
            .range = positive,
            .required = true,
            .meaning = "r_c: points that are nearer repel each other. For points that start closer than r_c/0.9, 0.9 of "
                       "their first distance. One spacing is a good choice."},
-          {.name = "Spring Constant", .unit = "Pa", .range = positive, .required = true, .meaning = "K_p."},
           {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."}}};
   Section interaction = {
       .name = any_name,
@@ -218,7 +219,10 @@ Section contact() {
       .keys = {verbose, without_effect({.name = "Search Radius", .unit = "m", .range = positive}, found),
                without_effect({.name = "Search Frequency", .kind = Kind::integer, .unit = "steps", .range = {.low = 1}},
                               found)},
-      .sections = {{.name = "Models", .required = true, .meaning = "Models by name.", .sections = {model}},
+      .sections = {{.name = "Models",
+                    .required = true,
+                    .meaning = "Models by name.",
+                    .sections = {with_cases(std::move(model), std::move(law), std::move(cases))}},
                    {.name = "Interactions", .required = true, .meaning = "By any name.", .sections = {interaction}}}};
 }
 

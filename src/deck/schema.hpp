@@ -1,5 +1,5 @@
-// The keys of a deck as data. Each key is declared once (schema.cpp, laws.cpp, flow_stress.cpp); reading, checking,
-// defaults and the reference page (inputs/KEYS.md) all follow from the declaration.
+// The keys of a deck as data. Each key is declared once (schema.cpp, laws.cpp, contact_laws.cpp, flow_stress.cpp);
+// reading, checking, defaults and the reference page (inputs/KEYS.md) all follow from the declaration.
 #pragma once
 
 #include <limits>

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "contact/contact.hpp"
-#include "contact/search/skin_distances.hpp"
+#include "contact/search/search.hpp"
 #include "points/partition.hpp"
 
 namespace strut::contact {
@@ -15,7 +15,8 @@ namespace {
 constexpr int count = 900;
 using Id = std::int64_t;
 constexpr double horizon = 0.08, skin = 0x1p-7;  // a number that a float holds
-const Model model{.radius = 0.1, .penalty = 1e3, .friction = 0.3};
+const PenaltyLaw law{.radius = 0.1, .penalty = 1e3};
+const Model model{law, 0.3};
 
 // Points of three blocks in a unit cube, in two bodies, moved at random so that many come near. All points on all
 // ranks.
@@ -91,7 +92,7 @@ struct Part {
   Pairs pairs(int a, int b, double both_skins = skin) const {
     const BlockPair found = blocks(a, b);
     SkinDistances skins{std::vector<float>(found.points.size(), static_cast<float>(both_skins / 2)), both_skins / 2};
-    return find_pairs(kinematics(), found, model, skins);
+    return find_pairs(kinematics(), found, law.radius, skins);
   }
 };
 
@@ -114,7 +115,7 @@ double distance(const Scatter& all, int i, int j) { return (all.places[i] - all.
 
 double touching(const Scatter& all, int i, int j) {
   const bool one_body = bonds[all.cloud.blocks[i]].body == bonds[all.cloud.blocks[j]].body;
-  return touching_distance(model.radius, (all.cloud.positions[i] - all.cloud.positions[j]).norm(), one_body);
+  return largest_touching_distance(law.radius, (all.cloud.positions[i] - all.cloud.positions[j]).norm(), one_body);
 }
 
 bool joined(const Scatter& all, int i, int j) {
@@ -173,7 +174,7 @@ std::int64_t compare_search(const Scatter& all) {
   return world.sum(static_cast<std::int64_t>(expected.size()));
 }
 
-// What clusters rule out as wholes is nothing: far and bonded ones in a block that is folded until its halves meet …
+// What bounding volumes rule out is nothing: far and bonded ones in a block that is folded until its halves meet …
 TEST(Contact, SearchFindsExactlyThePairsOfAFoldedBlock) {
   const Tensor turn = Eigen::AngleAxisd(0.7, Vector(1, 2, -1).normalized()).toRotationMatrix();
   const Tensor fold = Eigen::AngleAxisd(-2.6, Vector::UnitY()).toRotationMatrix();
@@ -184,7 +185,8 @@ TEST(Contact, SearchFindsExactlyThePairsOfAFoldedBlock) {
   EXPECT_LT(with_partners, 1000) << "many points have none";
 }
 
-// … and calm ones in a block that is turned, and pressed at one end by as much as a touch takes, or less, or more.
+// … and undeformed ones in a block that is turned, and pressed at one end by as much as a touch takes, or less, or
+// more.
 TEST(Contact, SearchFindsExactlyThePairsOfAPressedBlock) {
   const Tensor turn = Eigen::AngleAxisd(2, Vector(1, 2, -1).normalized()).toRotationMatrix();
   const auto pressed_by = [&](double strain) {
@@ -196,10 +198,11 @@ TEST(Contact, SearchFindsExactlyThePairsOfAPressedBlock) {
   EXPECT_EQ(pressed_by(0.05), 0);
   EXPECT_GT(pressed_by(0.11), 10);
   EXPECT_GT(pressed_by(0.15), pressed_by(0.11));
-  EXPECT_LT(pressed_by(0.15), 900) << "most points are calm";
+  EXPECT_LT(pressed_by(0.15), 900) << "most clusters are undeformed";
 }
 
-// Points fly on, some much faster than the others, until one has used up its skin: whatever touches is in the lists.
+// Points fly on, some much faster than the others, until one has used up its skin distance: whatever touches is in the
+// lists.
 TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
   const auto [a, b] = GetParam();
   Scatter now = all;
@@ -211,7 +214,7 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
   SkinDistances skins = skin_distances_by_speed(moved.kinematics(), blocks, mean, 2 * skin, 1);
   EXPECT_GT(skins.largest, 1.1 * 2 * skin) << "none is faster";
   EXPECT_LT(std::ranges::min(skins.of), 0.9 * 2 * skin) << "none is slower";
-  const auto found = partners_in(find_pairs(moved.kinematics(), blocks, model, skins));
+  const auto found = partners_in(find_pairs(moved.kinematics(), blocks, law.radius, skins));
   const double t = 0.99 / world.max(largest_use(moved.kinematics(), blocks, mean, skins));
   for (int i = 0; i < count; ++i) now.places[i] += t * now.velocities[i];
   const std::vector<Vector> before = moved.places(blocks);
@@ -229,7 +232,7 @@ TEST_P(ContactOfBlocks, NoPairIsMissedBeforeASkinIsUsedUp) {
   EXPECT_GT(world.sum(gained), 4) << "nothing new has come to touch";
 }
 
-// What has partners uses up no skin by moving together, whatever the others do.
+// What has partners uses up no skin distance by moving together, whatever the others do.
 TEST_P(ContactOfBlocks, TheFrameIsThatOfPointsWithPartners) {
   const auto [a, b] = GetParam();
   const BlockPair blocks = part.blocks(a, b);
@@ -247,7 +250,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   const auto [a, b] = GetParam();
   Pairs pairs = part.pairs(a, b);
   std::vector<Vector> density(part.domain.owned, Vector::Zero()), friction;
-  const ForceResult result = add_normal_forces(part.kinematics(), model, pairs, density);
+  const ForceResult result = add_normal_forces(part.kinematics(), law, pairs, density);
   double energy = 0, scale = 0;
   std::vector<double> sums(7, 0);
   for (int i = 0; i < part.domain.owned; ++i) {
@@ -257,7 +260,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
       const double d = distance(all, id, j), r = touching(all, id, j);
       if (j == id || d >= r || !belong(all, id, j, a, b) || joined(all, id, j)) continue;
       const double delta = 0.5 * (bonds[all.cloud.blocks[id]].horizon + bonds[all.cloud.blocks[j]].horizon);
-      const double k = 18 * model.penalty / (M_PI * std::pow(delta, 5)) * all.cloud.volumes[id] * all.cloud.volumes[j];
+      const double k = 18 * law.penalty / (M_PI * std::pow(delta, 5)) * all.cloud.volumes[id] * all.cloud.volumes[j];
       expected += k * (r - d) * (all.places[id] - all.places[j]) / d;
       energy += 0.25 * k * (r - d) * (r - d);
     }
@@ -289,14 +292,14 @@ TEST(Contact, BoundOfTheStiffnessHolds) {
   const Part part = part_of(all, world);
   Pairs pairs = part.pairs(0, 0);
   std::vector<Vector> density(part.domain.owned, Vector::Zero());
-  const double bound = world.max(add_normal_forces(part.kinematics(), model, pairs, density).stiffness);
+  const double bound = world.max(add_normal_forces(part.kinematics(), law, pairs, density).stiffness);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);  // block 0 has every third point
   for (int i = 0; i < count; i += 3) {
     for (int j = 0; j < count; j += 3) {
       if (i == j || !belong(all, i, j, 0, 0) || joined(all, i, j)) continue;
       if (distance(all, i, j) >= touching(all, i, j)) continue;
       const Vector n = (all.places[j] - all.places[i]).normalized();
-      const double k = penalty_stiffness(model.penalty, horizon) * all.cloud.volumes[i] * all.cloud.volumes[j];
+      const double k = penalty_stiffness(law.penalty, horizon) * all.cloud.volumes[i] * all.cloud.volumes[j];
       const Tensor spring = k * n * n.transpose();
       const double mi = 1000 * all.cloud.volumes[i], mj = 1000 * all.cloud.volumes[j];
       K.block<3, 3>(i, i) += spring / mi;

@@ -1,1 +1,1 @@
-strut_test(test_pair_law SOURCES test_pair_law.cpp SEES contact RANKS 1)
+strut_test(test_contact_laws SOURCES test_contact_laws.cpp SEES contact RANKS 1)

@@ -77,13 +77,25 @@ TEST(Deck, ReadsContact) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);
   ASSERT_EQ(deck.contact_models.size(), 1u);
-  EXPECT_EQ(deck.contact_models[0].radius, 2e-3);
-  EXPECT_EQ(deck.contact_models[0].penalty, 1e12);
+  const auto& law = std::get<contact::PenaltyLaw>(deck.contact_models[0].law);
+  EXPECT_EQ(law.radius, 2e-3);
+  EXPECT_EQ(law.penalty, 1e12);
   EXPECT_EQ(deck.contact_models[0].friction, 0.3);
   ASSERT_EQ(deck.interactions.size(), 2u);
   EXPECT_EQ(deck.interactions[0].first_block, "block_2");
   EXPECT_EQ(deck.interactions[0].second_block, "block_1");
   EXPECT_EQ(deck.interactions[1].first_block, "");
+}
+
+TEST(Deck, ReadsHertz) {
+  const DeckFolder folder;
+  const std::string law = changed(full_deck, R"(value="Short Range Force")", R"(value="Hertz")");
+  const Deck deck = folder.read(changed(law, R"("Spring Constant" type="double" value="1.0e12")",
+                                        R"("Effective Modulus" type="double" value="60e9")"));
+  const auto& hertz = std::get<contact::HertzLaw>(deck.contact_models[0].law);
+  EXPECT_EQ(hertz.radius, 2e-3);
+  EXPECT_EQ(hertz.effective_modulus, 60e9);
+  EXPECT_EQ(deck.contact_models[0].friction, 0.3);
 }
 
 TEST(Deck, ReadsOrdinaryMaterials) {

@@ -167,6 +167,20 @@ const std::vector<Case> names = {
     {"NoContactRadius", R"(<Parameter name="Contact Radius" type="double" value="2e-3"/>)",
      R"(<Parameter name="Contact Radius" type="double" value="0"/>)",
      "Contact > Models > touch > Contact Radius: '0'; expected a real number > 0, in m"},
+    {"UnknownContactLaw", R"(value="Short Range Force")", R"(value="Herz")",
+     "Contact > Models > touch > Contact Model: 'Herz' (did you mean 'Hertz'?); expected one of Short Range Force, "
+     "Hertz"},
+    {"NoEffectiveModulus", R"(<Parameter name="Contact Model" type="string" value="Short Range Force"/>
+        <Parameter name="Contact Radius" type="double" value="2e-3"/>
+        <Parameter name="Spring Constant" type="double" value="1.0e12"/>)",
+     R"(<Parameter name="Contact Model" type="string" value="Hertz"/>
+        <Parameter name="Contact Radius" type="double" value="2e-3"/>)",
+     "Contact > Models > touch > Effective Modulus: missing; expected a real number > 0, in Pa"},
+    {"ModulusOfAnotherContactLaw", R"(<Parameter name="Contact Radius" type="double" value="2e-3"/>)",
+     R"(<Parameter name="Contact Radius" type="double" value="2e-3"/>
+        <Parameter name="Effective Modulus" type="double" value="60e9"/>)",
+     "Contact > Models > touch > Effective Modulus: unknown key for Contact Model 'Short Range Force'; it belongs to "
+     "'Hertz'"},
     {"ReservedDamage", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Damage Models"/><ParameterList name="Solver">)",
      "Damage Models: reserved: not in this version (bonds do not break)"},

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact/laws/penalty.hpp"
+#include "contact/laws/laws.hpp"
 #include "loading.hpp"
 
 namespace strut {
@@ -253,18 +253,19 @@ struct Pair : Loaded {
     Domain domain = make_domain(partitioned(std::move(cloud), world), {lower, upper}, world);
     return make_body(std::move(domain), spec.influence, {spec.material, spec.material});
   }
-  Pair(const LatticeSpec& lattice, double travel) : Loaded(lattice, two_blocks) {
+  Pair(const LatticeSpec& lattice, double travel, const contact::Law& law) : Loaded(lattice, two_blocks) {
     guide();
     low = move(layer(body, spec, 2, false), 2, "0");
     high = move(layer(body, spec, 2, true), 2, ramp(-travel));
-    contact = contact::Contact({{0, 1, {.radius = spacing, .penalty = penalty}}}, body.domain);
+    contact = contact::Contact({{0, 1, {law}}}, body.domain);
   }
   int low, high;
 };
 
 // Elastic energy of a law in rates is off by the first order in strains of half a percent.
 TEST(QuasiStaticContact, CarriesOneBlockOnAnother) {
-  Pair pair(lattice_of({4, 4, 10}, elastic(young, poisson)), 0.05 * spacing);
+  Pair pair(lattice_of({4, 4, 10}, elastic(young, poisson)), 0.05 * spacing,
+            contact::PenaltyLaw{.radius = spacing, .penalty = penalty});
   const QuasiStaticControl control{.load_steps = 4};
   QuasiStatic solver = pair.solver(control);
   const Ledger end = load(solver);
@@ -282,6 +283,33 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnother) {
   const double least = 0.5 * force * force / spring;
   EXPECT_GT(-end.contact, least);
   EXPECT_LT(-end.contact, 1.2 * least);
+  EXPECT_LT(end.balance_error, 5e-3);
+}
+
+// The same with springs that stiffen. Of 16 equal spheres in a row with the blocks: F = 16 · 4/3 E* √R* o^(3/2), so
+// that the blocks are shortened by what is left of the way, 2 F/k. What they store, 2/5 F o for a force that is the
+// same, is less than what the edges' greater shares come to; and the tangent leads Newton to the equilibrium without
+// help.
+TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
+  const double modulus = young;
+  Pair pair(lattice_of({4, 4, 10}, elastic(young, poisson)), 0.05 * spacing,
+            contact::HertzLaw{.radius = spacing, .effective_modulus = modulus});
+  QuasiStatic solver = pair.solver({.load_steps = 4});
+  const Ledger end = load(solver);
+  EXPECT_EQ(solver.steps(), 4);
+  const double force = solver.reactions(pair.count).forces[pair.low][2];
+  const double block = young * 16 * spacing * spacing / (4 * spacing);
+  const double coefficient = 16 * 4.0 / 3 * modulus * std::sqrt(spacing / 4);
+  double overlap = 0, too_much = 0.05 * spacing;  // where the force of the row is that of the blocks, by halving
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (overlap + too_much);
+    const bool is_less = coefficient * std::pow(middle, 1.5) < 0.5 * block * (0.05 * spacing - middle);
+    (is_less ? overlap : too_much) = middle;
+  }
+  const double expected = coefficient * std::pow(overlap, 1.5);
+  EXPECT_NEAR(force, expected, 0.2 * expected);
+  const double stored = 0.4 * force * std::pow(force / coefficient, 2.0 / 3);
+  EXPECT_NEAR(-end.contact, stored, 0.2 * stored);
   EXPECT_LT(end.balance_error, 5e-3);
 }
 
