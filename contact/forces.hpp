@@ -25,9 +25,9 @@ struct ForceResult {
   double energy = 0;  // stored by the pairs that touch, J: half of each
   // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n. For a
   // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)². With k that of twice the present
-  // overlap, so that it holds in the next step too: two points approach by v Δt a step, and have done so since they
-  // touch. Only in the first step after the one within which a touch began may it be more, by less than the bound that
-  // follows then; a touch that nobody has foreseen is no better with any law.
+  // overlap, so that it holds in the next step too: two points that approach by v Δt a step have done so since they
+  // touch. Only the step after the one within which a touch began may turn out too long for a law that stiffens; a
+  // touch that begins within a step is not foreseen for any law.
   double stiffness = 0;
 };
 

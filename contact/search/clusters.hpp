@@ -23,8 +23,8 @@
 
 namespace strut::contact {
 
-using IndexPairs =
-    std::vector<std::pair<int, int>>;  // an owned candidate and its partner: indices into candidates.members
+// An owned candidate and its partner: indices into CandidatePool::members.
+using IndexPairs = std::vector<std::pair<int, int>>;
 
 // All pairs that may touch, each from every end that is owned.
 IndexPairs pairs_in(const CandidatePool& candidates, const Criterion& may_touch);

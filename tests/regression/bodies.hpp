@@ -167,17 +167,25 @@ inline std::string cubes(int block, const Vector& corner, int nx, int ny, int nz
   return text.str();
 }
 
-// One model for the given interactions: pairs of blocks "block_1 block_2".
-inline std::string contact_of(const std::vector<std::pair<std::string, std::string>>& interactions,
-                              const std::string& radius, const std::string& penalty,
-                              const std::string& friction = "0") {
+// One model for the given interactions: pairs of blocks "block_1 block_2". `law`: its key Contact Model and those that
+// belong to it.
+inline std::string contact_by(const std::string& law,
+                              const std::vector<std::pair<std::string, std::string>>& interactions,
+                              const std::string& radius, const std::string& friction = "0") {
   std::string all;
   for (const auto& [first, second] : interactions) {
     all += section(first + second, key("First Block", first) + key("Second Block", second) + key("Contact Model", "m"));
   }
-  const std::string model = key("Contact Model", "Short Range Force") + key("Contact Radius", radius) +
-                            key("Spring Constant", penalty) + key("Friction Coefficient", friction);
+  const std::string model = law + key("Contact Radius", radius) + key("Friction Coefficient", friction);
   return section("Models", section("m", model)) + section("Interactions", all);
+}
+
+// By the short-range penalty.
+inline std::string contact_of(const std::vector<std::pair<std::string, std::string>>& interactions,
+                              const std::string& radius, const std::string& penalty,
+                              const std::string& friction = "0") {
+  return contact_by(key("Contact Model", "Short Range Force") + key("Spring Constant", penalty), interactions, radius,
+                    friction);
 }
 
 // A history as columns by name; throws where a line has not as many numbers as the header has names.

@@ -173,7 +173,10 @@ TEST(HertzImpact, BoundOfTheStiffnessHoldsThroughTheNextStep) {
     const bool touches = impact.overlap() > 0;
     impact.step(dt);
     const double omega2 = 2 * impact.stiffness() / (density * h * h * h);
-    if (was_touching && touches) EXPECT_LE(omega2, bound) << "overlap " << impact.overlap(), ++compared;
+    if (was_touching && touches) {
+      EXPECT_LE(omega2, bound) << "overlap " << impact.overlap();
+      ++compared;
+    }
     was_touching = touches;
   }
   EXPECT_GT(compared, 5);
