@@ -146,8 +146,9 @@ Course course_in(int steps_while_in_touch) {
   return course;
 }
 
-// Central differences are off by the second order: ω Δt is at most 4.03/400 here, its square over 24 is 4e-6. (T ω
-// = 4.03 at the largest overlap, from the closed form.) The force sets in with a jump of its second derivative only.
+// Central differences are off by the second order: ω Δt is at most 4.03/400 here (ω T = 4.03 at the largest overlap,
+// from the closed form), its square over 24 is 4e-6. Measured: 3e-6 of duration and overlap, 1e-7 of the velocity, 5e-6
+// of the energy.
 TEST(HertzImpact, DurationAndLargestOverlapAreThoseOfTheClosedForm) {
   const Course course = course_in(400);
   EXPECT_NEAR(course.duration / duration(), 1, 2e-5);
