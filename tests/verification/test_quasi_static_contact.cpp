@@ -294,9 +294,10 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
   const double modulus = young;
   Pair pair(lattice_of({4, 4, 10}, elastic(young, poisson)), 0.05 * spacing,
             contact::HertzLaw{.radius = spacing, .effective_modulus = modulus});
-  QuasiStatic solver = pair.solver({.load_steps = 4});
+  const int steps = 12;
+  QuasiStatic solver = pair.solver({.load_steps = steps});
   const Ledger end = load(solver);
-  EXPECT_EQ(solver.steps(), 4);
+  EXPECT_EQ(solver.steps(), steps);
   const double force = solver.reactions(pair.count).forces[pair.low][2];
   const double block = young * 16 * spacing * spacing / (4 * spacing);
   const double coefficient = 16 * 4.0 / 3 * modulus * std::sqrt(spacing / 4);
@@ -310,6 +311,7 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
   EXPECT_NEAR(force, expected, 0.2 * expected);
   const double stored = 0.4 * force * std::pow(force / coefficient, 2.0 / 3);
   EXPECT_NEAR(-end.contact, stored, 0.2 * stored);
+  // What is put in is summed by trapezoids: of a force that goes with x^(3/2) too much by 0.3/n² of it, 2 % in 4 steps.
   EXPECT_LT(end.balance_error, 5e-3);
 }
 
