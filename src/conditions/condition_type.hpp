@@ -43,7 +43,7 @@ struct MovingPoints {
   }
 };
 
-// Point y keeps y · direction = target during a load step.
+// A load step leads the place y of the point to y · direction = target.
 struct HeldDirection {
   int reaction_place, point;
   Vector direction;  // of unit length
@@ -68,7 +68,7 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
 };
 
-// Where acts_at_start. Adds nothing else than what this condition is sure to impose.
+// Where acts_at_start: for who looks ahead.
 //   foretell  puts the velocities that it imposes on points at time t, in the mean over a moment (s), into `velocities`
 template <class T>
 concept ForetellsVelocities = requires(const T& condition, double t, double moment, const Body& body,
