@@ -11,20 +11,23 @@
 
 namespace strut {
 
-// N, over all ranks, by the condition's place in the deck; zero for conditions that are no prescribed motion, symmetry
-// plane or tool. Empty where nobody asked for reactions.
+// The reaction place of conditions that have no reaction.
+constexpr int no_reaction = -1;
+
+// Of all conditions at one time. N, over all ranks, by the condition's place in the deck; zero for conditions that are
+// no prescribed motion, symmetry plane or tool. Empty where nobody asked for reactions.
 struct Reactions {
   std::vector<Vector> forces;
 };
 
-// What the conditions give to the points of this rank, N s, by the condition's place in the deck. Made for no
-// conditions, it gathers nothing.
-class Impulses {
+// The impulses of conditions on the points of this rank, N s, by the condition's place in the deck: over the time that
+// they stand for, these are reactions. Made for no conditions, it gathers nothing.
+class ReactionImpulses {
  public:
-  explicit Impulses(int conditions = 0) : sums_(conditions, Vector::Zero()) {}
+  explicit ReactionImpulses(int conditions = 0) : sums_(conditions, Vector::Zero()) {}
 
-  void add(int condition, const Vector& impulse) {
-    if (static_cast<std::size_t>(condition) < sums_.size()) sums_[condition] += impulse;  // −1 is none, too
+  void add(int reaction_place, const Vector& impulse) {
+    if (static_cast<std::size_t>(reaction_place) < sums_.size()) sums_[reaction_place] += impulse;  // not no_reaction
   }
   const std::vector<Vector>& sums() const { return sums_; }
 

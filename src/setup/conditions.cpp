@@ -54,22 +54,18 @@ void add_condition(const deck::Condition& condition, int place, double t, Scene&
     case deck::ConditionType::prescribed_displacement:
     case deck::ConditionType::prescribed_velocity: {
       const bool is_velocity = condition.type == deck::ConditionType::prescribed_velocity;
-      all.motions.push_back({std::move(points), condition.component, condition.value, is_velocity, place});
-      return;
+      return all.add(PrescribedMotion{std::move(points), condition.component, condition.value, is_velocity, place});
     }
     case deck::ConditionType::body_force:
-      all.body_forces.push_back({std::move(points), condition.component, condition.value});
-      return;
+      return all.add(BodyForce{std::move(points), condition.component, condition.value});
     case deck::ConditionType::symmetry_plane:
-      all.symmetry_planes.push_back({std::move(points), normal, place});
-      return;
+      return all.add(SymmetryPlane{std::move(points), normal, place});
     case deck::ConditionType::rigid_plane:
     case deck::ConditionType::rigid_cylinder:
     case deck::ConditionType::rigid_box:
-      all.tools.push_back({std::move(points), shape_of(condition), condition.travel, condition.friction, place});
-      return;
+      return all.add(RigidTool{std::move(points), shape_of(condition), condition.travel, condition.friction, place});
     case deck::ConditionType::open_end:
-      all.open_ends.push_back(open_end(points, normal, scene.body));
+      return all.add(non_reflecting_end(points, normal, scene.body));
   }
 }
 

@@ -18,25 +18,13 @@ struct Trajectory {
   Eigen::AlignedBox3d places, velocities;
 };
 
-// Velocities at the start, prescribed ones included.
-std::vector<Vector> start_velocities(const Scene& scene, double start, double duration) {
-  std::vector<Vector> velocities = scene.body.velocity;
-  const double moment = 1e-3 * duration;  // over which a prescribed displacement is looked at
-  for (const PrescribedMotion& motion : scene.conditions.motions) {
-    for (const int i : motion.points) {
-      const Vector X = scene.body.domain.reference(i);
-      const auto value = [&](double t) { return motion.value(X[0], X[1], X[2], t); };
-      velocities[i][motion.component] =
-          motion.is_velocity ? value(start) : (value(start + moment) - value(start)) / moment;
-    }
-  }
-  return velocities;
-}
+constexpr double short_part = 1e-3;  // of the duration: over which prescribed displacements are looked at
 
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration) {
   const Domain& domain = scene.body.domain;
   std::vector<Trajectory> all(domain.cloud.block_names.size());
-  const std::vector<Vector> velocities = start_velocities(scene, start, duration);
+  const std::vector<Vector> velocities =
+      foretold_velocities(scene.conditions, start, short_part * duration, scene.body);
   for (int i = 0; i < domain.owned; ++i) {
     all[domain.cloud.blocks[i]].places.extend(scene.body.current(i));
     all[domain.cloud.blocks[i]].velocities.extend(velocities[i]);

@@ -15,7 +15,7 @@ std::string rigid_plane(const std::string& name, const std::string& point, const
 }
 
 // The smallest gap between a tool and a point of any rank.
-double smallest_gap(const Simulation& run, const Tool& tool) {
+double smallest_gap(const Simulation& run, const RigidTool& tool) {
   double smallest = 1;
   const Vector offset = tool.offset(run.solver.time());
   for (const int i : tool.points) {
@@ -82,7 +82,7 @@ Indented indent(const std::string& type, const std::string& shape, const std::st
   Indented result{1, 0, 0, {}};
   const double top = 5.5e-3;
   result.end = run.go([&](const Ledger& now) {
-    for (const Tool& tool : run.scene.conditions.tools) {
+    for (const RigidTool& tool : tools_of(run.scene.conditions)) {
       result.smallest_gap = std::min(result.smallest_gap, smallest_gap(run, tool));
     }
     if (now.time > 4e-6) result.worst_balance = std::max(result.worst_balance, now.balance_error);

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "conditions/tool.hpp"
+#include "conditions/rigid_tool.hpp"
 
 namespace strut {
 namespace {
@@ -128,9 +128,9 @@ TEST(Tool, TangentPlanesAreNeverTooGenerous) {
 }
 
 TEST(Tool, TravelsAsItsFunctionsOfTimeSay) {
-  Tool tool{{}, box, {Function::parse("2*t"), std::nullopt, Function::parse("-0.25")}};
+  RigidTool tool{{}, box, {Function::parse("2*t"), std::nullopt, Function::parse("-0.25")}};
   EXPECT_EQ(tool.offset(3), Vector(6, 0, -0.25));
-  EXPECT_EQ((Tool{{}, box, {}}).offset(3), Vector::Zero());
+  EXPECT_EQ((RigidTool{{}, box, {}}).offset(3), Vector::Zero());
 }
 
 }  // namespace

@@ -52,18 +52,18 @@ struct Loaded {
   explicit Loaded(const LatticeSpec& lattice, Make make = lattice_body) : spec(lattice), body(make(spec, world)) {}
 
   int move(std::vector<int> points, int component, const std::string& value) {
-    conditions.motions.push_back({std::move(points), component, Function::parse(value), false, count});
+    conditions.add(PrescribedMotion{std::move(points), component, Function::parse(value), false, count});
     return count++;
   }
   int hold(std::vector<int> points, const Vector& normal) {
-    conditions.symmetry_planes.push_back({std::move(points), normal, count});
+    conditions.add(SymmetryPlane{std::move(points), normal, count});
     return count++;
   }
   // Met by all points.
   int press(Shape shape, int axis, const std::string& travel, double friction = 0) {
-    Tool tool{points_where(body, [](const Vector&) { return true; }), std::move(shape), {}, friction, count};
+    RigidTool tool{points_where(body, [](const Vector&) { return true; }), std::move(shape), {}, friction, count};
     tool.travel[axis] = Function::parse(travel);
-    conditions.tools.push_back(std::move(tool));
+    conditions.add(std::move(tool));
     return count++;
   }
   // Two faces keep their places across themselves: no rigid motion across z is left, and a bar in uniaxial stress does

@@ -20,7 +20,7 @@ struct Probe {
   ToolContact contact;
   Field forces;
 
-  Probe(const Tool& tool, const Body& body) : contact({tool}, body) {}
+  Probe(const RigidTool& tool, const Body& body) : contact({tool}, body) {}
   const Field& at(Body& body, const Field& places) {
     for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() = places[i].array();
     forces.assign(body.owned(), Vector::Zero());
@@ -30,10 +30,10 @@ struct Probe {
 };
 
 // Pressed into the tool, then, with the multipliers that this leaves, moved on: the error of the stiffness there.
-double error_of_stiffness(const Tool& tool, const Vector& pressed, const Vector& moved) {
+double error_of_stiffness(const RigidTool& tool, const Vector& pressed, const Vector& moved) {
   Loaded loaded(lattice_of({5, 5, 3}, elastic(young, poisson)));
   Body& body = loaded.body;
-  Tool all = tool;
+  RigidTool all = tool;
   all.points = points_where(body, [](const Vector&) { return true; });
   Probe probe(all, body);
   probe.contact.begin(body, 0, 1);
@@ -63,17 +63,17 @@ double error_of_stiffness(const Tool& tool, const Vector& pressed, const Vector&
 constexpr double of_differences = 1e-7;
 
 TEST(ToolStiffness, IsTheDerivativeOfForcesWhereAPointSticks) {
-  const Tool floor{{}, HalfSpace{{0, 0, 0.6e-3}, Vector::UnitZ()}, {}, 0.3};
+  const RigidTool floor{{}, HalfSpace{{0, 0, 0.6e-3}, Vector::UnitZ()}, {}, 0.3};
   EXPECT_LT(error_of_stiffness(floor, {0, 0, 0}, {1e-6, 2e-6, -1e-6}), of_differences);
 }
 
 TEST(ToolStiffness, IsTheDerivativeOfForcesWhereAPointSlides) {
-  const Tool floor{{}, HalfSpace{{2.5e-3, 2.5e-3, 0.5e-3}, Vector(0.1, 0.2, 1).normalized()}, {}, 0.3};
+  const RigidTool floor{{}, HalfSpace{{2.5e-3, 2.5e-3, 0.5e-3}, Vector(0.1, 0.2, 1).normalized()}, {}, 0.3};
   EXPECT_LT(error_of_stiffness(floor, {0, 0, 0}, {2e-3, -1e-3, -1e-6}), of_differences);
 }
 
 TEST(ToolStiffness, HasTheCurvatureOfACylinder) {
-  const Tool roll{{}, Cylinder{{2.5e-3, 0, -1e-3}, Vector::UnitY(), 1.6e-3}, {}, 0};
+  const RigidTool roll{{}, Cylinder{{2.5e-3, 0, -1e-3}, Vector::UnitY(), 1.6e-3}, {}, 0};
   EXPECT_LT(error_of_stiffness(roll, {0, 0, 0}, {1e-5, 0, -1e-5}), of_differences);
 }
 
@@ -90,7 +90,7 @@ struct Pressed : Loaded {
   // How far the deepest point is inside, spacings.
   double penetration() const {
     double smallest = 0;
-    for (const Tool& tool : conditions.tools) {
+    for (const RigidTool& tool : tools_of(conditions)) {
       for (const int i : tool.points) {
         smallest = std::min(smallest, surface(tool.shape, body.current(i) - tool.offset(1)).gap);
       }
@@ -165,7 +165,7 @@ TEST(QuasiStaticTool, CylinderIndentsABlock) {
   const QuasiStaticControl control{.load_steps = 5};
   QuasiStatic solver = loaded.solver(control);
   const Ledger end = load(solver);
-  const Tool& tool = loaded.conditions.tools[0];
+  const RigidTool tool = tools_of(loaded.conditions)[0];
   double smallest = 0, lowest = 0;
   for (const int i : tool.points) {
     smallest = std::min(smallest, surface(tool.shape, body.current(i) - tool.offset(1)).gap);

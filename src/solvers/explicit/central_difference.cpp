@@ -64,7 +64,7 @@ void CentralDifference::reassign_levels(StepReport& report) {
 void CentralDifference::restrict_conditions() {
   conditions_of_level_.clear();
   for (int m = 1; m <= multi_stepping_.level_count(); ++m) {
-    conditions_of_level_.push_back(restricted_to(conditions_, multi_stepping_.motion_levels(), m));
+    conditions_of_level_.push_back(in_substeps(conditions_, {multi_stepping_.motion_levels(), m}));
   }
 }
 
@@ -90,7 +90,7 @@ void CentralDifference::advance_velocity(double final_time) {
   static Teuchos::Time& timer = phase("Motion and conditions");
   choose_step(final_time);
   const Timed timed(timer);
-  add_body_forces(conditions_, time_, body_);
+  add_forces(conditions_, time_, body_);
   if (steps_ == 0) start();
   const double impulse_time = 0.5 * (previous_dt_ + dt_);
   work_ = work_ + impulse_work_.before + impulse_work_.after;
@@ -99,10 +99,10 @@ void CentralDifference::advance_velocity(double final_time) {
     body_.previous_velocity[i] = body_.velocity[i];
     body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
   });
-  Impulses impulses(static_cast<int>(reactions_.size()));
-  constrain(conditions_, time_, point_steps(), body_, impulse_work_, impulses);
+  ReactionImpulses impulses(static_cast<int>(reaction_forces_.size()));
+  change_velocities(conditions_, time_, point_steps(), body_, impulse_work_, impulses);
   take_reactions(impulses, impulse_time);
-  add_work_of_body_forces(conditions_, time_, impulse_time, body_, impulse_work_);
+  add_work_of_forces(conditions_, time_, impulse_time, body_, impulse_work_);
   add_work_of_friction(impulse_time);
   if (steps_ == 0) initial_energy_ = 0, initial_energy_ = imbalance(ledger());
 }
@@ -122,22 +122,22 @@ void CentralDifference::add_work_of_friction(double impulse_time) {
 }
 
 void CentralDifference::gather_reactions(int conditions) {
-  reactions_.assign(conditions, Vector::Zero());
-  between_ = Impulses(conditions);
+  reaction_forces_.assign(conditions, Vector::Zero());
+  substep_impulses_ = ReactionImpulses(conditions);
 }
 
 // What a substep gives belongs to the step before this kick. The first kick begins half a step back, with velocities
 // that conditions have not changed, and so they answer for half of it.
-void CentralDifference::take_reactions(const Impulses& now, double impulse_time) {
+void CentralDifference::take_reactions(const ReactionImpulses& now, double impulse_time) {
   const double length = steps_ == 0 ? 0.5 * impulse_time : impulse_time;
-  for (std::size_t c = 0; c < reactions_.size(); ++c) {
-    reactions_[c] = now.sums()[c] / length + between_.sums()[c] / previous_dt_;
+  for (std::size_t c = 0; c < reaction_forces_.size(); ++c) {
+    reaction_forces_[c] = now.sums()[c] / length + substep_impulses_.sums()[c] / previous_dt_;
   }
-  between_ = Impulses(static_cast<int>(reactions_.size()));
+  substep_impulses_ = ReactionImpulses(static_cast<int>(reaction_forces_.size()));
 }
 
 Reactions CentralDifference::reactions() const {
-  Reactions all{reactions_};
+  Reactions all{reaction_forces_};
   if (!all.forces.empty()) body_.domain.communicator.sum(std::span(all.forces[0].data(), 3 * all.forces.size()));
   return all;
 }
@@ -145,7 +145,7 @@ Reactions CentralDifference::reactions() const {
 // Initial velocities belong to the initial time: the mid-step before it is half a step back.
 void CentralDifference::start() {
   previous_dt_ = dt_;
-  start_motions(conditions_, time_, dt_, body_);
+  change_initial_velocities(conditions_, time_, dt_, body_);
   for_each_point(0, body_.owned(),
                  [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
@@ -167,7 +167,7 @@ StepReport CentralDifference::substeps() {
 }
 
 StepReport CentralDifference::substep(int level, double t) {
-  const PointSteps steps = point_steps();
+  const PointTimeSteps steps = point_steps();
   const std::vector<int>& moved = multi_stepping_.moved(level);
   const int count = static_cast<int>(moved.size());
   for_each_point(0, count, [&](int n) {
@@ -182,7 +182,7 @@ StepReport CentralDifference::substep(int level, double t) {
     body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
   });
   ImpulseWork work;
-  constrain(conditions_of_level_[level - 1], t, steps, body_, work, between_);
+  change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, substep_impulses_);
   work_ = work_ + work.before + work.after;
   return report;
 }
@@ -193,7 +193,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   const StepReport between = substeps();
   {
     const Timed timed(timer);
-    const PointSteps steps = point_steps();
+    const PointTimeSteps steps = point_steps();
     for_each_point(0, body_.owned(),
                    [&](int i) { body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array(); });
   }
@@ -280,7 +280,7 @@ void CentralDifference::serialize_work(Archive& archive) {
   keep("", work_);
   keep("_before", impulse_work_.before);
   keep("_after", impulse_work_.after);
-  between_.serialize(archive);
+  substep_impulses_.serialize(archive);
 }
 
 // What the body holds and has dissipated, less what was put in.

@@ -66,7 +66,7 @@ class CentralDifference {
  private:
   contact::Kinematics kinematics() const;
   void add_work_of_friction(double impulse_time);
-  void take_reactions(const Impulses& now, double impulse_time);
+  void take_reactions(const ReactionImpulses& now, double impulse_time);
   void choose_step(double final_time);
   void estimate_step();
   void reassign_levels(StepReport& report);
@@ -74,7 +74,7 @@ class CentralDifference {
   void serialize_work(Archive& archive);
   StepReport substeps();
   StepReport substep(int level, double t);
-  PointSteps point_steps() const { return {dt_, &multi_stepping_.motion_levels()}; }
+  PointTimeSteps point_steps() const { return {dt_, &multi_stepping_.motion_levels()}; }
   void start();
   enum Severity { harmless, passable, fatal };
   Severity severity(const StepReport& report) const;
@@ -90,8 +90,8 @@ class CentralDifference {
   std::vector<Conditions> conditions_of_level_;  // of the points that move at times between steps
   Work work_;                                    // up to the mid-step before time()
   ImpulseWork impulse_work_;                     // of the impulses at time()
-  std::vector<Vector> reactions_;  // N, on this rank's points at time(), by condition; empty: not asked for
-  Impulses between_;               // of the substeps since the last kick
+  std::vector<Vector> reaction_forces_;  // N, on this rank's points at time(), by condition; empty: not asked for
+  ReactionImpulses substep_impulses_;    // of the substeps since the last kick
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   double initial_energy_ = 0, largest_energy_ = 0;

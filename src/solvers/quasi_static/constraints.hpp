@@ -1,17 +1,17 @@
-// The directions in which conditions hold points during one load step: prescribed motion and symmetry planes.
+// The directions in which conditions hold points during one load step, together: those of one point need not be across
+// each other, nor agree.
 #pragma once
 
 #include <vector>
 
-#include "conditions/conditions.hpp"
+#include "conditions/condition_type.hpp"
 #include "solvers/quasi_static/krylov.hpp"
 
 namespace strut {
 
 class Constraints {
  public:
-  // Of the step from t over dt (s); points are where it begins.
-  Constraints(const Conditions& conditions, const Body& body, double t, double dt);
+  Constraints(const std::vector<HeldDirection>& held, const Body& body);
 
   void remove(Field& field) const;  // the held parts, from a field
   void keep(Field& field) const;    // them only
@@ -25,10 +25,10 @@ class Constraints {
   Field way_left(const Body& body) const;
 
  private:
-  void hold(int condition, int point, const Vector& direction, double place);
+  void hold(const HeldDirection& held);
 
   struct Direction {
-    int condition, point;
+    int reaction_place, point;
     Vector along;  // of unit length, across the earlier ones of its point
   };
   std::vector<Direction> directions_;

@@ -36,8 +36,9 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
     : body_(body),
       conditions_(std::move(conditions)),
       contact_(std::move(contact)),
-      tools_(conditions_.tools, body),
+      tools_(tools_of(conditions_), body),
       committed_(body) {
+  check_equilibria_possible(conditions_);
   residual_.assign(body.owned(), Vector::Zero());
   outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
@@ -48,7 +49,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
 
 void Equilibrium::begin(double t, double dt) {
   t_ = t, dt_ = dt;
-  constraints_.emplace(conditions_, body_, t, dt);
+  constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
 }
 
@@ -59,7 +60,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   const StepReport report = advance_by_any_step(body_, dt_, with_diagnostics);
   failure_ = report.failure;
   residual_ = body_.force_density;
-  add_body_forces(conditions_, t_ + dt_, body_);
+  add_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
   forces_.resize(body_.owned());
@@ -174,7 +175,7 @@ void Equilibrium::serialize(Archive& archive) {
   outer_before_ = outer_;
   for (int i = 0; i < body_.owned(); ++i) looked_at_[i] = body_.current(i);
   committed_.take(body_);
-  if (dt_ > 0) constraints_.emplace(conditions_, body_, t_, dt_);  // for reactions
+  if (dt_ > 0) constraints_.emplace(held_directions(conditions_, body_, t_, dt_), body_);  // for reactions
 }
 
 double Equilibrium::external_work() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "conditions/conditions.hpp"
 #include "contact/contact.hpp"
 #include "mechanics/formulation/tangent.hpp"
 #include "mechanics/mechanics.hpp"
@@ -22,7 +23,7 @@ struct Imbalance {
 
 class Equilibrium {
  public:
-  // Collective. Computes the forces of the undeformed state.
+  // Collective. Computes the forces of the undeformed state. Throws Error for conditions that need inertia.
   Equilibrium(Body& body, Conditions conditions, contact::Contact contact);
 
   // Collective. A load step from t over dt (s) begins, at the committed places.

@@ -24,7 +24,7 @@ constexpr double just_touching = 1e-9;  // spacings
 
 }  // namespace
 
-ToolContact::ToolContact(std::vector<Tool> tools, const Body& body) : tools_(std::move(tools)) {
+ToolContact::ToolContact(std::vector<RigidTool> tools, const Body& body) : tools_(std::move(tools)) {
   for (std::size_t t = 0; t < tools_.size(); ++t) {
     for (const int i : tools_[t].points) {
       contact_points_.push_back({.tool = static_cast<int>(t), .point = i, .spacing = body.domain.cloud.spacings[i]});
@@ -142,8 +142,8 @@ void ToolContact::go_back() {
 
 void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
   for (const ContactPoint& contact : contact_points_) {
-    const int condition = tools_[contact.tool].condition;
-    if (static_cast<std::size_t>(condition) < by_condition.size()) by_condition[condition] += contact.now.force;
+    const int place = tools_[contact.tool].reaction_place;
+    if (static_cast<std::size_t>(place) < by_condition.size()) by_condition[place] += contact.now.force;
   }
 }
 

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "conditions/conditions.hpp"
+#include "conditions/rigid_tool.hpp"
 #include "solvers/quasi_static/krylov.hpp"
 
 namespace strut {
 
 class ToolContact {
  public:
-  ToolContact(std::vector<Tool> tools, const Body& body);
+  ToolContact(std::vector<RigidTool> tools, const Body& body);
 
   bool any() const { return !tools_.empty(); }
 
@@ -68,7 +68,7 @@ class ToolContact {
   };
   void press(const Surface& at, const Vector& sliding, ContactPoint& contact) const;
 
-  std::vector<Tool> tools_;
+  std::vector<RigidTool> tools_;
   std::vector<Vector> offsets_, travels_;  // of tools: at the end of the step, over it; m
   std::vector<ContactPoint> contact_points_;
 };

@@ -1,4 +1,4 @@
-#include "conditions/tool.hpp"
+#include "conditions/tool_shapes.hpp"
 
 #include <cmath>
 #include <limits>
@@ -59,14 +59,6 @@ Surface surface(const Box& box, const Vector& place) {
 
 Surface surface(const Shape& shape, const Vector& place) {
   return std::visit([&](const auto& one) { return surface(one, place); }, shape);
-}
-
-Vector Tool::offset(double t) const {
-  Vector sum = Vector::Zero();
-  for (int c = 0; c < 3; ++c) {
-    if (travel[c]) sum[c] = (*travel[c])(0, 0, 0, t);
-  }
-  return sum;
 }
 
 }  // namespace strut

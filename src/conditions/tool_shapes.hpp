@@ -1,12 +1,8 @@
-// Rigid tools: shapes that move along given paths, and that the points of a body do not enter.
+// The shapes of rigid tools, and how far away from their surfaces a place is.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <variant>
-#include <vector>
 
-#include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
 
 namespace strut {
@@ -50,18 +46,5 @@ inline Surface surface(const HalfSpace& half, const Vector& place) {
 Surface surface(const Cylinder& cylinder, const Vector& place);
 Surface surface(const Box& box, const Vector& place);
 Surface surface(const Shape& shape, const Vector& place);
-
-// A tool that some points meet. One that would enter it is stopped at its surface, and is free to leave. While it is
-// stopped, Coulomb friction takes up to `friction` times the impulse of the tool from its sliding over the tool.
-struct Tool {
-  std::vector<int> points;
-  Shape shape;                                    // before it travels
-  std::array<std::optional<Function>, 3> travel;  // along x, y, z, of t only, m; nothing: it stays
-  double friction = 0;
-  int condition = -1;  // its place in the deck
-
-  // How far it has travelled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
-  Vector offset(double t) const;
-};
 
 }  // namespace strut

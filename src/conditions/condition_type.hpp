@@ -1,0 +1,117 @@
+// What a type must state to be a condition. The compiler asks for it (condition.hpp), so that nothing is forgotten in
+// whole steps, substeps, equilibria, the ledger or reactions.
+//
+// Every condition states
+//   stage           when it acts in a step, relative to others
+//   ledger_entry    the entry of the energy ledger that its work goes to
+//   reaction_place  its place in the deck, by which its reaction is asked for; no_reaction: it has none
+//   in_equilibria   what it is in a load step without inertia
+// and, as these demand, what the concepts below list. A new one is a header of its own, a line in the variant
+// (condition.hpp), and the place where it is made of a deck.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "conditions/impulse_work.hpp"
+#include "conditions/reactions.hpp"
+#include "conditions/velocity_update.hpp"
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// The order in which conditions act; those of one stage act in the order of the deck. `forces` change force densities,
+// the others velocities, after all forces have: each may undo what earlier stages did, and so a point that a motion
+// carries against a tool does not enter it.
+enum class Stage { forces, drags, motions, planes, tools };
+
+// `load`: its forces act there as in a step; `hold`: points have given places along some directions; `tool`: unilateral
+// contact with friction, which only rigid tools are; `impossible`: it has no meaning there, and decks say so.
+enum class InEquilibria { load, hold, tool, impossible };
+
+// The points that move at times between whole steps: at those of `level`, which come every 2^−level of the step.
+struct MovingPoints {
+  const std::vector<std::uint8_t>& levels;  // of owned points: how often the step of their motion is halved
+  int level;
+
+  bool include(int i) const { return levels[i] >= level; }
+  std::vector<int> among(std::vector<int> points) const {
+    std::erase_if(points, [this](int i) { return !include(i); });
+    return points;
+  }
+};
+
+// A load step leads the place y of the point to y · direction = target.
+struct HeldDirection {
+  int reaction_place, point;
+  Vector direction;  // of unit length
+  double target;     // m
+};
+
+template <class T>
+concept StatesItsRoles = requires(const T& condition) {
+  requires std::same_as<decltype(T::stage), const Stage>;
+  requires std::same_as<decltype(T::ledger_entry), double Work::*const>;
+  { condition.reaction_place } -> std::convertible_to<int>;
+  requires std::same_as<decltype(T::in_equilibria), const InEquilibria>;
+};
+
+// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff.
+//   add_forces  adds to the force density what it does at time t
+//   add_work    adds the work of these forces over the time of an impulse, once velocities are final
+template <class T>
+concept AddsForces = requires(const T& condition, double t, double impulse_time, Body& body, const Body& after,
+                              ImpulseWork& work) {
+  { condition.add_forces(t, body) } -> std::same_as<void>;
+  { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
+};
+
+// Where acts_at_start: for who looks ahead.
+//   foretell  puts the velocities that it imposes on points at time t, in the mean over a moment (s), into `velocities`
+template <class T>
+concept ForetellsVelocities = requires(const T& condition, double t, double moment, const Body& body,
+                                       std::vector<Vector>& velocities) {
+  { condition.foretell(t, moment, body, velocities) } -> std::same_as<void>;
+};
+
+// All other stages.
+//   change_velocities  changes velocities to what it allows, and records each change
+//   in_substeps        its part for the points that move between whole steps; nothing: it does not act there
+//   acts_at_start      initial velocities are changed, too, so that the first step needs no impulse
+template <class T>
+concept ChangesVelocities = requires(const T& condition, VelocityUpdate& update, const MovingPoints& moving) {
+  { condition.change_velocities(update) } -> std::same_as<void>;
+  { condition.in_substeps(moving) } -> std::same_as<std::optional<T>>;
+  requires std::same_as<decltype(T::acts_at_start), const bool>;
+  requires !T::acts_at_start || ForetellsVelocities<T>;
+};
+
+// InEquilibria::hold.
+//   held_directions  of its points, which are where the load step from t over dt begins
+template <class T>
+concept HoldsDirections = requires(const T& condition, const Body& body, double t, double dt) {
+  { condition.held_directions(body, t, dt) } -> std::same_as<std::vector<HeldDirection>>;
+};
+
+// InEquilibria::impossible: the sentence of the error.
+template <class T>
+concept SaysWhyNotInEquilibria = requires {
+  { T::why_not_in_equilibria } -> std::convertible_to<const char*>;
+};
+
+template <class T>
+concept ActsInSteps = (T::stage == Stage::forces && AddsForces<T> && !ChangesVelocities<T>) ||
+                      (T::stage != Stage::forces && ChangesVelocities<T> && !AddsForces<T>);
+
+template <class T>
+concept ActsInEquilibria =
+    (T::in_equilibria == InEquilibria::load && T::stage == Stage::forces) ||
+    (T::in_equilibria == InEquilibria::hold && HoldsDirections<T>) || T::in_equilibria == InEquilibria::tool ||
+    (T::in_equilibria == InEquilibria::impossible && SaysWhyNotInEquilibria<T>);
+
+template <class T>
+concept ConditionType = StatesItsRoles<T> && ActsInSteps<T> && ActsInEquilibria<T>;
+
+}  // namespace strut

@@ -1,0 +1,39 @@
+// An end that waves leave as if the body went on behind it: the viscous traction −ρ c_p v_n − ρ c_s v_t (Lysmer &
+// Kuhlemeyer 1969) on the layer of points that has the end's surface. The traction acts in the middle of the layer:
+// what is beyond it, half of a layer of whole cells, is taken to belong to the other side, and its inertia is the other
+// side's (README).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "conditions/condition_type.hpp"
+
+namespace strut {
+
+struct NonReflectingEnd {
+  struct Drag {
+    int point;
+    double along, across;  // traction over speed and mass of half a layer: 2 c_p/s and 2 c_s/s, s the spacing; 1/s
+    double gain;           // mass of the point over that of half a layer
+  };
+  Vector normal;  // of unit length
+  std::vector<Drag> drags;
+
+  static constexpr Stage stage = Stage::drags;
+  static constexpr double Work::*ledger_entry = &Work::external;
+  static constexpr int reaction_place = no_reaction;
+  static constexpr InEquilibria in_equilibria = InEquilibria::impossible;
+  static constexpr const char* why_not_in_equilibria =
+      "'Non-Reflecting End' has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed "
+      "motion, a load, a plane or a tool";
+
+  void change_velocities(VelocityUpdate& update) const;
+  std::optional<NonReflectingEnd> in_substeps(const MovingPoints& moving) const;
+  static constexpr bool acts_at_start = false;
+};
+
+// The end that these points are, by the moduli of their undeformed blocks.
+NonReflectingEnd non_reflecting_end(const std::vector<int>& points, const Vector& normal, const Body& body);
+
+}  // namespace strut

@@ -1,0 +1,31 @@
+// Points that move as given, whatever force that takes.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/math/function.hpp"
+#include "conditions/condition_type.hpp"
+
+namespace strut {
+
+// One component of the motion of some points.
+struct PrescribedMotion {
+  std::vector<int> points;
+  int component;
+  Function value;  // of the reference position and time: m, or m/s
+  bool is_velocity;
+  int reaction_place = no_reaction;
+
+  static constexpr Stage stage = Stage::motions;
+  static constexpr double Work::*ledger_entry = &Work::external;
+  static constexpr InEquilibria in_equilibria = InEquilibria::hold;
+
+  void change_velocities(VelocityUpdate& update) const;
+  std::optional<PrescribedMotion> in_substeps(const MovingPoints& moving) const;
+  static constexpr bool acts_at_start = true;
+  void foretell(double t, double moment, const Body& body, std::vector<Vector>& velocities) const;
+  std::vector<HeldDirection> held_directions(const Body& body, double t, double dt) const;
+};
+
+}  // namespace strut

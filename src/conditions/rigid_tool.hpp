@@ -1,0 +1,35 @@
+// Rigid tools: shapes that move along given paths, and that the points of a body do not enter.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/math/function.hpp"
+#include "conditions/condition_type.hpp"
+#include "conditions/tool_shapes.hpp"
+
+namespace strut {
+
+// A tool that some points meet. One that would enter it is stopped at its surface, and is free to leave. While it is
+// stopped, Coulomb friction takes up to `friction` times the impulse of the tool from its sliding over the tool.
+struct RigidTool {
+  std::vector<int> points;
+  Shape shape;                                    // before it travels
+  std::array<std::optional<Function>, 3> travel;  // along x, y, z, of t only, m; nothing: it stays
+  double friction = 0;
+  int reaction_place = no_reaction;
+
+  // How far it has travelled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
+  Vector offset(double t) const;
+
+  static constexpr Stage stage = Stage::tools;
+  static constexpr double Work::*ledger_entry = &Work::contact;
+  static constexpr InEquilibria in_equilibria = InEquilibria::tool;
+
+  void change_velocities(VelocityUpdate& update) const;
+  std::optional<RigidTool> in_substeps(const MovingPoints& moving) const;
+  static constexpr bool acts_at_start = false;
+};
+
+}  // namespace strut

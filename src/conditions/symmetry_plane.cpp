@@ -1,0 +1,23 @@
+#include "conditions/symmetry_plane.hpp"
+
+namespace strut {
+
+void SymmetryPlane::change_velocities(VelocityUpdate& update) const {
+  for (const int i : points) {
+    const Vector change = -normal.dot(update.body.velocity[i]) * normal;
+    update.body.velocity[i] += change;
+    update.record(i, change);
+  }
+}
+
+std::optional<SymmetryPlane> SymmetryPlane::in_substeps(const MovingPoints& moving) const {
+  return SymmetryPlane{moving.among(points), normal, reaction_place};
+}
+
+std::vector<HeldDirection> SymmetryPlane::held_directions(const Body& body, double, double) const {
+  std::vector<HeldDirection> all;
+  for (const int i : points) all.push_back({reaction_place, i, normal, normal.dot(body.current(i))});
+  return all;
+}
+
+}  // namespace strut

@@ -1,0 +1,29 @@
+// The cut through a body of which only one half is computed.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "conditions/condition_type.hpp"
+
+namespace strut {
+
+// Points keep their distance to a plane.
+struct SymmetryPlane {
+  std::vector<int> points;
+  Vector normal;  // of unit length
+  int reaction_place = no_reaction;
+
+  static constexpr Stage stage = Stage::planes;
+  static constexpr double Work::*ledger_entry = &Work::external;
+  static constexpr InEquilibria in_equilibria = InEquilibria::hold;
+
+  void change_velocities(VelocityUpdate& update) const;
+  std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;
+  static constexpr bool acts_at_start = true;
+  // Nothing: the plane sets nothing in motion.
+  void foretell(double, double, const Body&, std::vector<Vector>&) const {}
+  std::vector<HeldDirection> held_directions(const Body& body, double t, double dt) const;
+};
+
+}  // namespace strut
