@@ -67,7 +67,9 @@ const std::vector<ConditionEntry>& entries() {
 }
 
 Condition read_condition(const Values& values, Problems& problems) {
-  Condition condition{.name = values.name(), .node_set = values[node_set]};
+  Condition condition;
+  condition.name = values.name();
+  condition.node_set = values[node_set];
   if (const ConditionEntry* entry = chosen_of(entries(), values)) {
     condition.type = entry->type;
     entry->read(values, condition, problems);
