@@ -29,12 +29,13 @@ bool has_any_section(const Section& section) {
 class Checker {
  public:
   Checker(const List& list, const Section& section, const std::string& path, Problems& problems)
-      : list_(list), section_(section), path_(path), problems_(problems), values_(list.name, path) {}
+      : list_(list), section_(section), path_(path), problems_(problems), values_(list.name, path, section) {}
 
   Values run() {
     read_keys(section_.keys);
-    if (!section_.selector.empty()) {
-      case_ = find(section_.cases, values_.text(section_.selector));
+    if (const std::string* choice = std::get_if<std::string>(values_.value(section_.selector))) {
+      case_ = find(section_.cases, *choice);
+      values_.choose(case_);
       if (case_) read_keys(case_->keys);
     }
     read_any_keys();

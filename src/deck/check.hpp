@@ -10,8 +10,9 @@
 
 namespace strut::deck {
 
-// `list` as `section` declares it, with all its sections. What one key alone can tell is checked here; what takes two
-// (final after initial time, the material a block names) is checked where the structs are built.
+// `list` as `section` declares it, with all its sections; `section` must outlive the values. What one key alone can
+// tell is checked here; what takes two (final after initial time, the material a block names) is checked where the
+// structs are built.
 Values check(const List& list, const Section& section, const std::string& path, Problems& problems);
 
 }  // namespace strut::deck

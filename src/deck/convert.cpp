@@ -123,8 +123,11 @@ Value convert(const Parameter& parameter, const Key& key) {
     case Kind::real:
       return in_range(or_refuse(to_real(parameter.value), parameter, key), parameter, key);
     case Kind::reals:
-    case Kind::vector:
       return convert_reals(parameter, key);
+    case Kind::vector: {
+      const std::vector<double> numbers = convert_reals(parameter, key);
+      return Vector(numbers[0], numbers[1], numbers[2]);
+    }
     case Kind::expression:
       return convert_expression(parameter, key);
     case Kind::choice:

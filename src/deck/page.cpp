@@ -4,6 +4,7 @@
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"
+#include "deck/whole.hpp"
 
 namespace strut::deck {
 

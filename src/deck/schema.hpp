@@ -1,5 +1,5 @@
-// The keys of a deck as data. Each key is declared once (schema.cpp, laws.cpp, contact_laws.cpp, flow_stress.cpp);
-// reading, checking, defaults and the reference page (inputs/KEYS.md) all follow from the declaration.
+// What a deck may hold, as data: keys, sections, and what may be said of them. Each key is declared once, beside its
+// reading (sections/, materials/); checking, defaults and the reference page (inputs/KEYS.md) follow from it.
 #pragma once
 
 #include <limits>
@@ -29,14 +29,15 @@ struct Range {
   bool contains(double value) const;
   std::string text() const;  // "> 0", "in (0, 1]", or "" for any number
 };
-inline const Range positive{.low = 0, .with_low = false};
-inline const Range not_negative{.low = 0};
+inline constexpr Range positive{.low = 0, .with_low = false};
+inline constexpr Range not_negative{.low = 0};
 
 // What to tell about a name that is not valid here but that users of other programs will try.
 struct Hint {
   std::string name, text;
 };
 
+// Those that are read are declared as one of keys.hpp, which sets the kind and whether it is required.
 struct Key {
   std::string name;
   Kind kind = Kind::real;
@@ -66,13 +67,18 @@ struct Section {
   std::vector<Section> cases = {};
 };
 
-// `section` with the key `selector`, whose choices are the names of `cases`.
+// `section` with the key `selector`, whose choices are the names of `cases`. Required but for one with a default.
 Section with_cases(Section section, Key selector, std::vector<Section> cases);
+
+// The sections of a table of cases, whose entries have one each as `schema`.
+template <class Entry>
+std::vector<Section> schemas_of(const std::vector<Entry>& entries) {
+  std::vector<Section> all;
+  for (const Entry& entry : entries) all.push_back(entry.schema);
+  return all;
+}
 
 // "expected a real number > 0, in kg/m³"
 std::string expected(const Key& key);
-
-// The schema of a whole deck.
-const Section& schema();
 
 }  // namespace strut::deck

@@ -1,47 +1,83 @@
 // A section of a deck after checking: its keys as values of their declared types, defaults filled in.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "base/math/function.hpp"
+#include "deck/keys.hpp"
 
 namespace strut::deck {
 
 // Nothing where the deck has a value that is among the problems.
-using Value = std::variant<std::monostate, bool, int, double, std::vector<double>, std::string,
+using Value = std::variant<std::monostate, bool, int, double, std::vector<double>, Vector, std::string,
                            std::vector<std::string>, Function>;
 
+// To ask for a key or section that the section does not declare is an error of the program, std::logic_error. A
+// section that is missing, what is among the problems, has nothing of what it is asked for.
 class Values {
  public:
-  Values(std::string name, std::string path) : name_(std::move(name)), path_(std::move(path)) {}
+  Values() = default;  // of a missing section
+  Values(std::string name, std::string path, const Section& section)
+      : name_(std::move(name)), path_(std::move(path)), section_(&section) {}
 
   const std::string& name() const { return name_; }
   const std::string& path() const { return path_; }
+  std::string path_to(const Key& key) const;
 
-  bool given(const std::string& key) const;  // in the deck, be it right or wrong
-  bool has(const std::string& key) const;    // right, or by default
+  bool given(const Key& key) const;  // in the deck, be it right or wrong
+  bool has(const Key& key) const;    // right, or by default
 
   // The value; zero, empty or false where has(key) is false, so that checks can go on after a problem.
-  bool flag(const std::string& key) const { return get<bool>(key); }
-  int integer(const std::string& key) const { return get<int>(key); }
-  double real(const std::string& key) const { return get<double>(key); }
-  const std::vector<double>& reals(const std::string& key) const { return get<std::vector<double>>(key); }
-  const std::string& text(const std::string& key) const { return get<std::string>(key); }
-  const std::vector<std::string>& names(const std::string& key) const { return get<std::vector<std::string>>(key); }
-  const Function& function(const std::string& key) const { return get<Function>(key); }
+  template <class T>
+  T operator[](const TypedKey<T>& key) const {
+    const T* value = find<T>(key);
+    return value ? *value : nothing<T>();
+  }
 
-  std::vector<std::string> keys() const;  // in the deck's order, then those by default
+  template <class T>
+  std::optional<T> operator[](const OptionalKey<T>& key) const {
+    const T* value = find<T>(key);
+    return value ? std::optional<T>(*value) : std::nullopt;
+  }
+
+  template <class T>
+  T operator[](const ChoiceKey<T>& key) const {
+    const std::string* choice = find<std::string>(key);
+    for (const auto& [text, value] : key.values) {
+      if (choice && *choice == text) return value;
+    }
+    return T{};
+  }
+
+  // The parameters that the user names, in the deck's order.
+  template <class T>
+  std::vector<std::pair<std::string, T>> all(const AnyKey<T>& key) const {
+    std::vector<std::pair<std::string, T>> all;
+    expect_declared(key);
+    for (const Entry& entry : entries_) {
+      const T* value = std::get_if<T>(&entry.value);
+      all.emplace_back(entry.key, value ? *value : nothing<T>());
+    }
+    return all;
+  }
+
+  // The case that the selector names; "" where it names none.
+  std::string chosen() const { return case_ ? case_->name : ""; }
+
   const std::vector<Values>& sections() const { return sections_; }
 
   // A section that the deck has, or that has no required keys: an absent one is then as good as an empty one.
-  const Values* find(const std::string& section) const;
-  const Values& section(const std::string& name) const;  // an empty one where find() finds nothing
+  const Values* find_section(const std::string& name) const;
+  const Values& section(const std::string& name) const;  // an empty one where find_section() finds nothing
   bool has_section(const std::string& name) const;       // in the deck
 
+  // To fill it.
   void set(const std::string& key, Value value, bool given) { entries_.push_back({key, std::move(value), given}); }
+  void choose(const Section* one) { case_ = one; }
+  const Value* value(const std::string& key) const;  // null where nothing is set
   void add(Values section, bool given) {
     sections_.push_back(std::move(section));
     sections_.back().given_ = given;
@@ -54,19 +90,36 @@ class Values {
     bool given;
   };
   const Entry* entry(const std::string& key) const;
+  void expect_declared(const Key& key) const;
+  void expect_declared_section(const std::string& name) const;
 
   template <class T>
-  const T& get(const std::string& key) const {
-    static const T nothing{};
-    const Entry* found = entry(key);
-    const T* value = found ? std::get_if<T>(&found->value) : nullptr;
-    return value ? *value : nothing;
+  const T* find(const Key& key) const {
+    expect_declared(key);
+    return std::get_if<T>(value(key.name));
+  }
+
+  template <class T>
+  static T nothing() {
+    if constexpr (std::is_same_v<T, Vector>) return Vector::Zero();
+    return T{};
   }
 
   std::string name_, path_;
+  const Section* section_ = nullptr;
+  const Section* case_ = nullptr;
   bool given_ = true;
   std::vector<Entry> entries_;
   std::vector<Values> sections_;
 };
+
+// The entry of a table of cases (schemas_of) that the selector names; null where it names none.
+template <class Entry>
+const Entry* chosen_of(const std::vector<Entry>& entries, const Values& values) {
+  for (const Entry& entry : entries) {
+    if (entry.schema.name == values.chosen()) return &entry;
+  }
+  return nullptr;
+}
 
 }  // namespace strut::deck

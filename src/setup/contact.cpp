@@ -19,10 +19,7 @@ void check_interactions(const deck::Deck& deck, const PointCloud& cloud, deck::P
 }
 
 std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const PointCloud& cloud) {
-  const auto model = [&](const deck::Interaction& one) {
-    const deck::ContactModel& model = deck.contact_models[one.model];
-    return contact::Model{model.law, model.friction};
-  };
+  const auto model = [&](const deck::Interaction& one) { return deck.contact_models[one.model].model; };
   const auto block = [&](const std::string& name) {
     return static_cast<int>(std::find(cloud.block_names.begin(), cloud.block_names.end(), name) -
                             cloud.block_names.begin());

@@ -1,45 +1,54 @@
-// The keys of the crushable polymeric foam, and how the law is made from them.
+#include "deck/materials/polymer_foam.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
 
-#include "deck/laws.hpp"
+#include "deck/materials/constants.hpp"
+#include "deck/materials/tables.hpp"
 #include "deck/numbers.hpp"
-#include "deck/problems.hpp"
 
 namespace strut::deck {
 
 namespace {
 
+const RealKey relative_density({.name = "Relative Density",
+                                .range = {.low = 0, .high = 1, .with_low = false},
+                                .meaning = "ρ₀*: of the undeformed foam to the solid's."});
+const RealKey density_exponent({.name = "Density Exponent", .range = not_negative, .meaning = "γ."});
+const RealKey plastic_poisson({.name = "Plastic Poisson's Ratio",
+                               .range = {.low = 0, .high = 0.5, .with_high = false},
+                               .fallback = "0",
+                               .meaning = "ν_p of uniaxial compression: the potential √(q² + β² p²) with "
+                                          "β² = (9/2)(1 − 2ν_p)/(1 + ν_p)."});
+const RealKey tension_ratio({.name = "Tension Ratio",
+                             .range = positive,
+                             .meaning = "ζ: p_t/p_c, yield in hydrostatic tension to compression."});
+const RealKey uniaxial_yield(
+    {.name = "Uniaxial Yield Stress", .unit = "Pa", .range = positive, .meaning = "τ_y0, in compression."});
+const RealKey hydrostatic_yield(
+    {.name = "Hydrostatic Yield Stress", .unit = "Pa", .range = positive, .meaning = "p_c0 > τ_y0/3, in compression."});
+
 const char* const uniaxial_table = "Uniaxial Hardening";
 const char* const hydrostatic_table = "Hydrostatic Hardening";
-
-Key required(const std::string& name, const std::string& unit, Range range, const std::string& meaning) {
-  return {.name = name, .unit = unit, .range = range, .required = true, .meaning = meaning};
-}
 
 Section table_section(const std::string& name, const std::string& meaning, const std::string& strains) {
   return {
       .name = name,
       .meaning = meaning + " Piecewise linear, constant beyond the last strain; 0 without this section.",
-      .keys = {{.name = "Strains", .kind = Kind::reals, .range = not_negative, .required = true, .meaning = strains},
-               {.name = "Stresses",
-                .kind = Kind::reals,
-                .unit = "Pa",
-                .required = true,
-                .meaning = "As many Kirchhoff stresses, what is added to the first yield stress, the first 0."}}};
+      .keys = table_keys(strains, "As many Kirchhoff stresses, what is added to the first yield stress, the first 0.")};
 }
 
 // None where it is among the problems; an empty one where the deck has no such section.
 std::optional<materials::TableHardening> table(const Values& material, const std::string& name, Problems& problems) {
-  if (material.find(name) == nullptr) return materials::TableHardening{};
-  const Values& section = material.section(name);
-  if (!check_table(section, problems)) return {};
-  const std::vector<double>& stresses = section.reals("Stresses");
-  if (stresses.front() == 0) return materials::TableHardening{section.reals("Strains"), stresses};
-  problems.add(path_to(section.path(), "Stresses"),
-               "the first is " + to_text(stresses.front()) + "; expected 0, in Pa: what is added by hardening");
+  const Values* section = material.find_section(name);
+  if (!section) return materials::TableHardening{};
+  if (!check_table(*section, problems)) return {};
+  const materials::TableHardening table = read_table(*section);
+  if (table.stresses.front() == 0) return table;
+  problems.add(path_to_stresses(*section),
+               "the first is " + to_text(table.stresses.front()) + "; expected 0, in Pa: what is added by hardening");
   return {};
 }
 
@@ -94,8 +103,7 @@ void check_ellipse(const materials::PolymerFoam& law, const std::string& path, P
 }
 
 bool has_yield_stresses(const Values& material) {
-  return material.has("Uniaxial Yield Stress") && material.has("Hydrostatic Yield Stress") &&
-         material.has("Plastic Poisson's Ratio");
+  return material.has(uniaxial_yield) && material.has(hydrostatic_yield) && material.has(plastic_poisson);
 }
 
 }  // namespace
@@ -107,33 +115,24 @@ Section polymer_foam_section() {
           "A crushable polymeric foam at finite strain: Hencky's elasticity with E = E_M (ρ*)^γ, ρ* = ρ₀*/J, and an "
           "ellipse of yield through a uniaxial and a hydrostatic test, in Kirchhoff stress. The elastic constants "
           "are those of the solid polymer: E_M and ν.",
-      .keys = {required("Relative Density", "", {.low = 0, .high = 1, .with_low = false},
-                        "ρ₀*: of the undeformed foam to the solid's."),
-               required("Density Exponent", "", not_negative, "γ."),
-               {.name = "Plastic Poisson's Ratio",
-                .range = {.low = 0, .high = 0.5, .with_high = false},
-                .fallback = "0",
-                .meaning = "ν_p of uniaxial compression: the potential √(q² + β² p²) with "
-                           "β² = (9/2)(1 − 2ν_p)/(1 + ν_p)."},
-               required("Tension Ratio", "", positive, "ζ: p_t/p_c, yield in hydrostatic tension to compression."),
-               required("Uniaxial Yield Stress", "Pa", positive, "τ_y0, in compression."),
-               required("Hydrostatic Yield Stress", "Pa", positive, "p_c0 > τ_y0/3, in compression.")},
+      .keys = {relative_density, density_exponent, plastic_poisson, tension_ratio, uniaxial_yield, hydrostatic_yield},
       .sections = {table_section(uniaxial_table, "H_a: τ_y = τ_y0 + H_a(ε_a), ε_a = ε_v/(1 − 2ν_p).",
                                  "Axial plastic strains ε_a, logarithmic, of compression, rising, the first 0."),
                    table_section(hydrostatic_table, "H_p: p_c = p_c0 + H_p(ε_v), ε_v = −ln det F_p.",
                                  "Volumetric plastic strains ε_v, of compression, rising, the first 0.")}};
 }
 
-materials::AnyLaw make_polymer_foam(const Values& material, const materials::Moduli& solid, Problems& problems) {
+materials::AnyLaw make_polymer_foam(const Values& material, Problems& problems) {
+  const materials::Moduli solid = checked_moduli(material, problems);
   const auto uniaxial = table(material, uniaxial_table, problems);
   const auto hydrostatic = table(material, hydrostatic_table, problems);
   const materials::PolymerFoam law{.solid = solid,
-                                   .initial_density = material.real("Relative Density"),
-                                   .density_exponent = material.real("Density Exponent"),
-                                   .plastic_poisson = material.real("Plastic Poisson's Ratio"),
-                                   .tension_ratio = material.real("Tension Ratio"),
-                                   .uniaxial_yield = material.real("Uniaxial Yield Stress"),
-                                   .hydrostatic_yield = material.real("Hydrostatic Yield Stress"),
+                                   .initial_density = material[relative_density],
+                                   .density_exponent = material[density_exponent],
+                                   .plastic_poisson = material[plastic_poisson],
+                                   .tension_ratio = material[tension_ratio],
+                                   .uniaxial_yield = material[uniaxial_yield],
+                                   .hydrostatic_yield = material[hydrostatic_yield],
                                    .uniaxial_hardening = uniaxial.value_or(materials::TableHardening{}),
                                    .hydrostatic_hardening = hydrostatic.value_or(materials::TableHardening{})};
   if (uniaxial && hydrostatic && has_yield_stresses(material)) check_ellipse(law, material.path(), problems);

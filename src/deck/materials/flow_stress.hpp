@@ -1,0 +1,14 @@
+// The flow stress of a law: the key "Yield Stress" and the sections Hardening and Rate.
+#pragma once
+
+#include "deck/problems.hpp"
+#include "deck/schema.hpp"
+#include "deck/values.hpp"
+#include "materials/flow_stress.hpp"
+
+namespace strut::deck {
+
+Section flow_stress_section();
+materials::FlowStress make_flow_stress(const Values& material, Problems& problems);
+
+}  // namespace strut::deck

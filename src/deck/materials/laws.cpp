@@ -1,0 +1,53 @@
+#include "deck/materials/laws.hpp"
+
+#include "deck/materials/constants.hpp"
+#include "deck/materials/flow_stress.hpp"
+#include "deck/materials/metal_foam.hpp"
+#include "deck/materials/polymer_foam.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+Section elastic_ordinary() {
+  return {.name = "Elastic",
+          .meaning =
+              "The ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`: "
+              "forces along the bonds, no deformation gradient, no stabilization, for bodies that stay elastic. "
+              "On a lattice its shear moduli depend on direction, more or less with Influence Function and "
+              "Horizon (table in src/mechanics/README.md). No further keys."};
+}
+
+Section elastic() { return {.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."}; }
+
+materials::AnyLaw make_elastic(const Values& material, Problems& problems) {
+  const materials::Moduli moduli = checked_moduli(material, problems);
+  return materials::Elastic{.bulk = moduli.bulk, .shear = moduli.shear};
+}
+
+Section elastic_plastic() {
+  Section section = flow_stress_section();
+  section.name = "Elastic Plastic Correspondence";
+  section.meaning = "J2 plasticity: hypoelastic, with the flow stress that Yield Stress, Hardening and Rate define.";
+  return section;
+}
+
+materials::AnyLaw make_j2(const Values& material, Problems& problems) {
+  const materials::Moduli moduli = checked_moduli(material, problems);
+  return materials::J2{.bulk = moduli.bulk, .shear = moduli.shear, .flow = make_flow_stress(material, problems)};
+}
+
+}  // namespace
+
+const std::vector<LawEntry>& laws() {
+  static const std::vector<LawEntry> entries = {
+      {elastic_ordinary(), make_elastic, false},
+      {elastic(), make_elastic},
+      {elastic_plastic(), make_j2},
+      {metal_foam_section(), make_metal_foam},
+      {polymer_foam_section(), make_polymer_foam},
+  };
+  return entries;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,22 @@
+// A curve as a table: the keys Strains and Stresses of a section.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/problems.hpp"
+#include "deck/values.hpp"
+#include "materials/flow_stress.hpp"
+
+namespace strut::deck {
+
+// What they mean, and the range of the stresses.
+std::vector<Key> table_keys(const std::string& strains, const std::string& stresses, Range range = {});
+
+// Whether they make a table, with strains that rise from 0; says so where not.
+bool check_table(const Values& values, Problems& problems);
+
+materials::TableHardening read_table(const Values& values);
+std::string path_to_stresses(const Values& values);
+
+}  // namespace strut::deck

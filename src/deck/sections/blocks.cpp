@@ -1,0 +1,99 @@
+#include "deck/sections/blocks.hpp"
+
+#include <map>
+
+#include "deck/sections/from_peridigm.hpp"
+#include "deck/sections/two_keys.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const char* const name = "Blocks";
+
+const NamesKey block_names(
+    {.name = "Block Names",
+     .meaning = "Blocks of the mesh, or `all`, or `default`: those that no other section names."});
+
+const TextKey material({.name = "Material", .meaning = "The name of a section in Materials."});
+
+const OptionalKey<double> horizon(
+    {.name = "Horizon",
+     .unit = "m",
+     .range = positive,
+     .meaning = "δ: points closer than this are neighbors. Either this or Horizon Factor."});
+
+const OptionalKey<double> horizon_factor(
+    {.name = "Horizon Factor",
+     .range = {.low = 1, .high = 20},
+     .meaning = "δ of each point in local spacings: the edge of a cube with the volume of its "
+                "element, or with the mean volume of the elements around its node (six times "
+                "that of tetrahedra). Points i and j are neighbors when they are closer than (δ_i + δ_j)/2."});
+
+const BooleanKey separate_body({.name = "Separate Body",
+                                .fallback = "false",
+                                .meaning = "Points of this section are not bonded to those of others, however near: a "
+                                           "body of its own, that others meet in contact."});
+
+const OptionalKey<bool> across_voids(
+    {.name = "Bonds Across Voids",
+     .meaning = "false: bonds run through material. Two points within the horizon are bonded only if "
+                "elements that share nodes lead from one to the other within it. Needs hexahedra or "
+                "tetrahedra. Without this key: true, but false for Quadratic Correspondence."});
+
+void check_horizon(const Values& values, Problems& problems) {
+  check_one_of(values, horizon, horizon_factor, problems);
+  if (values.given(horizon) || values.given(horizon_factor)) return;
+  problems.add(values.path_to(horizon), "missing; " + expected(horizon) + ", or 'Horizon Factor' in its place");
+}
+
+void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
+  std::map<std::string, std::string> owners;  // block of the mesh -> section that has it
+  const auto clash = [&](const Block& block, const std::string& taken, const std::string& owner) {
+    problems.add("Blocks > " + block.name + " > Block Names",
+                 "'" + taken + "' is named twice: here and in Blocks > " + owner + "; expected once");
+  };
+  for (const Block& block : blocks) {
+    for (const std::string& one : block.block_names) {
+      if (one == "default") {
+        if (!owners.emplace(one, block.name).second) clash(block, one, owners[one]);
+        continue;
+      }
+      const auto taken = one == "all" ? owners.begin() : owners.find(owners.count("all") ? "all" : one);
+      if (taken != owners.end()) clash(block, one == "all" ? taken->first : one, taken->second);
+      owners.emplace(one, block.name);
+    }
+  }
+}
+
+}  // namespace
+
+Section blocks_section() {
+  return {
+      .name = name,
+      .required = true,
+      .meaning = "What the blocks of the mesh are made of.",
+      .sections = {{.name = any_name,
+                    .required = true,
+                    .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
+                    .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids},
+                    .hints = {{"Damage Model", bonds_hold}, {"Damage Models", bonds_hold}}}}};
+}
+
+std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials, Problems& problems) {
+  std::vector<Block> all;
+  for (const Values& section : deck.section(name).sections()) {
+    check_horizon(section, problems);
+    all.push_back({.name = section.name(),
+                   .block_names = section[block_names],
+                   .material = find_named(section, material, materials, "Materials", problems),
+                   .horizon = section[horizon],
+                   .horizon_factor = section[horizon_factor],
+                   .separate_body = section[separate_body],
+                   .across_voids = section[across_voids]});
+  }
+  check_overlaps(all, problems);
+  return all;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,27 @@
+// The section Blocks: what the blocks of the mesh are made of, and how far their points see.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/forward.hpp"
+#include "deck/sections/materials.hpp"
+
+namespace strut::deck {
+
+struct Block {
+  std::string name;                      // of the section
+  std::vector<std::string> block_names;  // of the mesh; "all" stands for every block
+  int material = 0;                      // index into Deck::materials
+  // Exactly one of them:
+  std::optional<double> horizon;         // m
+  std::optional<double> horizon_factor;  // in local spacings of each point
+  bool separate_body{};                  // bonded to nothing outside of this section
+  std::optional<bool> across_voids;      // whether bonds reach across voids
+};
+
+Section blocks_section();
+std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials, Problems& problems);
+
+}  // namespace strut::deck

@@ -1,0 +1,105 @@
+#include "deck/sections/conditions.hpp"
+
+#include "deck/problems.hpp"
+#include "deck/sections/numbered_sets.hpp"
+#include "deck/sections/tools.hpp"
+#include "deck/values.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const TextKey node_set({.name = "Node Set",
+                        .fallback = "all",
+                        .meaning = "A node set of the mesh or of Node Sets, a block's name, or `all`."});
+
+const ChoiceKey<int> component({.name = "Coordinate", .meaning = "The axis it acts along."},
+                               {{"x", 0}, {"y", 1}, {"z", 2}});
+// Its unit is the case's.
+const ExpressionKey value({.name = "Value", .meaning = "At the reference position x, y, z (m) and the time t (s)."});
+
+Section along_axis(const std::string& type, const std::string& unit, const std::string& meaning) {
+  Key of_unit = value;
+  of_unit.unit = unit;
+  return {.name = type, .meaning = meaning, .keys = {component, of_unit}};
+}
+
+void read_along_axis(const Values& values, Condition& condition, Problems&) {
+  condition.component = values[component];
+  condition.value = values[value];
+}
+
+const VectorKey end_normal({.name = "Normal", .meaning = "Of the end's surface, of any length but zero."});
+
+Section non_reflecting_end() {
+  return {.name = "Non-Reflecting End",
+          .meaning =
+              "Waves leave through the set, one layer of points, as if the body went on behind it: viscous traction "
+              "ρ c v with the speeds of longitudinal and shear waves in the undeformed material.",
+          .keys = {end_normal}};
+}
+
+void read_non_reflecting_end(const Values& values, Condition& condition, Problems& problems) {
+  condition.normal = read_direction(values, end_normal, problems);
+}
+
+struct ConditionEntry {
+  Section schema;  // named as "Type" has it
+  ConditionType type;
+  void (*read)(const Values& values, Condition& condition, Problems& problems);
+};
+
+const std::vector<ConditionEntry>& entries() {
+  using enum ConditionType;
+  static const std::vector<ConditionEntry> all = {
+      {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."), initial_velocity, read_along_axis},
+      {along_axis("Prescribed Displacement", "m", "The displacement at every time."), prescribed_displacement,
+       read_along_axis},
+      {along_axis("Prescribed Velocity", "m/s", "The velocity at every time."), prescribed_velocity, read_along_axis},
+      {along_axis("Body Force", "N/m³", "A force per reference volume."), body_force, read_along_axis},
+      {symmetry_plane_section(), symmetry_plane, read_plane},
+      {rigid_plane_section(), rigid_plane, read_rigid_plane},
+      {rigid_cylinder_section(), rigid_cylinder, read_rigid_cylinder},
+      {rigid_box_section(), rigid_box, read_rigid_box},
+      {non_reflecting_end(), ConditionType::open_end, read_non_reflecting_end},
+  };
+  return all;
+}
+
+Condition read_condition(const Values& values, Problems& problems) {
+  Condition condition;
+  condition.name = values.name();
+  condition.node_set = values[node_set];
+  if (const ConditionEntry* entry = chosen_of(entries(), values)) {
+    condition.type = entry->type;
+    entry->read(values, condition, problems);
+  }
+  return condition;
+}
+
+}  // namespace
+
+Section conditions_section() {
+  const std::string no_temperature = "there is no temperature here";
+  Key type = {.name = "Type",
+              .meaning = "It decides on further keys.",
+              .hints = {{"Initial Displacement", "bodies start undeformed"},
+                        {"Prescribed Temperature", no_temperature},
+                        {"Initial Temperature", no_temperature},
+                        {"Thermal Flux", no_temperature}}};
+  Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};
+  return {.name = boundary_conditions,
+          .meaning = "What is imposed on points, initial conditions included.",
+          .any_key = numbered_set(),
+          .sections = {with_cases(std::move(one), std::move(type), schemas_of(entries()))}};
+}
+
+std::vector<Condition> read_conditions(const Values& deck, Problems& problems) {
+  std::vector<Condition> all;
+  for (const Values& section : deck.section(boundary_conditions).sections()) {
+    all.push_back(read_condition(section, problems));
+  }
+  return all;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,147 @@
+#include "deck/sections/discretization.hpp"
+
+#include <fstream>
+
+#include "deck/problems.hpp"
+#include "deck/sections/from_peridigm.hpp"
+#include "deck/values.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const name = "Discretization";
+
+// Peridigm's built-in grid.
+const char* const generator = "TensorProduct3DMeshGenerator";
+
+struct AxisKeys {
+  RealKey origin, length;
+  IntegerKey points;
+
+  explicit AxisKeys(const std::string& axis)
+      : origin({.name = axis + " Origin", .unit = "m", .meaning = "Where the block begins."}),
+        length({.name = axis + " Length", .unit = "m", .range = positive, .meaning = "Its edge."}),
+        points({.name = "Number Points " + axis, .range = {.low = 1}, .meaning = "Cells along it."}) {}
+};
+const std::array<AxisKeys, 3> axes = {AxisKeys("X"), AxisKeys("Y"), AxisKeys("Z")};
+
+Section grid_section() {
+  std::vector<Key> keys = {
+      {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only one."}};
+  for (const AxisKeys& axis : axes) keys.insert(keys.end(), {axis.origin, axis.length, axis.points});
+  return {.name = generator,
+          .meaning = "A block of equal cells, one point at the centre of each, x fastest: the block block_1.",
+          .keys = std::move(keys)};
+}
+
+Grid read_grid(const Values& values) {
+  Grid grid;
+  for (int c = 0; c < 3; ++c) {
+    grid.origin[c] = values[axes[c].origin];
+    grid.length[c] = values[axes[c].length];
+    grid.points[c] = values[axes[c].points];
+  }
+  return grid;
+}
+
+const ChoiceKey<MeshType> type(
+    {.name = "Type",
+     .meaning = "The mesh file's format: elements or nodes become points, or a list of points. Or Peridigm's "
+                "built-in grid, without a file."},
+    {{"Exodus", MeshType::exodus}, {"Text File", MeshType::text}, {"PdQuickGrid", MeshType::grid}});
+
+const OptionalKey<std::string> mesh_file(
+    {.name = "Input Mesh File", .meaning = "Its path, relative to the deck's folder. Required but for PdQuickGrid."});
+
+const Key neighborhood = {.name = "NeighborhoodType",
+                          .kind = Kind::choice,
+                          .choices = {"Spherical"},
+                          .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighborhoods."};
+
+const ChoiceKey<Points> points(
+    {.name = "Points",
+     .fallback = "Elements",
+     .meaning = "Where the points of an Exodus mesh are: at the centroids of its elements, or, for hexahedra "
+                "and tetrahedra, at its nodes, each with its part of the elements around it. With nodes, "
+                "faces and rims of the body are where the mesh has them."},
+    {{"Elements", Points::elements}, {"Nodes", Points::nodes}});
+
+const ChoiceKey<Influence> influence(
+    {.name = "Influence Function",
+     .fallback = "One",
+     .meaning = "ω(r) with r = |ξ|/δ, ξ the bond and δ the horizon: 1, 1 − r, or 1 − 3r² + 2r³."},
+    {{"One", Influence::one}, {"Linear Decay", Influence::linear_decay}, {"Cubic Decay", Influence::cubic_decay}});
+
+const ChoiceKey<DegeneratePoints> degenerate(
+    {.name = "Degenerate Points",
+     .fallback = "Error",
+     .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
+                "gradient."},
+    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}});
+
+// What each type of discretization must have, and what it cannot.
+void check_source(const Values& values, Problems& problems) {
+  if (!values.has(type)) return;
+  const auto report = [&](const std::string& name, const std::string& what) {
+    problems.add(path_to(values.path(), name), what);
+  };
+  const bool grid = values[type] == MeshType::grid;
+  if (!grid && !values.given(mesh_file)) report(mesh_file.name, "missing; expected a text (type string)");
+  if (grid && values.given(mesh_file))
+    report(mesh_file.name, "unknown key for Type 'PdQuickGrid', which reads no file");
+  if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
+  if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
+  if (grid && !values.given(neighborhood)) {
+    report(
+        neighborhood.name,
+        "missing; expected 'Spherical': without it Peridigm takes boxes for neighborhoods, which are not known here");
+  }
+}
+
+}  // namespace
+
+Section discretization_section() {
+  return {.name = name,
+          .required = true,
+          .meaning = "The points: where they are, and how much each sees of the others.",
+          .keys = {type, mesh_file, neighborhood, verbose_without_effect(),
+                   without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
+                                  "the mesh is not kept"),
+                   points, influence, degenerate},
+          .sections = {grid_section()},
+          .hints = {{"Bond Filters",
+                     "unknown section: bonds of a body cannot be cut by planes or disks; make cracks as "
+                     "gaps of the mesh, or bodies apart (Separate Body)"},
+                    {"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
+}
+
+Discretization read_discretization(const Values& deck, const fs::path& deck_file, Problems& problems) {
+  const Values& values = deck.section(name);
+  if (values[type] == MeshType::text && values[points] == Points::nodes) {
+    problems.add(values.path_to(points),
+                 "'Nodes'; a text file has points only: expected 'Elements' (nodes have Exodus meshes of hexahedra or "
+                 "tetrahedra)");
+  }
+  check_source(values, problems);
+  const auto mesh = values[mesh_file];
+  return {.type = values[type],
+          .mesh = mesh ? deck_file.parent_path() / *mesh : fs::path(),
+          .grid = read_grid(values.section(generator)),
+          .points = values[points],
+          .influence = values[influence],
+          .degenerate = values[degenerate]};
+}
+
+void check_mesh(const fs::path& mesh, Problems& problems) {
+  if (mesh.empty() || (fs::is_regular_file(mesh) && std::ifstream(mesh))) return;
+  const fs::path recipe = fs::path(mesh).replace_extension(".recipe");
+  const bool there = fs::exists(mesh);
+  std::string what = "'" + mesh.string() + (there ? "' is not a file that can be read" : "' does not exist");
+  if (!there && fs::exists(recipe)) what += " (tools/run makes it from " + recipe.string() + ")";
+  problems.add(path_to(name, mesh_file.name), what + "; expected a mesh, its path relative to the deck's folder");
+}
+
+}  // namespace strut::deck

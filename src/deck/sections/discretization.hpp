@@ -1,0 +1,38 @@
+// The section Discretization: where the points are.
+#pragma once
+
+#include <array>
+#include <filesystem>
+
+#include "base/math/tensors.hpp"
+#include "deck/forward.hpp"
+
+namespace strut::deck {
+
+enum class MeshType { exodus, text, grid };
+enum class Points { elements, nodes };
+enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
+enum class DegeneratePoints { error, drop };
+
+// Equal cells, with a point at the centre of each, x fastest.
+struct Grid {
+  Vector origin = Vector::Zero(), length = Vector::Ones();  // m
+  std::array<int, 3> points = {1, 1, 1};
+};
+
+struct Discretization {
+  MeshType type{};
+  std::filesystem::path mesh;  // as it can be opened: relative to the deck's folder in the deck
+  Grid grid;                   // in the place of a mesh
+  Points points{};             // where they are; nodes: of Exodus meshes only
+  Influence influence{};
+  DegeneratePoints degenerate{};
+};
+
+Section discretization_section();
+Discretization read_discretization(const Values& deck, const std::filesystem::path& deck_file, Problems& problems);
+
+// Whether the mesh can be opened.
+void check_mesh(const std::filesystem::path& mesh, Problems& problems);
+
+}  // namespace strut::deck

@@ -1,0 +1,15 @@
+// What has no meaning where nothing has inertia.
+#pragma once
+
+#include <vector>
+
+#include "deck/sections/conditions.hpp"
+#include "deck/sections/contact.hpp"
+#include "deck/sections/solver.hpp"
+
+namespace strut::deck {
+
+void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
+                        const std::vector<ContactModel>& contact_models, Problems& problems);
+
+}  // namespace strut::deck

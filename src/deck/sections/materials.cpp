@@ -1,0 +1,129 @@
+#include "deck/sections/materials.hpp"
+
+#include "deck/materials/constants.hpp"
+#include "deck/materials/laws.hpp"
+#include "deck/problems.hpp"
+#include "deck/values.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const char* const name = "Materials";
+
+// Of every law by correspondence.
+const ChoiceKey<Formulation> formulation(
+    {.name = "Formulation",
+     .fallback = "Correspondence",
+     .meaning = "How the deformation gradient is found: one for each point (Silling et al. 2007), or one "
+                "that is linear over the cell of each point, with the stress at four places of it. The "
+                "second is for struts and plates a few points thick; it has no zero-energy modes and "
+                "no stabilization. Its families are those of the mesh: elements that share a node, nodes "
+                "that share an element."},
+    {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
+
+const ChoiceKey<StabilizationType> stabilization(
+    {.name = "Stabilization",
+     .fallback = "Mean Gradient",
+     .meaning = "What holds zero-energy modes down: a spring in each bond on what the mean deformation "
+                "gradient of both ends, or (Silling) each end's own, does not see of it."},
+    {{"Mean Gradient", StabilizationType::mean_gradient},
+     {"Silling", StabilizationType::silling},
+     {"None", StabilizationType::none}});
+
+const RealKey stabilization_coefficient(
+    {.name = "Stabilization Coefficient",
+     .range = not_negative,
+     .fallback = "0.01",
+     .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for "
+                "every influence function and horizon. Not Peridigm's Hourglass Coefficient."});
+
+const RealKey linear_viscosity(
+    {.name = "Linear Viscosity",
+     .range = not_negative,
+     .fallback = "0",
+     .meaning = "b₁ of the artificial viscosity, which spreads shocks over some points: where the volume "
+                "shrinks at the rate D, a pressure ρ l |D| (b₁ c + b₂² l |D|). 0.06 is usual."});
+
+const RealKey quadratic_viscosity(
+    {.name = "Quadratic Viscosity", .range = not_negative, .fallback = "0", .meaning = "b₂. 1.2 is usual."});
+
+void check_needs_no_stabilization(const Values& values, Problems& problems) {
+  for (const Key& key : {Key(stabilization), Key(stabilization_coefficient)}) {
+    if (!values.given(key) || (values.has(stabilization) && values[stabilization] == StabilizationType::none)) continue;
+    problems.add(
+        values.path_to(key),
+        "given, but Formulation 'Quadratic Correspondence' has no zero-energy modes and takes none; expected no "
+        "such key");
+  }
+}
+
+void read_correspondence(const Values& values, Material& material, Problems& problems) {
+  material.formulation = values[formulation];
+  material.stabilization = values[stabilization];
+  material.linear_viscosity = values[linear_viscosity];
+  material.quadratic_viscosity = values[quadratic_viscosity];
+  material.stabilization_coefficient = values[stabilization_coefficient];
+  if (material.formulation != Formulation::quadratic) return;
+  material.stabilization = StabilizationType::none;
+  check_needs_no_stabilization(values, problems);
+}
+
+std::vector<Section> cases() {
+  std::vector<Section> all = schemas_of(laws());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!laws()[i].by_correspondence) continue;
+    all[i].keys.insert(all[i].keys.end(),
+                       {formulation, stabilization, stabilization_coefficient, linear_viscosity, quadratic_viscosity});
+  }
+  return all;
+}
+
+Key model() {
+  const std::string power_laws = "its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate";
+  return {.name = "Material Model",
+          .meaning = "The law; it decides on further keys.",
+          .hints = {{"Elastic Plastic", "did you mean 'Elastic Plastic Correspondence'?"},
+                    {"Viscoplastic Needleman Correspondence",
+                     "did you mean 'Elastic Plastic Correspondence'? " + power_laws}}};
+}
+
+Material read_material(const Values& values, Problems& problems) {
+  Material material{.name = values.name(), .density = read_density(values)};
+  const LawEntry* law = chosen_of(laws(), values);
+  if (!law) return material;
+  material.formulation = Formulation::ordinary;
+  if (law->by_correspondence) read_correspondence(values, material, problems);
+  material.law = law->make(values, problems);
+  return material;
+}
+
+}  // namespace
+
+Section materials_section() {
+  return {
+      .name = name,
+      .required = true,
+      .meaning = "The materials that blocks refer to.",
+      .sections = {with_cases(
+          {.name = any_name,
+           .required = true,
+           .meaning = "One material.",
+           .keys = constants_keys(),
+           .hints = {{"Hourglass Coefficient",
+                      "unknown key; 'Stabilization Coefficient' is its counterpart, but another quantity: in units of "
+                      "(λ + 2μ)/(tr K/3), and about twice the Hourglass Coefficient for the same effect"},
+                     {"Strain Hardening Exponent", "unknown key; write it as Hardening > Exponent (Type 'Power Law')"},
+                     {"Reference Strain 0", "unknown key; write it as Hardening > Reference Strain (Type 'Power Law')"},
+                     {"Rate Hardening Exponent", "unknown key; write it as Rate > Exponent (Type 'Power Law')"},
+                     {"Reference Strain Rate", "unknown key; write it as Rate > Reference Rate (Type 'Power Law')"}}},
+          model(), cases())}};
+}
+
+std::vector<Material> read_materials(const Values& deck, Problems& problems) {
+  std::vector<Material> all;
+  for (const Values& section : deck.section(name).sections()) all.push_back(read_material(section, problems));
+  return all;
+}
+
+}  // namespace strut::deck

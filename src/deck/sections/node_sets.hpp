@@ -1,0 +1,25 @@
+// The section Node Sets.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/math/function.hpp"
+#include "deck/forward.hpp"
+
+namespace strut::deck {
+
+// A node set made by the deck: the points whose reference position makes `where` non-zero, or those with the numbers.
+struct NodeSet {
+  std::string name;
+  Function where;
+  std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, rising, each once
+  std::filesystem::path file = {};               // that they were read from, if any
+};
+
+Section node_sets_section();
+std::vector<NodeSet> read_node_sets(const Values& deck, Problems& problems);
+
+}  // namespace strut::deck

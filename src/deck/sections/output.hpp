@@ -1,0 +1,25 @@
+// The section Output: the fields of the points in time.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "deck/forward.hpp"
+#include "deck/sections/solver.hpp"
+
+namespace strut::deck {
+
+struct Output {
+  bool enabled = false;
+  std::filesystem::path file;          // relative to the working folder in the deck, ".e" appended if it has no suffix
+  std::optional<int> frequency;        // every so many steps
+  std::optional<double> interval;      // or every so many seconds of the simulation
+  std::vector<std::string> variables;  // checked against the table of observables by simulation
+};
+
+Section output_section();
+Output read_output(const Values& deck, const Solver& solver, Problems& problems);
+
+}  // namespace strut::deck

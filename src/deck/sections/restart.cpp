@@ -1,0 +1,55 @@
+#include "deck/sections/restart.hpp"
+
+#include "deck/sections/from_peridigm.hpp"
+#include "deck/sections/when.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const char* const name = "Restart";
+
+const BooleanKey enabled({.name = "Enabled", .fallback = "true", .meaning = "False: none is written."});
+
+const OptionalKey<std::string> file(
+    {.name = "Filename",
+     .meaning = "Relative to the working folder. Where it is not given: the deck's name with the "
+                "suffix `.restart`."});
+
+const WhenKeys when;
+
+const RealKey minutes({.name = "Minutes",
+                       .unit = "min",
+                       .range = positive,
+                       .fallback = "30",
+                       .meaning = "And every so many minutes of computing."});
+
+}  // namespace
+
+Section restart_section() {
+  return {.name = name,
+          .meaning =
+              "What a run leaves so that `strut --continue deck.xml` can go on, on any number of ranks. It is "
+              "written at these times and when a signal ends the run. With this section it is written at the "
+              "end, too, so that the final time can be put off; without, every " +
+              *minutes.fallback +
+              " minutes, and removed at the "
+              "end.",
+          .keys = {enabled, file, when.frequency, when.interval, minutes,
+                   without_effect({.name = "Restart", .kind = Kind::boolean, .fallback = "true"},
+                                  "what it takes to go on is kept in any case, and `strut --continue deck.xml` does")}};
+}
+
+Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, Problems& problems) {
+  const Values& values = deck.section(name);
+  const std::filesystem::path of_deck = std::filesystem::path(deck_file.filename()).replace_extension(".restart");
+  const auto given_file = values[file];
+  Restart restart{.enabled = values[enabled],
+                  .asked_for = deck.has_section(name),
+                  .file = given_file ? std::filesystem::path(*given_file) : of_deck,
+                  .minutes = values[minutes]};
+  read_when(values, when, 0, restart, problems);
+  return restart;
+}
+
+}  // namespace strut::deck

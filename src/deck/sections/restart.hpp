@@ -1,0 +1,23 @@
+// The section Restart: what a run leaves so that it can go on.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "deck/forward.hpp"
+
+namespace strut::deck {
+
+struct Restart {
+  bool enabled{};
+  bool asked_for = false;          // the deck has the section: the file stays when the run is over
+  std::filesystem::path file;      // relative to the working folder; the deck's name with the suffix .restart
+  std::optional<int> frequency;    // every so many steps
+  std::optional<double> interval;  // or every so many seconds of the simulation
+  double minutes{};                // and every so many of the clock on the wall
+};
+
+Section restart_section();
+Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, Problems& problems);
+
+}  // namespace strut::deck

@@ -1,0 +1,126 @@
+#include "deck/sections/solver.hpp"
+
+#include "deck/numbers.hpp"
+#include "deck/sections/from_peridigm.hpp"
+#include "deck/sections/two_keys.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const char* const name = "Solver";
+const char* const own_solver = "equilibria are found in another way";
+
+const ChoiceKey<bool> with_tangent(
+    {.name = "Method",
+     .fallback = "Newton",
+     .meaning = "How an equilibrium is found: with the tangent, or by damped motion without it. Newton "
+                "falls back on the other where it fails."},
+    {{"Newton", true}, {"Dynamic Relaxation", false}});
+
+const IntegerKey load_steps({.name = "Number of Load Steps",
+                             .range = {.low = 1},
+                             .fallback = "10",
+                             .meaning = "Of equal length. One that finds no equilibrium is cut in halves."});
+
+const RealKey tolerance({.name = "Tolerance",
+                         .range = {.low = 0, .high = 1, .with_low = false, .with_high = false},
+                         .fallback = "1e-6",
+                         .meaning = "The forces that may be left, as a part of reactions, loads and contact."});
+
+const IntegerKey most_iterations({.name = "Maximum Solver Iterations",
+                                  .range = {.low = 1},
+                                  .fallback = "20",
+                                  .meaning = "Newton's, of one load step, before it is cut."});
+
+Section quasi_static_section() {
+  return {.name = "QuasiStatic",
+          .meaning =
+              "Slow loading in the place of Verlet: a series of equilibria, without inertia. Times are those of "
+              "the conditions; rates follow from them.",
+          .keys = {with_tangent, load_steps, tolerance, most_iterations,
+                   without_effect({.name = "Absolute Tolerance", .range = positive},
+                                  "what may be left is a part of the forces that act: Tolerance"),
+                   without_effect({.name = "Belos Linear Solver", .kind = Kind::text}, own_solver),
+                   without_effect({.name = "Disable Heuristics", .kind = Kind::boolean}, own_solver),
+                   without_effect({.name = "Damped Newton Diagonal Scale Factor"}, own_solver),
+                   without_effect({.name = "Damped Newton Diagonal Shift Factor"}, own_solver)},
+          .hints = {{"Adaptive Load-Stepping",
+                     "unknown section; a load step that finds no equilibrium is cut in halves by itself"}}};
+}
+const Section quasi_static = quasi_static_section();
+
+QuasiStatic read_quasi_static(const Values& values) {
+  return {.with_tangent = values[with_tangent],
+          .load_steps = values[load_steps],
+          .tolerance = values[tolerance],
+          .most_iterations = values[most_iterations]};
+}
+
+const OptionalKey<double> fixed_dt(
+    {.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "The same step always."});
+
+const RealKey safety_factor({.name = "Safety Factor",
+                             .range = {.low = 0, .high = 1, .with_low = false},
+                             .fallback = "0.8",
+                             .meaning = "The step as a part of the stable one, which follows the deformation."});
+
+const BooleanKey subcycling({.name = "Subcycling",
+                             .fallback = "true",
+                             .meaning = "Few points that would limit the step of all are stepped alone, more often. "
+                                        "None are with a fixed step."});
+
+const Section verlet = {.name = "Verlet",
+                        .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",
+                        .keys = {fixed_dt, safety_factor, subcycling}};
+
+const BooleanKey verbose({.name = "Verbose",
+                          .fallback = "false",
+                          .meaning = "With QuasiStatic, each iteration is told."});
+
+const RealKey initial_time({.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."});
+
+const RealKey final_time({.name = "Final Time", .unit = "s", .meaning = "When it ends: after the initial time."});
+
+void check_times(const Values& values, Problems& problems) {
+  if (!values.has(initial_time) || !values.has(final_time)) return;
+  const double begin = values[initial_time], end = values[final_time];
+  if (end > begin) return;
+  problems.add(values.path_to(final_time),
+               "'" + to_text(end) + "'; expected > Initial Time (" + to_text(begin) + "), in s");
+}
+
+}  // namespace
+
+Section solver_section() {
+  return {.name = name,
+          .required = true,
+          .meaning = "The time that is simulated, and its steps.",
+          .keys = {verbose, without_effect({.name = "Peridigm Preconditioner", .kind = Kind::text}, own_solver),
+                   without_effect({.name = "Finite Difference Probe Length", .range = positive}, own_solver),
+                   initial_time, final_time},
+          .sections = {verlet, quasi_static},
+          .hints = {{"Implicit", "unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia"}}};
+}
+
+Solver read_solver(const Values& deck, Problems& problems) {
+  const Values& values = deck.section(name);
+  const Values& steps = values.section(verlet.name);
+  Solver solver{.initial_time = values[initial_time],
+                .final_time = values[final_time],
+                .verbose = values[verbose],
+                .fixed_dt = steps[fixed_dt],
+                .safety_factor = steps[safety_factor],
+                .subcycling = steps[subcycling]};
+  if (values.has_section(quasi_static.name)) {
+    solver.quasi_static = read_quasi_static(values.section(quasi_static.name));
+    if (values.has_section(verlet.name)) {
+      problems.add(values.path(), "'Verlet' and 'QuasiStatic' are both given; expected one of them");
+    }
+  }
+  check_one_of(steps, fixed_dt, safety_factor, problems);
+  check_times(values, problems);
+  return solver;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,32 @@
+// The section Solver: the time that is simulated, and its steps.
+#pragma once
+
+#include <optional>
+
+#include "deck/forward.hpp"
+
+namespace strut::deck {
+
+// Loads without inertia.
+struct QuasiStatic {
+  bool with_tangent{};  // Newton; else dynamic relaxation
+  int load_steps{};
+  double tolerance{};
+  int most_iterations{};
+};
+
+struct Solver {
+  double initial_time{}, final_time = 0;    // s
+  bool verbose{};                           // each iteration of an equilibrium is told
+  std::optional<QuasiStatic> quasi_static;  // else explicit steps:
+  std::optional<double> fixed_dt;           // s; else from the critical time step
+  double safety_factor{};
+  bool subcycling{};
+
+  double duration() const { return final_time - initial_time; }
+};
+
+Section solver_section();
+Solver read_solver(const Values& deck, Problems& problems);
+
+}  // namespace strut::deck

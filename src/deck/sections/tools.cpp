@@ -1,0 +1,115 @@
+#include "deck/sections/tools.hpp"
+
+#include "deck/numbers.hpp"
+#include "deck/problems.hpp"
+#include "deck/values.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const RealKey friction(
+    {.name = "Friction Coefficient", .range = not_negative, .fallback = "0", .meaning = "Coulomb's."});
+
+OptionalKey<Function> travel_along(const std::string& axis) {
+  return OptionalKey<Function>({.name = "Travel " + axis,
+                                .unit = "m",
+                                .meaning = "How far it has gone along " + axis +
+                                           " at the time t (s), from where the other keys put it. Without: nowhere."});
+}
+const std::array<OptionalKey<Function>, 3> travel = {travel_along("X"), travel_along("Y"), travel_along("Z")};
+
+// A section of a tool: its shape's keys, and those that all have.
+Section tool(Section section) {
+  section.keys.push_back(friction);
+  section.keys.insert(section.keys.end(), travel.begin(), travel.end());
+  return section;
+}
+
+void read_tool(const Values& values, Condition& condition, Problems& problems) {
+  condition.friction = values[friction];
+  for (int c = 0; c < 3; ++c) {
+    condition.travel[c] = values[travel[c]];
+    if (!condition.travel[c] || !condition.travel[c]->depends_on_place()) continue;
+    problems.add(
+        values.path_to(travel[c]),
+        "'" + condition.travel[c]->text() + "' depends on x, y or z; expected a number or an expression in t, in m");
+  }
+}
+
+const VectorKey point_on_plane({.name = "Point", .unit = "m", .meaning = "On the plane."});
+const VectorKey normal({.name = "Normal", .meaning = "Of any length but zero."});
+
+Section plane(const std::string& type, const std::string& meaning) {
+  return {.name = type, .meaning = meaning, .keys = {point_on_plane, normal}};
+}
+
+const VectorKey point_on_axis({.name = "Point", .unit = "m", .meaning = "On the axis."});
+const VectorKey axis({.name = "Axis", .meaning = "Its direction, of any length but zero."});
+const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Of the roll."});
+
+const VectorKey lower({.name = "Lower Corner", .unit = "m", .meaning = "The smallest x, y, z."});
+const VectorKey upper({.name = "Upper Corner",
+                       .unit = "m",
+                       .meaning = "The largest x, y, z, each larger than that of the lower corner."});
+
+void check_corners(const Values& values, Problems& problems) {
+  if (!values.has(upper) || !values.has(lower)) return;
+  const Vector low = values[lower], high = values[upper];
+  if ((low.array() < high.array()).all()) return;
+  const auto text = [](const Vector& v) { return to_text(v[0]) + " " + to_text(v[1]) + " " + to_text(v[2]); };
+  problems.add(values.path_to(upper),
+               "'" + text(high) + "'; expected > Lower Corner (" + text(low) + ") in each component, in m");
+}
+
+}  // namespace
+
+Section symmetry_plane_section() { return plane("Symmetry Plane", "The points keep their distance to the plane."); }
+
+void read_plane(const Values& values, Condition& condition, Problems& problems) {
+  condition.point = values[point_on_plane];
+  condition.normal = read_direction(values, normal, problems);
+}
+
+Section rigid_plane_section() {
+  return tool(plane("Rigid Plane", "A wall: the points stay on the side the normal points to."));
+}
+
+void read_rigid_plane(const Values& values, Condition& condition, Problems& problems) {
+  read_plane(values, condition, problems);
+  read_tool(values, condition, problems);
+}
+
+Section rigid_cylinder_section() {
+  return tool({.name = "Rigid Cylinder",
+               .meaning = "A roll without ends: the points stay outside.",
+               .keys = {point_on_axis, axis, radius}});
+}
+
+void read_rigid_cylinder(const Values& values, Condition& condition, Problems& problems) {
+  condition.point = values[point_on_axis];
+  condition.axis = read_direction(values, axis, problems);
+  condition.radius = values[radius];
+  read_tool(values, condition, problems);
+}
+
+Section rigid_box_section() {
+  return tool({.name = "Rigid Box",
+               .meaning = "A solid block with faces across the axes and sharp edges: the points stay outside.",
+               .keys = {lower, upper}});
+}
+
+void read_rigid_box(const Values& values, Condition& condition, Problems& problems) {
+  condition.lower = values[lower];
+  condition.upper = values[upper];
+  read_tool(values, condition, problems);
+  check_corners(values, problems);
+}
+
+Vector read_direction(const Values& values, const VectorKey& key, Problems& problems) {
+  const Vector direction = values[key];
+  if (values.has(key) && direction.isZero(0)) problems.add(values.path_to(key), "is zero; expected a direction");
+  return direction;
+}
+
+}  // namespace strut::deck

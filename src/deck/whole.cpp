@@ -1,0 +1,37 @@
+#include "deck/whole.hpp"
+
+#include "deck/sections/blocks.hpp"
+#include "deck/sections/conditions.hpp"
+#include "deck/sections/contact.hpp"
+#include "deck/sections/discretization.hpp"
+#include "deck/sections/from_peridigm.hpp"
+#include "deck/sections/history.hpp"
+#include "deck/sections/materials.hpp"
+#include "deck/sections/node_sets.hpp"
+#include "deck/sections/output.hpp"
+#include "deck/sections/restart.hpp"
+#include "deck/sections/solver.hpp"
+#include "deck/sections/watch.hpp"
+
+namespace strut::deck {
+
+const Section& schema() {
+  static const std::string one_solver =
+      "unknown section; a deck has one 'Solver': runs in several parts are several decks";
+  static const Section whole = {
+      .meaning = "",
+      .keys = {verbose_without_effect()},
+      .sections = {discretization_section(), node_sets_section(), materials_section(), blocks_section(),
+                   contact_section(), conditions_section(), solver_section(), output_section(), history_section(),
+                   restart_section(), watch_section()},
+      .hints = {{"Damage Models", bonds_hold},
+                {"Interfaces", "unknown section; there are no interfaces between elements"},
+                {"Problem",
+                 "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "
+                 "deck itself"},
+                {"Solver1", one_solver},
+                {"Solver2", one_solver}}};
+  return whole;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,10 @@
+// The schema of a whole deck, put together from its sections.
+#pragma once
+
+#include "deck/schema.hpp"
+
+namespace strut::deck {
+
+const Section& schema();
+
+}  // namespace strut::deck
