@@ -15,6 +15,7 @@
 #include "base/math/rotation.hpp"
 #include "base/math/tensors.hpp"
 #include "materials/laws.hpp"
+#include "mechanics/stabilization/stabilization.hpp"
 #include "points/domain.hpp"
 #include "points/site.hpp"
 
@@ -31,10 +32,24 @@ enum class Influence { one, linear_decay, cubic_decay };
 //   cell, and these the force of each bond (quadratic_fit.hpp)
 enum class Formulation { correspondence, ordinary, quadratic };
 
-// What the force of a bond reads of an end by correspondence: A = P K⁻¹ − C F (columns), and C in the fourth lane of
-// the first column.
-struct alignas(32) ForceState {
+// What a bond reads of an end by correspondence: a tensor by columns, and in their fourth lanes up to three numbers.
+struct alignas(32) TensorRecord {
   Eigen::Array4d column[3];
+};
+
+// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none).
+struct ForceState : TensorRecord {
+  double& stiffness() { return column[0][3]; }
+  double stiffness() const { return column[0][3]; }
+};
+
+// F, and of the springs on the residual of both ends' gradients C, the share of the step at whose end they act, and
+// which stabilization they are (its place in the variant).
+struct GradientState : TensorRecord {
+  double& stiffness() { return column[0][3]; }
+  double stiffness() const { return column[0][3]; }
+  double& step_share() { return column[1][3]; }
+  double kind() const { return column[2][3]; }
 };
 
 // The same of an ordinary end, whose force state along the bond is t = ω (a |ξ| + b e).
@@ -53,9 +68,7 @@ struct alignas(64) QuadraticState {
 struct ForceStates {
   std::vector<ForceState> tensors;
   std::vector<ScalarState> scalars;
-  // F (columns), in the fourth lane of the first column C̄ and in that of the second the share of the step: what the
-  // stabilization by the mean gradient reads of an end. Empty where no block of the scene has it.
-  std::vector<ForceState> gradients;
+  std::vector<GradientState> gradients;  // empty where no block has a stabilization by the gradients of both ends
   std::vector<QuadraticState> quadratics;
 };
 
@@ -64,7 +77,7 @@ struct MaterialPoint {
   Tensor deformation_gradient = Tensor::Identity();  // F
   Rotation rotation;                                 // R
   Symmetric stress = Symmetric::Zero();              // unrotated Cauchy stress, Pa
-  double stabilization = 0;                          // C, or C̄ where that is by the mean gradient, Pa/m⁵
+  double stabilization = 0;                          // C of the stabilization, Pa/m⁵
 };
 
 // What an ordinary point has besides.
@@ -91,10 +104,9 @@ struct Viscosity {
 struct BlockMaterial {
   double density = 0;  // kg/m³
   materials::AnyLaw law;
-  double stabilization = 0;  // in units of (λ + 2μ)/(tr K/3); 0: none. Ordinary bonds need none, and have none
+  Stabilization stabilization = NoStabilization();  // by correspondence; other formulations need none
   Formulation formulation = Formulation::correspondence;
-  double mean_stabilization = 0;  // by the mean gradient of both ends, instead; unit as above
-  Viscosity viscosity = {};       // by correspondence
+  Viscosity viscosity = {};  // by correspondence
 };
 
 // The state of point k from columns of so many points.
@@ -136,17 +148,22 @@ struct MaterialBlock {
   typename L::State state_of(std::size_t place) const {
     return state_in<L>(state, law_points(), place);
   }
-  // Of points[k] as it is now, at its first place.
-  materials::Moduli moduli(std::size_t k) const {
-    return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(k)); }, material.law);
+  // Of a law point as it is now; of points[k] at its first place, which is k.
+  materials::Moduli moduli(std::size_t place) const {
+    return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); },
+                      material.law);
   }
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
   bool is_quadratic() const { return material.formulation == Formulation::quadratic; }
-  bool has_mean_gradient() const { return material.mean_stabilization > 0; }
-  bool has_springs() const { return material.stabilization > 0; }
-  // C of the springs of one of its points, which has none where it is stabilized by the mean gradient.
-  double springs_of(const MaterialPoint& point) const { return has_mean_gradient() ? 0 : point.stabilization; }
+  // Whether it has springs on such residuals (stabilization/residual.hpp).
+  bool has_springs(ResidualKind residual) const {
+    return residual_of(material.stabilization) == residual && coefficient_of(material.stabilization) > 0;
+  }
+  // C of the springs of one of its points on the residual of its own gradient.
+  double own_springs_of(const MaterialPoint& point) const {
+    return has_springs(ResidualKind::own_gradient) ? point.stabilization : 0;
+  }
 };
 
 class LatticeSums;
@@ -169,13 +186,16 @@ struct Body {
   std::vector<double> density;                // kg/m³
   std::vector<Vector> velocity;               // at mid-step, m/s
   std::vector<Vector> previous_velocity;      // at the mid-step before, m/s
-  std::vector<Vector> force_density;          // N/m³ of reference volume
+  // N/m³ of reference volume. From a stress update to the sum of forces that follows: what the points' own states give,
+  // to which the sum adds what the far ends of their bonds give.
+  std::vector<Vector> force_density;
+  Deduplicated<Vector> first_moment;  // Σ ω V ξ, m⁴
   // Where some points are stepped alone (subcycles.hpp), ghosts too: how often the step of a point's stress is halved.
   // Empty: no point's.
   std::vector<std::uint8_t> time_levels;
   // Current after a step with diagnostics:
   std::vector<double> residual;   // Σ ω V |η − F ξ|², m⁵, by correspondence
-  std::vector<double> mean_work;  // energy of the stabilization by the mean gradient, J/m³; empty where no block has it
+  std::vector<double> bond_work;  // energy of the springs on both ends' gradients, J/m³; empty where no block has them
 
   // Workspaces of the sums over the families on lattices, as domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
@@ -183,13 +203,14 @@ struct Body {
   int owned() const { return domain.owned; }
   // The step of a point's stress as a part of the one that is halved `order` times.
   double share(int i, int level = 0) const { return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]); }
-  // Energy of the stabilization, J/m³, as current as the residual: ½ C times it, or that by the mean gradient.
+  const MaterialBlock& block_of(int i) const { return blocks[domain.cloud.blocks[i]]; }
+  // Energy of the stabilization, J/m³, as current as the residual.
   double stabilization_work(int i) const {
-    return has_mean_gradient(i) ? mean_work[i] : 0.5 * points[i].stabilization * residual[i];
+    const bool in_bonds = block_of(i).has_springs(ResidualKind::both_gradients);
+    return in_bonds ? bond_work[i] : 0.5 * points[i].stabilization * residual[i];
   }
-  bool has_mean_gradient(int i) const { return blocks[domain.cloud.blocks[i]].has_mean_gradient(); }
-  bool has_springs() const {
-    return std::any_of(blocks.begin(), blocks.end(), [](const MaterialBlock& b) { return b.has_springs(); });
+  bool has_springs(ResidualKind residual) const {
+    return std::any_of(blocks.begin(), blocks.end(), [&](const MaterialBlock& b) { return b.has_springs(residual); });
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
   Vector current(int i) const { return domain.current(i); }
@@ -199,11 +220,5 @@ struct Body {
   }
   Vector displacement(int i) const { return current(i) - domain.reference(i); }
 };
-
-// Collective. Shape tensors, stabilization and undeformed state. `materials`: one for each block name of the cloud.
-Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials);
-
-// Bytes that the points and bonds of this rank take, for predictions.
-double footprint(const Body& body);
 
 }  // namespace strut

@@ -45,9 +45,7 @@ void keep_points(Archive& archive, Body& body) {
   // A failed point has none left.
   archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
   keep_numbers(archive, "residual", body.residual);
-  const auto has_mean_gradient = [](const MaterialBlock& block) { return block.has_mean_gradient(); };
-  if (std::any_of(body.blocks.begin(), body.blocks.end(), has_mean_gradient))
-    keep_numbers(archive, "mean_work", body.mean_work);
+  if (body.has_springs(ResidualKind::both_gradients)) keep_numbers(archive, "bond_work", body.bond_work);
 }
 
 // The law points of quadratic correspondence.

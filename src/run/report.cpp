@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/timing.hpp"
+#include "mechanics/make_body.hpp"
 
 namespace strut {
 

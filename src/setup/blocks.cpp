@@ -11,6 +11,17 @@ namespace strut {
 
 namespace {
 
+Stabilization stabilization_of(const deck::Material& material) {
+  switch (material.stabilization) {
+    case deck::StabilizationType::silling:
+      return SillingStabilization{material.stabilization_coefficient};
+    case deck::StabilizationType::mean_gradient:
+      return MeanGradientStabilization{material.stabilization_coefficient};
+    default:
+      return NoStabilization();
+  }
+}
+
 Formulation formulation_of(deck::Formulation formulation) {
   switch (formulation) {
     case deck::Formulation::ordinary:
@@ -56,15 +67,11 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
     const deck::Material& material = deck.materials[section_of(deck, name)->material];
-    const auto coefficient = [&material](deck::StabilizationType type) {
-      return material.stabilization == type ? material.stabilization_coefficient : 0.0;
-    };
     const bool ordinary = material.formulation == deck::Formulation::ordinary;
     materials.push_back({material.density,
                          material.law,
-                         coefficient(deck::StabilizationType::silling),
+                         ordinary ? NoStabilization() : stabilization_of(material),
                          formulation_of(material.formulation),
-                         ordinary ? 0.0 : coefficient(deck::StabilizationType::mean_gradient),
                          {material.linear_viscosity, material.quadratic_viscosity}});
   }
   return materials;

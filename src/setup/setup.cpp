@@ -3,6 +3,7 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "deck/problems.hpp"
+#include "mechanics/make_body.hpp"
 #include "points/partition.hpp"
 #include "setup/blocks.hpp"
 #include "setup/conditions.hpp"

@@ -15,13 +15,13 @@ enum Model { elastic_correspondence, plastic_correspondence, ordinary, plastic_m
 
 BlockMaterial copper(std::int64_t model) {
   const auto e = std::get<materials::Elastic>(elastic(110e9, 0.296));
-  if (model == elastic_correspondence) return {8960, e, 0.02};
-  if (model == ordinary) return {8960, e, 0, Formulation::ordinary};
+  if (model == elastic_correspondence) return {8960, e, SillingStabilization{0.02}};
+  if (model == ordinary) return {8960, e, {}, Formulation::ordinary};
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
   const materials::J2 law{e.bulk, e.shear, flow};
-  if (model == plastic_quadratic) return {8960, law, 0, Formulation::quadratic};
-  if (model == plastic_mean_gradient) return {8960, law, 0, Formulation::correspondence, 0.01};
-  return {8960, law, 0.02};
+  if (model == plastic_quadratic) return {8960, law, {}, Formulation::quadratic};
+  if (model == plastic_mean_gradient) return {8960, law, MeanGradientStabilization{0.01}};
+  return {8960, law, SillingStabilization{0.02}};
 }
 
 // Arguments: points along an edge, horizon in thousandths of a spacing, model, whether the families are lists though
@@ -84,19 +84,15 @@ void passes(benchmark::State& state) {
   std::vector<Vector> force(body.owned(), Vector::Zero());
   const auto gather = [&](const LaneGroups& groups) {
     for (int g = 0; g < groups.count(); ++g) {
-      auto moment = moments(groups[g], {sites}, bonds::One{}, &force);
+      auto moment = moments(groups[g], {sites}, true, bonds::One{});
       benchmark::DoNotOptimize(moment);
     }
   };
   const auto sum = [&](const LaneGroups& groups) {
     for (int g = 0; g < groups.count(); ++g) {
-      const Group group = groups[g];
-      const auto sums = forces(group, {sites}, states, true, bonds::One{});
-      for (int l = 0; l < group.count; ++l) {
-        const int i = group.i[l];
-        const double C = kind == FamilyKind::stencil ? states[i].column[0][3] : 0;
-        force[i] = at(sums, l) + C * force[i];
-      }
+      const LaneGroup group = groups[g];
+      const auto sums = far_forces(group, {sites}, states, true, bonds::One{});
+      for (int l = 0; l < group.count; ++l) force[group.i[l]] += at(sums, l);
     }
   };
   for (auto _ : state) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <random>
 
+#include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
 #include "points/partition.hpp"
 

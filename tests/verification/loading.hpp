@@ -22,7 +22,7 @@ inline materials::AnyLaw elastic_plastic(double slope = hardening) {
 
 inline LatticeSpec lattice_of(const Eigen::Array3i& cells, materials::AnyLaw law, double size = spacing) {
   LatticeSpec spec{cells, size, horizon};
-  spec.material = {.density = 1000, .law = std::move(law), .mean_stabilization = 0.01};
+  spec.material = {.density = 1000, .law = std::move(law), .stabilization = MeanGradientStabilization{0.01}};
   return spec;
 }
 

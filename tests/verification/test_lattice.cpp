@@ -51,9 +51,11 @@ Body body_of(const Case& c, FamilyKind families, const Communicator& world) {
   BlockBonds bonds(c.horizon * 1e-3);
   bonds.families = families;
   const materials::Elastic soft = std::get<materials::Elastic>(elastic(1e9, 0.3));
-  const bool both = c.silling > 0 && c.mean > 0;  // then one block has the one, and one the other
-  const BlockMaterial left{1000, soft, c.silling, {}, both ? 0 : c.mean},
-      right{2000, elastic(3e9, 0.2), both ? 0 : 2 * c.silling, {}, c.mean};
+  // Where both are asked for one block has the one, and one the other.
+  const Stabilization mean = MeanGradientStabilization{c.mean};
+  const Stabilization silling = SillingStabilization{c.silling}, twice = SillingStabilization{2 * c.silling};
+  const BlockMaterial left{1000, soft, c.silling > 0 ? silling : mean},
+      right{2000, elastic(3e9, 0.2), c.mean > 0 ? mean : twice};
   return make_body(make_domain(partitioned(porous_cloud(c, world), world), {bonds, bonds}, world), c.influence,
                    {left, right});
 }
@@ -164,9 +166,10 @@ TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
   };
   const bonds::LinearDecay decay;
   const auto sums_of = [&](const auto& family) {
-    return std::pair(bonds::force<true>(family, sites, states.tensors.data(),
-                                        bonds::own_state(family, states.tensors.data()), decay),
-                     bonds::residual(family, sites, states.gradients.data(), decay).force);
+    constexpr std::size_t kind = Stabilization(MeanGradientStabilization()).index();
+    return std::pair(
+        bonds::far_force<true>(family, sites, states.tensors.data(), decay),
+        bonds::residual<MeanGradientStabilization>(kind, family, sites, states.gradients.data(), decay).force);
   };
   std::size_t seen = 0;
   const ClusterLists& lists = body.domain.families.lists;

@@ -23,8 +23,8 @@ Body bar(double ratio, const BlockMaterial& like, FamilyKind families = FamilyKi
   return make_body(make_domain(partitioned(cloud, world), {bonds, bonds}, world), Influence::one, materials);
 }
 
-BlockMaterial stabilized(double silling, double mean) {
-  return {density, {}, silling, Formulation::correspondence, mean};
+BlockMaterial stabilized(const Stabilization& stabilization) {
+  return {density, {}, stabilization};
 }
 
 // The slowest motion that bends and stretches the bar at once.
@@ -106,7 +106,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 // Central differences and their impulses are of the second order: with half the step the difference to a run with
 // steps that resolve everything falls to a quarter, or by any more than to a third.
 TEST(MultiTimeStepping, ConvergeToTheFullRun) {
-  const BlockMaterial material = stabilized(0, 0.05);
+  const BlockMaterial material = stabilized(MeanGradientStabilization{0.05});
   const double time = 40 * slow_step;
   const std::vector<double> exact = swung(bar(40, material), {0.005 * slow_step, 0}, time);
   const double coarse = difference(swung(bar(40, material), {0, 0.6}, time), exact);
@@ -117,7 +117,7 @@ TEST(MultiTimeStepping, ConvergeToTheFullRun) {
 
 // Between steps a lattice is read bond by bond, in another order than by its sums.
 TEST(MultiTimeStepping, OfALatticeAreThoseOfLists) {
-  for (const BlockMaterial& material : {stabilized(0, 0.05), stabilized(0.05, 0)}) {
+  for (const BlockMaterial& material : {stabilized(MeanGradientStabilization{0.05}), stabilized(SillingStabilization{0.05})}) {
     const double time = 20 * slow_step;
     const auto stencil = swung(bar(40, material, FamilyKind::stencil), {0, 0.8}, time);
     const auto lists = swung(bar(40, material, FamilyKind::lists), {0, 0.8}, time);
@@ -129,7 +129,7 @@ TEST(MultiTimeStepping, OfALatticeAreThoseOfLists) {
 TEST(MultiTimeStepping, AreNotForABodyThatIsAlikeEverywhere) {
   const Communicator world;
   LatticeSpec spec{{9, 9, 9}, h, 3.015};
-  spec.material = {density, elastic(soft, 0.3), 0, Formulation::correspondence, 0.01};
+  spec.material = {density, elastic(soft, 0.3), MeanGradientStabilization{0.01}};
   Body body = lattice_body(spec, world);
   const CentralDifference solver(body, {}, {}, {}, 0);
   EXPECT_TRUE(body.time_levels.empty());

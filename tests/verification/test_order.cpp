@@ -9,7 +9,7 @@ namespace {
 constexpr double h = 0.1;
 
 LatticeSpec spec_of(double horizon) {
-  return {{7, 7, 7}, h, horizon, 0, Influence::one, {1000, elastic(1e9, 0.3), 0, Formulation::correspondence, 0.01}};
+  return {{7, 7, 7}, h, horizon, 0, Influence::one, {1000, elastic(1e9, 0.3), MeanGradientStabilization{0.01}}};
 }
 
 // F_xx − 1 under x → x + field(x), of the points whose x-layer is `layer`, less the exact slope there; the same for

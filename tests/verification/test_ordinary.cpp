@@ -17,11 +17,11 @@ namespace {
 constexpr double young = 1e9;
 
 BlockMaterial ordinary(double poisson, double density = 1000) {
-  return {density, elastic(young, poisson), 0, Formulation::ordinary};
+  return {density, elastic(young, poisson), {}, Formulation::ordinary};
 }
 
 BlockMaterial by_correspondence(double poisson, double density = 1000) {
-  return {density, elastic(young, poisson), 0.05};
+  return {density, elastic(young, poisson), SillingStabilization{0.05}};
 }
 
 materials::Moduli moduli_of(const LatticeSpec& spec) {

@@ -21,7 +21,7 @@ Tensor next_rotation(const Tensor& R, const Tensor& F) {
 TEST(Rotation, FullTurnLeavesNoStress) {
   const Communicator world;
   const double young = 110e9;
-  LatticeSpec spec{{6, 6, 7}, 1e-3, 2.5, 0.1, Influence::one, {8960, elastic(young, 0.296), 0.02}};
+  LatticeSpec spec{{6, 6, 7}, 1e-3, 2.5, 0.1, Influence::one, {8960, elastic(young, 0.296), SillingStabilization{0.02}}};
   Body body = lattice_body(spec, world);
   const int steps = 72;  // of 5°
   for (int n = 1; n <= steps; ++n) {
@@ -39,7 +39,7 @@ TEST(Rotation, FullTurnLeavesNoStress) {
 TEST(Rotation, StressTurnsWithTheBody) {
   // Stretched first, then turned: the unrotated stress stays, the Cauchy stress turns.
   const Communicator world;
-  LatticeSpec spec{{5, 5, 5}, 1.0, 2.015, 0, Influence::one, {1000, elastic(1e9, 0.25), 0}};
+  LatticeSpec spec{{5, 5, 5}, 1.0, 2.015, 0, Influence::one, {1000, elastic(1e9, 0.25)}};
   Body body = lattice_body(spec, world);
   const Tensor stretch = Vector(1.01, 0.995, 1.002).asDiagonal();
   deform(body, [&](const Vector& X) -> Vector { return stretch * X; });

@@ -29,6 +29,8 @@ template <class L, class Weight>
 struct Update {
   LawUpdate<L> law;
   Weight weight;
+  bool with_springs;    // on their own gradient, of any point of the scene
+  bool with_gradients;  // the block has springs on both ends' gradients
 
   Body& body() const { return law.body; }
   MaterialBlock& block() const { return law.block; }
@@ -50,28 +52,28 @@ struct Update {
 
   void drop_forces(const LaneGroup& g, int l) const {
     const int i = g.i[l];
-    body().force_states.tensors[i] = bonds::packed(Tensor::Zero(), 0);
-    if (block().has_mean_gradient()) {
-      body().force_states.gradients[i] =
-          bonds::packed(body().points[i].deformation_gradient, 0, body().share(i, law.pass.order));
-    }
+    body().force_states.tensors[i] = bonds::force_state(Tensor::Zero(), 0);
+    body().force_density[i].setZero();
+    store_gradient(i, 0, body().share(i, law.pass.order));
+  }
+
+  // What the springs on both ends' gradients read.
+  void store_gradient(int i, double C, double share) const {
+    if (!with_gradients) return;
+    body().force_states.gradients[i] =
+        bonds::gradient_state(body().points[i].deformation_gradient, C, share, block().material.stabilization);
   }
 
   void store_point(const LawPoints& g, int l, const Deformed& now, const LaneTensor& A, double C, double share) const {
     law.store(g, l, now);
     const int i = g.group.i[l];
-    body().force_states.tensors[i] = bonds::packed(at(A, l), share * C);
-    if (block().has_mean_gradient()) {
-      const MaterialPoint& point = body().points[i];
-      body().force_states.gradients[i] = bonds::packed(point.deformation_gradient, point.stabilization, share);
-    }
+    body().force_states.tensors[i] = bonds::force_state(at(A, l), C);
+    store_gradient(i, body().points[i].stabilization, share);
   }
 
-  // F of the points of a group; on lattices the pull of their springs is put aside for the forces.
-  LaneTensor deformation_gradient(const LaneGroup& g, const LaneSymmetric& shape_inverse) const {
-    const LaneTensor N = moments(g, {body().domain.sites.data()}, weight, &body().force_density);
+  LaneTensor deformation_gradient(const LaneGroup& g, const LaneTensor& N, const LaneSymmetric& shape_inverse) const {
     LaneTensor F = small::product(N, small::full(shape_inverse));
-    if (!g.cluster) {
+    if (!g.cluster) {  // of displacements
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
     }
     return F;
@@ -81,11 +83,13 @@ struct Update {
   double advance(const LaneGroup& group) const {
     const LawPoints g = members(group);
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
-    const LaneTensor F = deformation_gradient(group, shape_inverse);
+    const auto [N, pull] = moments(group, {body().domain.sites.data()}, with_springs, weight);
+    const LaneTensor F = deformation_gradient(group, N, shape_inverse);
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
     const Deformed now = law.advance(g, F, share);
-    const Lanes C = lanes_of([&](int l) { return block().springs_of(*g.points[l]); });
+    const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);
+    const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);
     const Lanes volume = lanes_of([&](int l) { return body().domain.volume(group.i[l]); });
     const Lanes pace2 =
         share * share * volume * squared_speed(now) * (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
@@ -100,7 +104,8 @@ struct Update {
         drop_forces(group, l);
         continue;
       }
-      store_point(g, l, now, A, C[l], share[l]);
+      store_point(g, l, now, A, shared_C[l], share[l]);
+      body().force_density[group.i[l]] = at(own, l);
       fastest = std::max(fastest, pace2[l]);
     }
     return fastest;
@@ -127,7 +132,11 @@ void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, co
   bonds::with_influence(body.influence, [&](auto weight) {
     const auto advance = [&]<class L>(const L& law) {
       WorstFailure failure;
-      advance_groups(Update<L, decltype(weight)>{{body, block, law, pass, failure}, weight}, groups, report);
+      const Update<L, decltype(weight)> update{{body, block, law, pass, failure},
+                                               weight,
+                                               body.has_springs(ResidualKind::own_gradient),
+                                               block.has_springs(ResidualKind::both_gradients)};
+      advance_groups(update, groups, report);
     };
     std::visit(advance, block.material.law);
   });

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "mechanics/kernels/lane_groups.hpp"
-#include "mechanics/mechanics.hpp"
+#include "mechanics/step_report.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -51,10 +51,13 @@ void add_damping(const MaterialBlock& block, const StressPass& pass, const LaneG
 // Σ ω V |y_j − y_i − F ξ|², the least-squares residual of F; on a lattice from its squares.
 void diagnose_residuals(Body& body, const LaneGroups& groups);
 
-// What a residual of the mean gradient takes from A by way of F: ½ M K⁻¹.
-inline void take_residual(ForceState& state, const Tensor& moment, const Symmetric& shape_inverse) {
-  const Tensor share = 0.5 * moment * to_tensor(shape_inverse);
-  for (int c = 0; c < 3; ++c) state.column[c].head<3>() -= share.col(c).array();
+// Adds the springs on the residual of both ends' gradients to a point: their force, and what they take from A by way of
+// F, ½ M K⁻¹. `own_force`: what the point's own state gives to the force on it.
+inline void add_residual(const Vector& force, const Tensor& moment, const Symmetric& shape_inverse,
+                         const Vector& first_moment, ForceState& state, Vector& own_force) {
+  const Tensor taken = 0.5 * moment * to_tensor(shape_inverse);
+  for (int c = 0; c < 3; ++c) state.column[c].head<3>() -= taken.col(c).array();
+  own_force += force - taken * first_moment;
 }
 
 // The state of the bonds of an ordinary point of dilatation θ and weighted volume m.

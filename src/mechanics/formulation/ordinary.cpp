@@ -27,6 +27,7 @@ void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneG
       const double m = point.weighted_volume;
       point.dilatation = 3 * moment[l] / m;
       body.force_states.scalars[group.i[l]] = scalar_state(moduli, point.dilatation, m);
+      body.force_density[group.i[l]].setZero();  // bonds turn: nothing is known of their sums before
       if (!std::isfinite(point.dilatation)) failure.report(group.k[l], Failure::Kind::not_finite);
     }
   });
@@ -48,7 +49,7 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
     const LaneGroup group = groups[g];
     const bonds::OfCluster family{*group.cluster};
     const bonds::Lanes squares = bonds::squared_extensions(family, body.domain.sites.data(), weight);
-    const auto N = bonds::gather(family, body.domain.sites.data(), weight);
+    const auto N = bonds::gather<false>(family, body.domain.sites.data(), weight).tensor;
     for (int l = 0; l < group.count; ++l) {
       OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
       ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);

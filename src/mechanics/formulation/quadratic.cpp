@@ -81,6 +81,10 @@ struct Update {
       speed2 = speed2.max(squared_speed(now));
     }
     cells.store(group, share, body().force_states.quadratics);
+    for (int l = 0; l < group.count; ++l) {
+      const int i = group.i[l];
+      body().force_density[i] = bonds::quadratic_own_force(body().force_states.quadratics[i], (*body().fits)[i]);
+    }
     return report(group, determinant, share * share * cells.volume() * cells.steepness() * speed2);
   }
 
@@ -95,6 +99,7 @@ struct Update {
         const bool is_number = !std::isnan(determinant[l]);
         law.failure.report(group.k[l], is_number ? Failure::Kind::inverted : Failure::Kind::not_finite);
         body().force_states.quadratics[group.i[l]] = {};
+        body().force_density[group.i[l]].setZero();
       }
     }
     return fastest;

@@ -13,6 +13,7 @@ namespace strut {
 
 using small::Lanes, small::lanes_of;
 using LaneTensor = small::Tensor3<Lanes>;
+using LaneVector = small::Vector3<Lanes>;
 using LaneSymmetric = small::Symmetric3<Lanes>;
 
 // The law points of a group: one for each of its points.

@@ -1,12 +1,16 @@
-// The sums over a family that correspondence peridynamics needs, and the choice of ω outside of them.
-//   gather:  N = Σ ω V_j (y_j − y_i) ⊗ ξ                                              (F = N K⁻¹)
-//   pull:    Σ ω V_j (y_j − y_i)
-//   force:   f_i = Σ ω V_j [ (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i) ],  ξ = X_j − X_i
-// and, between them, the one of the stabilization by the mean gradient:
-//   residual: Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ,  z = (y_j − y_i) − ½ (F_i + F_j) ξ
+// The sums over a family that correspondence peridynamics needs, and the choice of ω outside of them. The formula of a
+// bond stands here, for neighbor lists of whole steps and of substeps alike; on lattices the same sums are convolutions
+// (lattice_sums.hpp).
+//   gather:    N = Σ ω V_j (y_j − y_i) ⊗ ξ,  ξ = X_j − X_i                            (F = N K⁻¹)
+//              and Σ ω V_j (y_j − y_i), by which the springs of a point on its own gradient pull at it
+//   far force: Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]
+// The force of a bond is (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i). What a point's own state gives, A_i Σ ω V_j ξ and C_i
+// Σ ω V_j (y_j − y_i), takes no loop over bonds (own_force).
+//   residual:  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ, with the force t of a stabilization on z = (y_j − y_i) − ½ (F_i + F_j)
+//   ξ
 // Each is written once for any kind of family: that of one point (OfPoint), or those of the points of a cluster side by
-// side (OfBundle), where a far end is read once for all of them and 0 stands for those who do not have it in their
-// family. Terms are added in the order of the family, so that a sum does not depend on who else is in a cluster.
+// side (OfCluster, SIMD), where a far end is read once for all of them and 0 stands for those who do not have it in
+// their family. Terms are added in the order of the family, so that a sum does not depend on who else is in a cluster.
 // The sums of ordinary points: ordinary_bonds.hpp.
 #pragma once
 
@@ -168,75 +172,70 @@ inline void over(const Family& family, const Site* sites, Weight, Visit&& visit)
 
 // ---- The sums ------------------------------------------------------------------------------------------------------
 
-template <class Family, class Weight>
-inline Tensor3<ScalarOf<Family>> gather(const Family& family, const Site* sites, Weight weight) {
+template <class T>
+struct Moments {
+  Tensor3<T> tensor = zero_tensor<T>();  // N
+  Vector3<T> pull = zero_vector<T>();    // Σ ω V_j (y_j − y_i), where it is asked for
+};
+
+template <bool with_pull, class Family, class Weight>
+inline Moments<ScalarOf<Family>> gather(const Family& family, const Site* sites, Weight weight) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, sites, &Site::current);
-  Tensor3<T> N = zero_tensor<T>();
+  Moments<T> sums;
   over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
     const Vector3<T> eta = apart(sites[j].current, y);
     for (int r = 0; r < 3; ++r) {
       const T weighted = w * eta.c[r];
-      for (int c = 0; c < 3; ++c) N.c[r][c] += weighted * xi.c[c];
+      if constexpr (with_pull) sums.pull.c[r] += weighted;
+      for (int c = 0; c < 3; ++c) sums.tensor.c[r][c] += weighted * xi.c[c];
     }
   });
-  return Tensor3<T>(N);  // a copy: kept in registers while it is added up
+  return Moments<T>(sums);  // a copy: kept in registers while it is added up
 }
 
-// Σ ω V_j (y_j − y_i), the pull on a point of its own springs, less C_i.
+// Σ ω V ξ
 template <class Family, class Weight>
-inline Vector3<ScalarOf<Family>> pull(const Family& family, const Site* sites, Weight weight) {
+inline Vector3<ScalarOf<Family>> first_moment(const Family& family, const Site* sites, Weight weight) {
   using T = ScalarOf<Family>;
-  const Vector3<T> y = own_place(family, sites, &Site::current);
   Vector3<T> sum = zero_vector<T>();
-  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>&, const auto&) {
-    const Vector3<T> eta = apart(sites[j].current, y);
-    for (int c = 0; c < 3; ++c) sum.c[c] += w * eta.c[c];
+  over(family, sites, weight, [&](int, const T& w, const Vector3<T>& xi, const auto&) {
+    for (int c = 0; c < 3; ++c) sum.c[c] += w * xi.c[c];
   });
-  return Vector3<T>(sum);  // a copy: kept in registers while it is added up
+  return sum;
 }
 
-// A and C, or F, C̄ and the share of the step, of the points.
-template <class T>
-struct OwnState {
-  Tensor3<T> tensor;
-  T scalar, share;
-};
-
-template <class Family>
-OwnState<ScalarOf<Family>> own_state(const Family& family, const ForceState* states) {
-  const auto numbers = family.template own<12>([&](int i) { return states[i].column[0].data(); });
-  OwnState<ScalarOf<Family>> state;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) state.tensor.c[r][c] = numbers[4 * c + r];
-  }
-  state.scalar = numbers[3], state.share = numbers[7];
-  return state;
-}
-
-// with_springs: whether any point of the scene has C. `own`: of the points, or zero for what the far ends give.
+// Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]. with_springs: whether any point of the scene has C.
 template <bool with_springs, class Family, class Weight>
-inline Vector3<ScalarOf<Family>> force(const Family& family, const Site* sites, const ForceState* states,
-                                       const OwnState<ScalarOf<Family>>& own, Weight weight) {
+inline Vector3<ScalarOf<Family>> far_force(const Family& family, const Site* sites, const ForceState* states,
+                                           Weight weight) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, sites, &Site::current);
-  const OwnState<T> here = own;
   Tensor3<T> by_axis = zero_tensor<T>();  // by the component of ξ: so many chains of additions are under way
   Vector3<T> springs = zero_vector<T>();
   over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
     const ForceState& there = states[j];
     for (int c = 0; c < 3; ++c) {
       const T weighted = w * xi.c[c];
-      for (int r = 0; r < 3; ++r) by_axis.c[r][c] += (here.tensor.c[r][c] + there.column[c][r]) * weighted;
+      for (int r = 0; r < 3; ++r) by_axis.c[r][c] += there.column[c][r] * weighted;
     }
     if constexpr (with_springs) {
       const Vector3<T> eta = apart(sites[j].current, y);
-      const T stiffness = w * (here.scalar + there.column[0][3]);
+      const T stiffness = w * there.stiffness();
       for (int c = 0; c < 3; ++c) springs.c[c] += stiffness * eta.c[c];
     }
   });
   Vector3<T> sum;
   for (int r = 0; r < 3; ++r) sum.c[r] = by_axis.c[r][0] + by_axis.c[r][1] + by_axis.c[r][2] + springs.c[r];
+  return sum;
+}
+
+// A Σ ω V ξ + C Σ ω V (y_j − y_i), of what the sums are known already.
+template <class T>
+inline Vector3<T> own_force(const Tensor3<T>& A, const T& C, const Vector3<T>& first_moment, const Vector3<T>& pull) {
+  const Vector3<T>& S = first_moment;
+  Vector3<T> sum;
+  for (int r = 0; r < 3; ++r) sum.c[r] = A.c[r][0] * S.c[0] + A.c[r][1] * S.c[1] + A.c[r][2] * S.c[2] + C * pull.c[r];
   return sum;
 }
 
@@ -256,77 +255,119 @@ inline ScalarOf<Family> squared_residual(const Family& family, const Site* sites
   return sum;
 }
 
-// ---- The mean gradient's residual ----------------------------------------------------------------------------------
+// ---- The residual of both ends' gradients --------------------------------------------------------------------------
 
-// Calls visit(ω V_j C_ij less the share, z, ξ, share) over a family: what the mean gradient of both ends does not see
-// of their bond, z = (y_j − y_i) − ½ (F_i + F_j) ξ. A bond is as stiff as its softer end: C_ij = 2 min(C̄_i, C̄_j), none
-// to a point that has none. It acts at the steps of the end whose step is halved less often, so with the greater share
-// of a step.
-template <class Family, class Weight, class Visit>
-inline void over_residuals(const Family& family, const Site* places, const ForceState* gradients, Weight weight,
-                           Visit&& visit) {
+// F, C and the share of the step of the points.
+template <class T>
+struct OwnGradient {
+  Tensor3<T> F;
+  T stiffness, step_share;
+};
+
+// C of a record, where its stabilization is the one at `kind`; where there is one only, none is asked.
+template <class T>
+T stiffness_of(std::size_t kind, const T& stiffness, const T& of_kind) {
+  if constexpr (bond_stabilizations == 1) return stiffness;
+  if constexpr (std::is_same_v<T, double>) {
+    return of_kind == static_cast<double>(kind) ? stiffness : 0;
+  } else {
+    return (of_kind == static_cast<double>(kind)).select(stiffness, T::Zero());
+  }
+}
+
+template <class Family>
+OwnGradient<ScalarOf<Family>> own_gradient(const Family& family, const GradientState* states, std::size_t kind) {
+  const auto numbers = family.template own<12>([&](int i) { return states[i].column[0].data(); });
+  OwnGradient<ScalarOf<Family>> own;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) own.F.c[r][c] = numbers[4 * c + r];
+  }
+  own.stiffness = stiffness_of(kind, numbers[3], numbers[11]), own.step_share = numbers[7];
+  return own;
+}
+
+// Calls visit(ω V_j t less the share, z, ξ, share) over a family, with the force t of the stabilization S, which is the
+// one at `kind`. It acts at the steps of the end whose step is halved less often, so with the greater share of a step.
+template <class S, class Family, class Weight, class Visit>
+inline void over_residuals(std::size_t kind, const Family& family, const Site* places, const GradientState* gradients,
+                           Weight weight, Visit&& visit) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, places, &Site::current);
-  const OwnState<T> here = own_state(family, gradients);
-  const Tensor3<T>& F = here.tensor;
+  const OwnGradient<T> here = own_gradient(family, gradients, kind);
+  const Tensor3<T>& F = here.F;
   over(family, places, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
-    const ForceState& there = gradients[j];
+    const GradientState& there = gradients[j];
     Vector3<T> z = apart(places[j].current, y);
     for (int r = 0; r < 3; ++r) {
       const T fitted = (F.c[r][0] + there.column[0][r]) * xi.c[0] + (F.c[r][1] + there.column[1][r]) * xi.c[1] +
                        (F.c[r][2] + there.column[2][r]) * xi.c[2];
       z.c[r] -= 0.5 * fitted;
     }
-    const double far_C = there.column[0][3], far_share = there.column[1][3];
+    const double far_C = stiffness_of(kind, there.stiffness(), there.kind()), far_share = there.column[1][3];
+    T stiffness, share;
     if constexpr (std::is_same_v<T, double>) {
-      visit(2 * w * std::min(here.scalar, far_C), z, xi, std::max(here.share, far_share));
+      stiffness = 2 * w * std::min(here.stiffness, far_C), share = std::max(here.step_share, far_share);
     } else {
-      visit(T(2 * w * here.scalar.min(far_C)), z, xi, T(here.share.max(far_share)));
+      stiffness = 2 * w * here.stiffness.min(far_C), share = here.step_share.max(far_share);
     }
+    visit(S::bond_force(stiffness, z, xi), z, xi, share);
   });
 }
 
 template <class T>
 struct Residual {
-  Vector3<T> force;   // Σ ω V_j C_ij z, N/m³
-  Tensor3<T> moment;  // M = Σ ω V_j C_ij z ⊗ ξ, Pa
+  Vector3<T> force;   // Σ ω V_j t, N/m³
+  Tensor3<T> moment;  // M = Σ ω V_j t ⊗ ξ, Pa
 };
 
-template <class Family, class Weight>
-inline Residual<ScalarOf<Family>> residual(const Family& family, const Site* places, const ForceState* gradients,
-                                           Weight weight) {
+template <class S, class Family, class Weight>
+inline Residual<ScalarOf<Family>> residual(std::size_t kind, const Family& family, const Site* places,
+                                           const GradientState* gradients, Weight weight) {
   using T = ScalarOf<Family>;
   Residual<T> sums{zero_vector<T>(), zero_tensor<T>()};
-  over_residuals(family, places, gradients, weight,
-                 [&](const T& stiffness, const Vector3<T>& z, const Vector3<T>& xi, const T& share) {
-                   for (int r = 0; r < 3; ++r) {
-                     const T t = share * stiffness * z.c[r];
-                     sums.force.c[r] += t;
-                     for (int c = 0; c < 3; ++c) sums.moment.c[r][c] += t * xi.c[c];
-                   }
-                 });
+  over_residuals<S>(kind, family, places, gradients, weight,
+                    [&](const Vector3<T>& force, const Vector3<T>&, const Vector3<T>& xi, const T& share) {
+                      for (int r = 0; r < 3; ++r) {
+                        const T t = share * force.c[r];
+                        sums.force.c[r] += t;
+                        for (int c = 0; c < 3; ++c) sums.moment.c[r][c] += t * xi.c[c];
+                      }
+                    });
   return Residual<T>(sums);  // a copy: kept in registers while it is added up
 }
 
-// ½ Σ ω V_j ½ C_ij |z|², a point's half of the energy, J/m³.
-template <class Family, class Weight>
-inline ScalarOf<Family> residual_energy(const Family& family, const Site* places, const ForceState* gradients,
-                                        Weight weight) {
+// ½ Σ ω V_j ½ z·t, a point's half of the energy, J/m³.
+template <class S, class Family, class Weight>
+inline ScalarOf<Family> residual_energy(std::size_t kind, const Family& family, const Site* places,
+                                        const GradientState* gradients, Weight weight) {
   using T = ScalarOf<Family>;
   T sum = zero_vector<T>().c[0];
-  over_residuals(
-      family, places, gradients, weight,
-      [&](const T& stiffness, const Vector3<T>& z, const Vector3<T>&, const T&) { sum += stiffness * dot(z, z); });
+  over_residuals<S>(
+      kind, family, places, gradients, weight,
+      [&](const Vector3<T>& force, const Vector3<T>& z, const Vector3<T>&, const T&) { sum += dot(force, z); });
   return 0.25 * sum;
 }
 
-// ---- Force states --------------------------------------------------------------------------------------------------
+// ---- Records -------------------------------------------------------------------------------------------------------
 
-inline ForceState packed(const Tensor& A, double stabilization, double share = 0) {
+inline void pack_tensor(const Tensor& tensor, TensorRecord& record) {
+  for (int c = 0; c < 3; ++c) record.column[c] << tensor.col(c).array(), 0;
+}
+
+inline ForceState force_state(const Tensor& A, double stiffness) {
   ForceState state;
-  for (int c = 0; c < 3; ++c) state.column[c] << A.col(c).array(), 0;
-  state.column[0][3] = stabilization;
-  state.column[1][3] = share;
+  pack_tensor(A, state);
+  state.stiffness() = stiffness;
+  return state;
+}
+
+inline GradientState gradient_state(const Tensor& F, double stiffness, double step_share,
+                                    const Stabilization& stabilization) {
+  GradientState state;
+  pack_tensor(F, state);
+  state.stiffness() = stiffness;
+  state.step_share() = step_share;
+  state.column[2][3] = static_cast<double>(stabilization.index());
   return state;
 }
 

@@ -116,38 +116,44 @@ class LaneGroups {
 // K = Σ ω V_j ξ ⊗ ξ, of sites in the reference state.
 template <class Weight>
 small::Tensor3<small::Lanes> shapes(const LaneGroup& group, const Site* sites, Weight weight) {
-  if (group.cluster) return bonds::gather(bonds::OfCluster{*group.cluster}, sites, weight);
+  if (group.cluster) return bonds::gather<false>(bonds::OfCluster{*group.cluster}, sites, weight).tensor;
   return group.chunk->shapes(group.lane_indices());
 }
 
-// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K. In a chunk of a lattice, of the places without the identity,
-// and the pull of springs, Σ ω V_j (v_j − v_i), is put in `pulls` for the sum of forces.
+// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K; in a chunk of a lattice, of the places without the identity.
+// with_springs: whether any point of the scene has springs on its own gradient, whose pull is asked for.
 template <class Weight>
-small::Tensor3<small::Lanes> moments(const LaneGroup& group, const Displacements& u, Weight weight,
-                                     std::vector<Vector>* pulls = nullptr) {
-  if (group.cluster) return bonds::gather(bonds::OfCluster{*group.cluster}, u.sites, weight);
-  return group.chunk->moments(group.lane_indices(), u, pulls);
+bonds::Moments<small::Lanes> moments(const LaneGroup& group, const Displacements& u, bool with_springs, Weight weight) {
+  if (!group.cluster) return group.chunk->moments(group.lane_indices(), u);
+  const bonds::OfCluster family{*group.cluster};
+  return with_springs ? bonds::gather<true>(family, u.sites, weight) : bonds::gather<false>(family, u.sites, weight);
 }
 
-// The mean gradient's residual.
-template <class Weight>
-bonds::Residual<small::Lanes> residuals(const LaneGroup& group, const Site* places,
-                                        const std::vector<ForceState>& gradients, Weight weight) {
-  if (group.cluster) return bonds::residual(bonds::OfCluster{*group.cluster}, places, gradients.data(), weight);
+// The residual of both ends' gradients, held down by the stabilization S.
+template <class S, class Weight>
+bonds::Residual<small::Lanes> residuals(std::size_t kind, const LaneGroup& group, const Site* places,
+                                        const std::vector<GradientState>& gradients, Weight weight) {
+  if (group.cluster) {
+    return bonds::residual<S>(kind, bonds::OfCluster{*group.cluster}, places, gradients.data(), weight);
+  }
   return {group.chunk->residual_forces(group.lane_indices()), group.chunk->residual_moments(group.lane_indices())};
 }
 
-// with_springs: whether any point of the scene has C. In a chunk of a lattice without C_i times the pull.
+// What the far ends give.
 template <class Weight>
-small::Vector3<small::Lanes> forces(const LaneGroup& group, const Displacements& u,
-                                    const std::vector<ForceState>& states, bool with_springs, Weight weight) {
-  if (group.cluster) {
-    const bonds::OfCluster family{*group.cluster};
-    const auto own = bonds::own_state(family, states.data());
-    return with_springs ? bonds::force<true>(family, u.sites, states.data(), own, weight)
-                        : bonds::force<false>(family, u.sites, states.data(), own, weight);
-  }
-  return group.chunk->forces(group.lane_indices(), u, states);
+small::Vector3<small::Lanes> far_forces(const LaneGroup& group, const Displacements& u,
+                                        const std::vector<ForceState>& states, bool with_springs, Weight weight) {
+  if (!group.cluster) return group.chunk->forces(group.lane_indices(), u);
+  const bonds::OfCluster family{*group.cluster};
+  return with_springs ? bonds::far_force<true>(family, u.sites, states.data(), weight)
+                      : bonds::far_force<false>(family, u.sites, states.data(), weight);
+}
+
+// Σ ω V ξ
+inline small::Vector3<small::Lanes> first_moments(const LaneGroup& group, const Deduplicated<Vector>& moments) {
+  return {{small::lanes_of([&](int l) { return moments[group.i[l]][0]; }),
+           small::lanes_of([&](int l) { return moments[group.i[l]][1]; }),
+           small::lanes_of([&](int l) { return moments[group.i[l]][2]; })}};
 }
 
 }  // namespace strut

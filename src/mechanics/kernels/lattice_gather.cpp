@@ -253,24 +253,21 @@ void LatticeSums::moments(const Displacements& u, const Take& take) {
 }
 
 // The pull is S + q − W u_i over the family and the point itself, of a field without S.
-LaneTensor LatticeSums::Chunk::moments(const LaneIndices& points, const Displacements& u,
-                                       std::vector<Vector>* pulls) const {
-  const Indices& i = points.i;
+bonds::Moments<Lanes> LatticeSums::Chunk::moments(const LaneIndices& points, const Displacements& u) const {
   const OfGroup group(*this, points);
-  const LaneVector ui = u.of(records(u.sites, i)).u;
+  const LaneVector ui = u.of(records(u.sites, points.i)).u;
   const auto S = group.constants();
-  LaneTensor H = group.tensor(0);
+  bonds::Moments<Lanes> sums{group.tensor(0)};
   for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) H.c[r][c] -= ui.c[r] * S[c];
+    for (int c = 0; c < 3; ++c) sums.tensor.c[r][c] -= ui.c[r] * S[c];
   }
-  if (!pulls || !all->has_springs_) return H;
-  LaneVector pull = group.vector(9);
+  if (!all->has_springs_) return sums;
+  sums.pull = group.vector(9);
   for (int r = 0; r < 3; ++r) {
-    pull.c[r] -= S[3] * ui.c[r];
-    if (!u.is_field) pull.c[r] += S[r];
+    sums.pull.c[r] -= S[3] * ui.c[r];
+    if (!u.is_field) sums.pull.c[r] += S[r];
   }
-  for (int l = 0; l < small::lane_count; ++l) (*pulls)[i[l]] = small::at(pull, l);
-  return H;
+  return sums;
 }
 
 // ---- Residuals -----------------------------------------------------------------------------------------------------
@@ -281,7 +278,9 @@ constexpr int residual_outputs = 12;  // M, a force
 
 }  // namespace
 
-void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState>& gradients, const Take& take) {
+template <class S>
+void LatticeSums::residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
+                            const Take& take) {
   const auto fill = [&](const Cells& cells, const Put& put) {
     const auto [ui, V] = u.of(cells.of(u.sites));
     const auto F = small::numbers_of<12>(cells.of(gradients.data()));
@@ -289,12 +288,13 @@ void LatticeSums::residuals(const Displacements& u, const std::vector<ForceState
       for (int c = 0; c < 3; ++c) put(3 * axis + c, F[4 * axis + c] - (c == axis && !u.is_field ? 1 : 0));
       put(9 + axis, ui.c[axis]);
     }
-    put(12, F[3]), put(13, V), put(14, F[7]);
+    put(12, bonds::stiffness_of(kind, F[3], F[11])), put(13, V), put(14, F[7]);
   };
-  gather_pencils(residual_inputs, residual_outputs, fill, &LatticeSums::gather_residuals, take);
+  gather_pencils(residual_inputs, residual_outputs, fill, &LatticeSums::gather_residuals<S>, take);
 }
 
 // The bonds of eight points with one row of their stencils.
+template <class S>
 struct LatticeSums::Residuals {
   const Pencil* own;           // columns of the points
   const Pencil* const* there;  // columns of the row: before, here and after
@@ -302,7 +302,8 @@ struct LatticeSums::Residuals {
   const Pencil* base;          // u + ½ (H_y dy + H_z dz) of the points
   const Kind& kind;
   double spacing;                     // along x, m
-  Pencil sum[3] = {}, first[3] = {};  // Σ t and Σ dx t, t = ω V_j C_ij z
+  double y, z;                        // of the row, m
+  Pencil sum[3] = {}, first[3] = {};  // Σ t and Σ dx t
 
   template <int dx>
   void add_bond() {
@@ -311,11 +312,15 @@ struct LatticeSums::Residuals {
     const Pencil C = far(12), share = far(14);
     const Pencil stiffness = (own[12] < C ? own[12] : C) * (own[14] < share ? share : own[14]);
     const Pencil weight = (2 * kind.weight[dx < 0 ? -dx : dx]) * far(13) * stiffness;
+    small::Vector3<Pencil> residual;
     for (int c = 0; c < 3; ++c) {
       const Pencil u = shifted<dx>(fitted[c], fitted[3 + c], fitted[6 + c]);
-      const Pencil t = weight * (u - base[c] - (0.5 * x) * (own[c] + far(c)));
-      sum[c] += t;
-      first[c] += x * t;
+      residual.c[c] = u - base[c] - (0.5 * x) * (own[c] + far(c));
+    }
+    const small::Vector3<Pencil> t = S::bond_force(weight, residual, small::Vector3<double>{{x, y, z}});
+    for (int c = 0; c < 3; ++c) {
+      sum[c] += t.c[c];
+      first[c] += x * t.c[c];
     }
   }
 
@@ -330,6 +335,7 @@ struct LatticeSums::Residuals {
   }
 };
 
+template <class S>
 void LatticeSums::gather_residuals(int slot, int z) {
   const int place = lattice_->place(slot);
   const Pencil* own = sources_.of(z, slot);
@@ -344,8 +350,8 @@ void LatticeSums::gather_residuals(int slot, int z) {
       }
       base[c] = own[9 + c] + 0.5 * (row.y * own[3 + c] + row.z * own[6 + c]);
     }
-    Residuals bonds{own, ends, fitted, base, kinds_[row.kind], lattice_->frame().spacing[0]};
-    bonds.add_bond<0>();
+    Residuals<S> bonds{own, ends, fitted, base, kinds_[row.kind], lattice_->frame().spacing[0], row.y, row.z};
+    bonds.template add_bond<0>();
     bonds.add_bonds();
     for (int c = 0; c < 3; ++c) {
       force[c] += bonds.sum[c];
@@ -357,6 +363,16 @@ void LatticeSums::gather_residuals(int slot, int z) {
   std::copy_n(M, 9, sums_.of(z, slot));
   std::copy_n(force, 3, sums_.of(z, slot) + 9);
 }
+
+namespace {
+
+// Makes the sums of every stabilization of the variant.
+[[maybe_unused]] void make_residuals(LatticeSums& sums, const Displacements& u,
+                                     const std::vector<GradientState>& gradients) {
+  for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { sums.residuals<S>(kind, u, gradients, {}); });
+}
+
+}  // namespace
 
 LaneVector LatticeSums::Chunk::residual_forces(const LaneIndices& points) const {
   return OfGroup(*this, points).vector(9);

@@ -194,8 +194,7 @@ struct LatticeSums::ForceSweep {
   }
 };
 
-// f_i = Σ ω V_j (A_j ξ + C_j (ξ + u_j)) + A_i S − u_i Σ ω V_j C_j, over the family and the point itself; of a field
-// without C_j ξ.
+// Σ ω V_j (A_j ξ + C_j (ξ + u_j)) − u_i Σ ω V_j C_j, over the family and the point itself; of a field without C_j ξ.
 void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take) {
   const auto fill = [&](const Cells& cells, const Put& put) {
     const auto [ui, V] = u.of(cells.of(u.sites));
@@ -215,18 +214,11 @@ void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& 
   });
 }
 
-LaneVector LatticeSums::Chunk::forces(const LaneIndices& points, const Displacements& u,
-                                      const std::vector<ForceState>& states) const {
-  const Indices& i = points.i;
+LaneVector LatticeSums::Chunk::forces(const LaneIndices& points, const Displacements& u) const {
   const OfGroup group(*this, points);
-  const auto S = group.constants();
   LaneVector f = group.vector(0);
-  if ((S[0] != 0 || S[1] != 0 || S[2] != 0).any()) {  // not in the interior
-    const auto A = small::numbers_of<12>(records(states.data(), i));
-    for (int r = 0; r < 3; ++r) f.c[r] += A[r] * S[0] + A[4 + r] * S[1] + A[8 + r] * S[2];
-  }
   if (!all->has_springs_) return f;
-  const LaneVector ui = u.of(records(u.sites, i)).u;
+  const LaneVector ui = u.of(records(u.sites, points.i)).u;
   const Lanes stiffness = group.column(3);
   for (int r = 0; r < 3; ++r) f.c[r] -= stiffness * ui.c[r];
   return f;

@@ -13,7 +13,7 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const
   if (far_y() == 0 || far_z() == 0) throw std::logic_error("a stencil spans space");
   make_columns(body.influence);
   mark_places();
-  has_springs_ = body.has_springs();
+  has_springs_ = body.has_springs(ResidualKind::own_gradient);
   near_.resize(above_.size());
   columns_near_.resize(columns_.size());
   targets_.resize(words_);

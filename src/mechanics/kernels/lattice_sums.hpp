@@ -3,8 +3,8 @@
 //   shapes     K = Σ ω V_j ξ ⊗ ξ                                                (once)
 //   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                                      (F = I + H K⁻¹)
 //              Σ ω V_j (y_j − y_i), the pull on a point of its own springs, less C_i
-//   residuals  Σ ω V_j C_ij z and M = Σ ω V_j C_ij z ⊗ ξ                         (the mean gradient's, as in bonds.hpp)
-//   forces     f_i = Σ ω V_j [(A_i + A_j) ξ + C_j (y_j − y_i)], to which C_i times the pull is added
+//   residuals  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ                                   (both ends' gradients, as in
+//   bonds.hpp) forces     Σ ω V_j [A_j ξ + C_j (y_j − y_i)], what the far ends give
 // They are those of bonds.hpp in another order of additions.
 //
 // Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis
@@ -27,6 +27,7 @@
 
 #include "base/math/pencil.hpp"
 #include "mechanics/body.hpp"
+#include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
 
@@ -85,14 +86,11 @@ class LatticeSums {
     }
 
     // After the sweep that is named alike: of some points.
-    small::Tensor3<small::Lanes> shapes(const LaneIndices& points) const;  // K
-    // H; `pulls`: of all points, those of springs are put there, if the scene has any
-    small::Tensor3<small::Lanes> moments(const LaneIndices& points, const Displacements& u,
-                                         std::vector<Vector>* pulls) const;
+    small::Tensor3<small::Lanes> shapes(const LaneIndices& points) const;                           // K
+    bonds::Moments<small::Lanes> moments(const LaneIndices& points, const Displacements& u) const;  // H
     small::Vector3<small::Lanes> residual_forces(const LaneIndices& points) const;
-    small::Tensor3<small::Lanes> residual_moments(const LaneIndices& points) const;  // M
-    small::Vector3<small::Lanes> forces(const LaneIndices& points, const Displacements& u,
-                                        const std::vector<ForceState>& states) const;  // N/m³, less the pull
+    small::Tensor3<small::Lanes> residual_moments(const LaneIndices& points) const;                // M
+    small::Vector3<small::Lanes> forces(const LaneIndices& points, const Displacements& u) const;  // N/m³
     // Σ ω V |y_j − y_i − F ξ|²
     double squared_residual(int i, const Displacements& u, const Tensor& F, const Symmetric& shape_inverse) const;
 
@@ -120,12 +118,16 @@ class LatticeSums {
   // Keeps a pointer to the lattice, and hands the shapes of all owned points to `take`.
   LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take);
 
+  Vector first_moment(int i) const { return constants_[i].head<3>().matrix(); }  // Σ ω V ξ of an owned point, m⁴
+
   // Each hands the sums of all owned points to `take`, some at a time, from fields that are current in ghosts too and
   // stay as they are meanwhile.
   void moments(const Displacements& u, const Take& take);
   void squares(const Displacements& u, const Take& take);
-  // `gradients`: F, or δF of a field, and C̄.
-  void residuals(const Displacements& u, const std::vector<ForceState>& gradients, const Take& take);
+  // Of the stabilization S, the one at `kind`. `gradients`: F, or δF of a field, and C.
+  template <class S>
+  void residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
+                 const Take& take);
   void forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take);
 
   double bytes() const;
@@ -196,6 +198,7 @@ class LatticeSums {
     Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
   };
   struct Shapes;
+  template <class S>
   struct Residuals;
   template <int reach>
   struct SquareSweep;
@@ -235,6 +238,7 @@ class LatticeSums {
   template <bool with_springs>
   void gather_row(int z, int y);
   void gather_shape(int slot, int z);
+  template <class S>
   void gather_residuals(int slot, int z);
   std::uint64_t* column_bits(int y) { return &column_bits_[static_cast<std::size_t>(y % ring_.rows) * words_]; }
   const Pencil* source_at(int place, int z) {

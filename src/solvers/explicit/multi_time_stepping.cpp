@@ -5,8 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mechanics/formulation/correspondence.hpp"
-#include "mechanics/kernels/quadratic_bonds.hpp"
+#include "mechanics/force_sum.hpp"
 
 namespace strut {
 
@@ -183,7 +182,8 @@ void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
       for (Eigen::Array4d& column : body.force_states.tensors[i].column) column *= mean / old_share;
     }
     if (!body.force_states.quadratics.empty()) scale(body.force_states.quadratics[i], mean / old_share);
-    if (body.has_mean_gradient(i)) body.force_states.gradients[i].column[1][3] = mean;
+    if (body.block_of(i).has_springs(ResidualKind::both_gradients)) body.force_states.gradients[i].step_share() = mean;
+    body.force_density[i] *= mean / old_share;
   });
 }
 
@@ -193,47 +193,18 @@ void exchange_states(Halo& halo, std::vector<State>& states) {
   if (!states.empty()) halo.exchange(reinterpret_cast<double*>(states.data()), width, width);
 }
 
-// The pull of the points' own springs, Σ ω V (y_j − y_i), put in force_density until the forces are summed up.
-void keep_pulls(Body& body, const LaneGroups& groups) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(0, groups.count(), [&, weight](int g) {
-      const LaneGroup group = groups[g];
-      const auto pull = bonds::pull(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), weight);
-      for (int l = 0; l < group.count; ++l) body.force_density[group.i[l]] = small::at(pull, l);
-    });
-  });
-}
-
 // What the far ends of the bonds of a cluster give to the forces on its points.
 template <class Weight>
-small::Vector3<small::Lanes> far_force(const Body& body, const bonds::OfCluster& family, Weight weight) {
+small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster, Weight weight) {
   const ForceStates& states = body.force_states;
-  const Site* sites = body.domain.sites.data();
   small::Vector3<small::Lanes> sum = bonds::zero_vector<small::Lanes>();
   const auto add = [&sum](const small::Vector3<small::Lanes>& force) {
     for (int c = 0; c < 3; ++c) sum.c[c] += force.c[c];
   };
   if (!states.tensors.empty()) {
-    const bonds::OwnState<small::Lanes> none{bonds::zero_tensor<small::Lanes>(), small::Lanes::Zero(),
-                                             small::Lanes::Zero()};
-    add(bonds::force<true>(family, sites, states.tensors.data(), none, weight));
+    add(bonds::far_force<true>(bonds::OfCluster{cluster}, body.domain.sites.data(), states.tensors.data(), weight));
   }
-  if (!states.quadratics.empty()) {
-    add(bonds::quadratic_far_force(family, sites, body.fits->multipliers(), states.quadratics.data(), weight));
-  }
-  return sum;
-}
-
-// What a point that is due gives to the force on itself. `moment`: Σ ω V ξ. force_density: of its stabilization.
-Vector own_force(const Body& body, int i, const Vector& moment) {
-  if (body.blocks[body.domain.cloud.blocks[i]].is_quadratic()) {
-    return bonds::quadratic_own_force(body.force_states.quadratics[i], (*body.fits)[i]);
-  }
-  const ForceState& own = body.force_states.tensors[i];
-  Vector sum = Vector::Zero();
-  for (int c = 0; c < 3; ++c) sum += own.column[c].head<3>().matrix() * moment[c];
-  if (body.has_mean_gradient(i)) sum += body.force_density[i];
-  if (own.column[0][3] > 0) sum += own.column[0][3] * body.force_density[i];
+  if (!states.quadratics.empty()) add(quadratic_far_forces(body, cluster, states, weight));
   return sum;
 }
 
@@ -323,13 +294,6 @@ MultiTimeStepping::Level MultiTimeStepping::make_level(const Body& body, const s
     });
   };
   ClusterLists::Builder(result.sources, motion_levels.size()).add_all(result.moved, sources, by_id);
-  bonds::with_influence(body.influence, [&](auto weight) {
-    for (const int i : result.moved) {
-      Vector& moment = result.first_moments.emplace_back(Vector::Zero());
-      bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
-                  [&](int, double w, const auto& xi, double) { moment += w * Vector(xi.c[0], xi.c[1], xi.c[2]); });
-    }
-  });
   return result;
 }
 
@@ -346,44 +310,47 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
     } else {
       advance_stress(body, block, {dt, level}, groups, report);
     }
-    if (block.has_springs()) keep_pulls(body, groups);
   }
-  add_residuals(body, now, level);
+  for (const int i : now.moved) {
+    if (body.time_levels[i] < level) body.force_density[i].setZero();  // its own state acts at other times
+  }
+  for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { add_residuals<S>(kind, body, now, level); });
   exchange_states(now.halo, body.force_states.tensors);
   exchange_states(now.halo, body.force_states.quadratics);
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, now.sources.count(), [&, weight](int b) {
-      const bonds::OfCluster family{now.sources[b]};
-      const small::Vector3<small::Lanes> far = far_force(body, family, weight);
-      for (int l = 0; l < static_cast<int>(family.cluster.points.size()); ++l) {
-        const int i = family.cluster.points[l];
-        if (moves_rigidly(body, i)) continue;  // its force is zero, and its states are not kept
-        Vector sum = at(far, l);
-        if (body.time_levels[i] >= level) {
-          sum += own_force(body, i, now.first_moments[static_cast<std::size_t>(b) * Cluster::width + l]);
-        }
-        body.force_density[i] = sum;
+      const Cluster cluster = now.sources[b];
+      const small::Vector3<small::Lanes> far = far_force(body, cluster, weight);
+      for (int l = 0; l < static_cast<int>(cluster.points.size()); ++l) {
+        const int i = cluster.points[l];
+        if (!moves_rigidly(body, i)) body.force_density[i] += at(far, l);
       }
     });
   });
   return report;
 }
 
-// The stabilization by the mean gradient, of the bonds between points that are due: its force begins the sum in
-// force_density, and the rest is in A (mechanics.cpp).
-void MultiTimeStepping::add_residuals(Body& body, Level& now, int level) const {
+// The springs on both ends' gradients, of the bonds between points that are due.
+template <class S>
+void MultiTimeStepping::add_residuals(std::size_t kind, Body& body, Level& now, int level) const {
   ForceStates& states = body.force_states;
   if (states.gradients.empty()) return;
   exchange_states(now.halo, states.gradients);
+  const auto is_due = [&](int i) {
+    const MaterialBlock& block = body.block_of(i);
+    return body.time_levels[i] >= level && block.material.stabilization.index() == kind &&
+           block.has_springs(ResidualKind::both_gradients) && !block.in_rigid_motion;
+  };
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, now.sources.count(), [&, weight](int b) {
-      const bonds::OfCluster family{now.sources[b]};
-      const auto sums = bonds::residual(family, body.domain.sites.data(), states.gradients.data(), weight);
-      for (int l = 0; l < static_cast<int>(family.cluster.points.size()); ++l) {
-        const int i = family.cluster.points[l];
-        if (body.time_levels[i] < level || !body.has_mean_gradient(i) || moves_rigidly(body, i)) continue;
-        take_residual(states.tensors[i], at(sums.moment, l), body.shape_inverse[i]);
-        body.force_density[i] = at(sums.force, l);
+      const Cluster cluster = now.sources[b];
+      const auto sums = bonds::residual<S>(kind, bonds::OfCluster{cluster}, body.domain.sites.data(),
+                                           states.gradients.data(), weight);
+      for (int l = 0; l < static_cast<int>(cluster.points.size()); ++l) {
+        const int i = cluster.points[l];
+        if (!is_due(i)) continue;
+        add_residual(at(sums.force, l), at(sums.moment, l), body.shape_inverse[i], body.first_moment[i],
+                     states.tensors[i], body.force_density[i]);
       }
     });
   });

@@ -45,11 +45,11 @@ class MultiTimeStepping {
   struct Level {
     std::vector<SelectedPoints> stressed;  // of each block: those that are due
     std::vector<int> moved;
-    ClusterLists sources;               // of the moved points: the stressed points of their families
-    std::vector<Vector> first_moments;  // Σ ω V ξ over the family of each moved point, m⁴
+    ClusterLists sources;  // of the moved points: the stressed points of their families
     Halo halo;
   };
-  void add_residuals(Body& body, Level& now, int level) const;
+  template <class S>
+  void add_residuals(std::size_t kind, Body& body, Level& now, int level) const;
   void make_levels(Body& body);
   Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, const std::vector<double>& ids,
                    int level) const;

@@ -1,4 +1,4 @@
-#include "mechanics/body.hpp"
+#include "mechanics/make_body.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -46,12 +46,13 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
                        [formulation](const BlockMaterial& m) { return m.formulation == formulation; });
   };
   ForceStates states;
-  if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::packed(Tensor::Zero(), 0));
+  if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::force_state(Tensor::Zero(), 0));
   if (any(Formulation::ordinary)) states.scalars.resize(points);
   if (any(Formulation::quadratic)) states.quadratics.resize(points);
-  const bool with_gradients =
-      std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) { return m.mean_stabilization > 0; });
-  if (with_gradients) states.gradients.assign(points, bonds::packed(Tensor::Zero(), 0));
+  const bool with_gradients = std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) {
+    return residual_of(m.stabilization) == ResidualKind::both_gradients && coefficient_of(m.stabilization) > 0;
+  });
+  if (with_gradients) states.gradients.assign(points, bonds::gradient_state(Tensor::Zero(), 0, 0, NoStabilization()));
   return states;
 }
 
@@ -68,38 +69,54 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   if (block.is_ordinary()) {
     block.ordinary[k].weighted_volume = K.trace();
   } else {
-    const BlockMaterial& m = block.material;
-    point.stabilization = (m.stabilization + m.mean_stabilization) * modulus / (K.trace() / 3);
+    point.stabilization = coefficient_of(block.material.stabilization) * modulus / (K.trace() / 3);
   }
 }
 
-void set_shapes(Body& body, MaterialBlock& block, const LaneGroups& groups, std::vector<Symmetric>& inverses) {
+// What is known of the families of owned points once and for all.
+struct FamilySums {
+  std::vector<Symmetric> shape_inverses;
+  std::vector<Vector> first_moments;
+};
+
+void set_shapes(Body& body, MaterialBlock& block, const LaneGroups& groups, FamilySums& sums) {
   bonds::with_influence(body.influence, [&](auto weight) {
     for_each_point(0, groups.count(), [&, weight](int g) {
       const LaneGroup group = groups[g];
       const auto K = shapes(group, body.domain.sites.data(), weight);
-      for (int l = 0; l < group.count; ++l) set_shape(body, block, group.k[l], at(K, l), inverses[group.i[l]]);
+      for (int l = 0; l < group.count; ++l) {
+        set_shape(body, block, group.k[l], at(K, l), sums.shape_inverses[group.i[l]]);
+      }
+      if (!group.cluster) return;
+      const auto S = bonds::first_moment(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), weight);
+      for (int l = 0; l < group.count; ++l) sums.first_moments[group.i[l]] = at(S, l);
     });
   });
 }
 
 void set_shapes(Body& body) {
-  std::vector<Symmetric> inverses(body.owned(), Symmetric::Zero());
+  const std::size_t owned = body.owned();
+  FamilySums sums{std::vector<Symmetric>(owned, Symmetric::Zero()), std::vector<Vector>(owned, Vector::Zero())};
   for (MaterialBlock& block : body.blocks) {
     if (block.lattice >= 0) continue;
     for (const Part part : {Part::interior, Part::boundary}) {
-      set_shapes(body, block, LaneGroups(body, block, part), inverses);
+      set_shapes(body, block, LaneGroups(body, block, part), sums);
     }
   }
   for (const LatticeFamilies& lattice : body.domain.families.lattices) {
     const auto set = [&, number = static_cast<int>(body.lattice_sums.size())](const LatticeSums::Chunk& chunk) {
       for (MaterialBlock& block : body.blocks) {
-        if (block.lattice == number) set_shapes(body, block, LaneGroups(block, chunk), inverses);
+        if (block.lattice == number) set_shapes(body, block, LaneGroups(block, chunk), sums);
       }
     };
     body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, set));
   }
-  body.shape_inverse = Deduplicated<Symmetric>(std::move(inverses));
+  for (const MaterialBlock& block : body.blocks) {
+    if (block.lattice < 0) continue;
+    for (const int i : block.points) sums.first_moments[i] = body.lattice_sums[block.lattice]->first_moment(i);
+  }
+  body.shape_inverse = Deduplicated<Symmetric>(std::move(sums.shape_inverses));
+  body.first_moment = Deduplicated<Vector>(std::move(sums.first_moments));
 }
 
 void set_what_blocks_feel(Body& body) {
@@ -142,14 +159,12 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .velocity = {},
             .previous_velocity = {},
             .force_density = {},
+            .first_moment = {},
             .time_levels = {},
             .residual = {},
-            .mean_work = {},
+            .bond_work = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
-  for (const BlockMaterial& m : materials) {
-    if (m.stabilization > 0 && m.mean_stabilization > 0) throw std::logic_error("a block has one stabilization");
-  }
   body.force_states = zero_states(body.domain.sites.size(), materials);
   body.points.resize(owned);
   for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);
@@ -157,7 +172,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   body.previous_velocity.assign(owned, Vector::Zero());
   body.force_density.assign(owned, Vector::Zero());
   body.residual.assign(owned, 0);
-  if (!body.force_states.gradients.empty()) body.mean_work.assign(owned, 0);
+  if (!body.force_states.gradients.empty()) body.bond_work.assign(owned, 0);
   for (MaterialBlock& block : body.blocks) {
     if (block.material.formulation != Formulation::correspondence && block.lattice >= 0) {
       throw std::logic_error("a block that is not by correspondence must ask for lists");
@@ -176,28 +191,28 @@ namespace {
 std::size_t seen_bytes(const Body& body) {
   return sizeof(Site) + (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
          (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
-         (body.force_states.gradients.empty() ? 0 : sizeof(ForceState)) +
+         (body.force_states.gradients.empty() ? 0 : sizeof(GradientState)) +
          (body.force_states.quadratics.empty() ? 0 : sizeof(QuadraticState));
 }
 
 // What an owned point has besides.
-std::size_t own_bytes(const MaterialBlock& block, bool has_mean_work) {
+std::size_t own_bytes(const MaterialBlock& block, bool has_bond_work) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
   constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
   const std::size_t of_law_point = state * sizeof(double) + (block.is_quadratic() ? sizeof(MaterialPoint) : 0) +
                                    (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
-  return mechanics + cloud + block.places_a_point() * of_law_point + (has_mean_work ? sizeof(double) : 0) +
+  return mechanics + cloud + block.places_a_point() * of_law_point + (has_bond_work ? sizeof(double) : 0) +
          (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) + (block.is_quadratic() ? sizeof(CellShape) : 0);
 }
 
 }  // namespace
 
 double footprint(const Body& body) {
-  double bytes = body.shape_inverse.bytes() + body.domain.families.bytes() +
+  double bytes = body.shape_inverse.bytes() + body.first_moment.bytes() + body.domain.families.bytes() +
                  static_cast<double>(seen_bytes(body) * body.domain.sites.size());
   for (const MaterialBlock& block : body.blocks)
-    bytes += static_cast<double>(own_bytes(block, !body.mean_work.empty()) * block.points.size());
+    bytes += static_cast<double>(own_bytes(block, !body.bond_work.empty()) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   if (body.fits) bytes += body.fits->bytes();
   return bytes;

@@ -1,0 +1,42 @@
+#include "mechanics/frequency_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/formulation/quadratic_fit.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+double largest_frequency_bound(const Body& body, const MaterialBlock& block) {
+  const auto of_point = [&](int k) { return frequency_bound(body, block, k) * body.share(block.points[k]); };
+  return largest(0, static_cast<int>(block.points.size()), 0, of_point);
+}
+
+namespace {
+
+double frequency_bound_of_cell(const Body& body, const MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  double fastest2 = 0;
+  for (int q = 0; q < block.places_a_point(); ++q) {
+    const std::size_t place = block.place(k, q);
+    const Tensor& F = block.cells[place].deformation_gradient;
+    const double speed2 = block.moduli(place).longitudinal() / (3 * body.density[i]);
+    fastest2 = std::max(fastest2, speed2 * F.determinant() * F.inverse().squaredNorm());
+  }
+  return std::sqrt(fastest2 * body.domain.volume(i) * (*body.fits)[i].steepness);
+}
+
+}  // namespace
+
+double frequency_bound(const Body& body, const MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  if (block.is_quadratic()) return frequency_bound_of_cell(body, block, k);
+  const MaterialPoint& point = body.points[i];
+  const Tensor& F = point.deformation_gradient;
+  const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
+  const double modulus = block.moduli(k).longitudinal();
+  return std::sqrt(modulus / body.density[i] * body.domain.volume(i) * trace(body.shape_inverse[i]) / 3 * steepness);
+}
+
+}  // namespace strut

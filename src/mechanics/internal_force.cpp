@@ -1,0 +1,89 @@
+#include "mechanics/internal_force.hpp"
+
+#include "mechanics/force_sum.hpp"
+
+namespace strut {
+
+namespace {
+
+bool all_move_rigidly(const Body& body) {
+  return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.in_rigid_motion; });
+}
+
+StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
+  static Teuchos::Time& deforming = phase("Deformation and stress");
+  StepReport report;
+  const Displacements u{body.domain.sites.data()};
+  const auto advance = [&](MaterialBlock& block, const LaneGroups& groups) {
+    if (block.is_ordinary()) return advance_ordinary(body, block, with_diagnostics, groups, report);
+    if (block.is_quadratic()) return advance_quadratic(body, block, pass, groups, report);
+    advance_stress(body, block, pass, groups, report);
+  };
+  const auto view = [&](const MaterialBlock& block, const LaneGroups& groups) {
+    if (block.is_quadratic()) diagnose_cells(body, block, groups);
+    if (!block.is_ordinary()) diagnose_residuals(body, groups);
+  };
+  const auto over = [&](Part part) {
+    const Timed timed(deforming);
+    over_blocks(
+        body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
+        advance);
+    if (!with_diagnostics) return;
+    over_blocks(
+        body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },
+        view);
+  };
+  for (const MaterialBlock& block : body.blocks) {
+    if (block.in_rigid_motion) report.frequency_bound = std::max(report.frequency_bound, block.rest_frequency_bound);
+  }
+  if (all_move_rigidly(body)) {
+    over(Part::interior);
+    return report;
+  }
+  behind_exchange(
+      body.domain.halo, places(body.domain.sites), site_stride, 3, [&] { over(Part::interior); },
+      [&] { over(Part::boundary); });
+  return report;
+}
+
+}  // namespace
+
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics) {
+  return advance(body, {dt}, with_diagnostics);
+}
+
+void sum_forces(Body& body, bool with_diagnostics) {
+  static Teuchos::Time& stabilizing = phase("Stabilization");
+  static Teuchos::Time& summing = phase("Force");
+  for (const MaterialBlock& block : body.blocks) {
+    if (!block.in_rigid_motion) continue;
+    for (const int i : block.points) body.force_density[i].setZero();
+  }
+  if (all_move_rigidly(body)) return;
+  const Displacements u{body.domain.sites.data()};
+  if (!body.force_states.gradients.empty()) {
+    const std::span<double> energy = with_diagnostics ? std::span(body.bond_work) : std::span<double>();
+    const ResidualSum sum{body, Bodies::deforming, u, body.force_states, body.force_density, energy};
+    behind_exchange(body.domain.halo, body.force_states.gradients, [&](Part part) {
+      const Timed timed(stabilizing);
+      sum(part);
+    });
+  }
+  const auto extension_of = [](const auto& family) { return bonds::OfPlaces(family); };
+  add_up(body.domain.halo, ForceSum{body, Bodies::deforming, u, extension_of, body.force_states, body.force_density},
+         [] { return Timed(summing); });
+}
+
+StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics) {
+  const StepReport report = advance_stress(body, dt, with_diagnostics);
+  sum_forces(body, with_diagnostics);
+  return report;
+}
+
+StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics) {
+  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_diagnostics);
+  sum_forces(body, with_diagnostics);
+  return report;
+}
+
+}  // namespace strut

@@ -1,0 +1,25 @@
+// From the places of the points to the force on each, by state-based peridynamics.
+#pragma once
+
+#include "mechanics/step_report.hpp"
+
+namespace strut {
+
+// Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
+// dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_diagnostics`: also what
+// forces do not need but a look at the body does, the energy of the stabilization, and F, R and stress of ordinary
+// points, which are a view of their families only. force_density then holds what the points' own states give to the
+// force on them, for the one sum_forces that is to follow.
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics);
+
+// Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is
+// stepped alone, the part of its stress that acts at the end of a whole step.
+void sum_forces(Body& body, bool with_diagnostics);
+
+// Both.
+StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics);
+
+// The same for a step of any size, as an implicit solver takes it: rotations to round-off.
+StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics);
+
+}  // namespace strut

@@ -1,0 +1,76 @@
+// Inside mechanics: passes over the points of a body, behind the exchange of what they read of ghosts.
+#pragma once
+
+#include <algorithm>
+
+#include "base/timing.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+inline constexpr int site_stride = sizeof(Site) / sizeof(double);
+
+inline double* places(std::vector<Site>& sites) { return sites.data()->current.data(); }
+
+// Runs `interior` while the halo of `data` is under way, then `boundary`.
+template <class Interior, class Boundary>
+void behind_exchange(Halo& halo, double* data, int stride, int width, Interior&& interior, Boundary&& boundary) {
+  static Teuchos::Time& waiting = phase("Halo exchange");
+  {
+    const Timed timed(waiting);
+    halo.start(data, stride, width);
+  }
+  interior();
+  {
+    const Timed timed(waiting);
+    halo.finish(data, stride, width);
+  }
+  boundary();
+}
+
+// Runs work(part) for the points that need no ghost of `states` while its exchange is under way, then for the others.
+template <class State, class Work>
+void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
+  constexpr int width = sizeof(State) / sizeof(double);
+  behind_exchange(
+      halo, reinterpret_cast<double*>(states.data()), width, width, [&] { work(Part::interior); },
+      [&] { work(Part::boundary); });
+}
+
+// Which bodies a pass is over: forces need only those that are strained, a tangent is of all.
+enum class Bodies { all, deforming };
+
+inline bool is_due(const MaterialBlock& block, Bodies bodies) {
+  return bodies == Bodies::all || !block.in_rigid_motion;
+}
+
+// Calls work(block, groups of its points) for a part of the points; on lattices, sums over which are of all points at
+// once, after the exchange, for all in the second part. `sweep`: calls a sweep of sums over a lattice with what takes
+// them.
+template <class AnyBody, class Sweep, class Work>
+void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
+  for (auto& block : body.blocks) {
+    if (block.lattice < 0 && is_due(block, bodies)) work(block, LaneGroups(body, block, part));
+  }
+  if (part == Part::interior) return;
+  for (std::size_t l = 0; l < body.lattice_sums.size(); ++l) {
+    const auto is_on_it = [&](const MaterialBlock& b) { return b.lattice == static_cast<int>(l) && is_due(b, bodies); };
+    if (std::none_of(body.blocks.begin(), body.blocks.end(), is_on_it)) continue;
+    sweep(*body.lattice_sums[l], [&](const LatticeSums::Chunk& chunk) {
+      for (auto& block : body.blocks) {
+        if (is_on_it(block)) work(block, LaneGroups(block, chunk));
+      }
+    });
+  }
+}
+
+// Calls work(group, ω).
+template <class Work>
+void over_groups(const Body& body, const LaneGroups& groups, const Work& work) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for_each_point(0, groups.count(), [&, weight](int g) { work(groups[g], weight); });
+  });
+}
+
+}  // namespace strut

@@ -1,0 +1,23 @@
+// What a stabilization of zero-energy modes is: a type that says which residual of a bond it holds down, and how.
+// F does not see every motion of its family; a spring in each bond on a residual z holds the rest down. A type has
+//   name         as in the deck (Stabilization)
+//   coefficient  c, a number; the stiffness of a point is C = c (λ + 2μ)/(tr K/3), Pa/m⁵, so that c means the same for
+//                every ω and horizon
+//   residual     what z is (ResidualKind)
+// and where z takes the gradients of both ends
+//   bond_force   t(C_ij, z, ξ), Pa/m⁵ times m: linear in z with a symmetric derivative. It has the energy ½ z·t a bond,
+//                C_ij = 2 min(C_i, C_j): a bond is as stiff as its softer end, and has none to a point without C.
+#pragma once
+
+namespace strut {
+
+enum class ResidualKind {
+  none,
+  own_gradient,  // z = η − F_i ξ, each end its own, t = C_i z: no pass over bonds more, it goes with the force state
+  both_gradients  // z = η − ½ (F_i + F_j) ξ, one for both ends: one pass over bonds more
+};
+
+template <class S>
+concept BondStabilization = S::residual == ResidualKind::both_gradients;
+
+}  // namespace strut

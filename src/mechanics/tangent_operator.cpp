@@ -1,0 +1,161 @@
+#include "mechanics/tangent_operator.hpp"
+
+#include <optional>
+
+#include "mechanics/force_sum.hpp"
+#include "mechanics/formulation/quadratic_cell.hpp"
+#include "mechanics/formulation/shared_volume.hpp"
+#include "mechanics/formulation/tangent.hpp"
+
+namespace strut {
+
+namespace {
+
+using small::Lanes;
+
+// δP at a law point, for δF: J C:sym(δF F⁻¹) F⁻ᵀ.
+Tensor elastic_change(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF) {
+  const Tensor inverse_F = point.deformation_gradient.inverse();
+  const Symmetric D = symmetric_part(dF * inverse_F);
+  const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
+  return point.deformation_gradient.determinant() * to_tensor(stress) * inverse_F.transpose();
+}
+
+// The force state of the tangent at one point, for δF. A point that is stepped alone by a
+// `share` of the step is as stiff to it as one of share² the stiffness is to the whole. C: of its springs.
+ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
+                         const materials::Moduli& moduli, const Tensor& dF, double share) {
+  const Tensor A = elastic_change(point, moduli, dF) * to_tensor(shape_inverse) - C * dF;
+  return bonds::force_state(share * share * A, share * share * C);
+}
+
+// The same with ∂P/∂F as it is.
+ForceState tangent_state(const Symmetric& shape_inverse, double C, const PointTangent& tangent, const Tensor& dF) {
+  return bonds::force_state(tangent.times(dF) * to_tensor(shape_inverse) - C * dF, C);
+}
+
+// δP at the places of the cell of block.points[k], for δF there.
+CellTensors change_of_cell(const Body& body, const MaterialBlock& block, int k, CellTensors dF,
+                           const std::vector<PointTangent>* tangents) {
+  std::optional<SharedVolume> shared;
+  if (block.flowed[k]) shared.emplace(block, k);
+  if (shared) shared->share_gradients(dF);
+  CellTensors dP;
+  for (int q = 0; q < 4; ++q) {
+    const std::size_t place = block.place(k, q);
+    dP[q] = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(dF[q])
+                     : elastic_change(block.cells[place], block.moduli(place), dF[q]);
+  }
+  if (shared) shared->share_stresses(dP);
+  return dP;
+}
+
+// The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
+template <class Weight>
+void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
+                       Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
+  QuadraticCells cells(group, *body.fits, body.domain.sites);
+  cells.take(bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, field, body.fits->multipliers(), weight));
+  std::array<small::Tensor3<Lanes>, 4> dF, dP;
+  for (int q = 0; q < 4; ++q) dF[q] = cells.gradient_at(q), dP[q] = bonds::zero_tensor<Lanes>();
+  for (int l = 0; l < group.count; ++l) {
+    CellTensors changes;
+    for (int q = 0; q < 4; ++q) changes[q] = at(dF[q], l);
+    changes = change_of_cell(body, block, group.k[l], changes, tangents);
+    for (int q = 0; q < 4; ++q) {
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) dP[q].c[r][c][l] = changes[q](r, c);
+      }
+    }
+  }
+  for (int q = 0; q < 4; ++q) cells.add_stress(q, dP[q]);
+  const Lanes share = small::lanes_of([&](int l) { return body.share(group.i[l]) * body.share(group.i[l]); });
+  cells.store(group, share, result);
+}
+
+// δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.
+template <class Weight>
+void set_tangent_scalars(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
+                         Weight weight, std::vector<ScalarState>& result) {
+  const bonds::OfCluster family{*group.cluster};
+  const Lanes moment = bonds::extensions(family, body.domain.sites.data(), weight, bonds::OfField(family, field));
+  for (int l = 0; l < group.count; ++l) {
+    const double m = block.ordinary[group.k[l]].weighted_volume;
+    result[group.i[l]] = scalar_state(block.moduli(group.k[l]), 3 * moment[l] / m, m);
+  }
+}
+
+// `pull`: Σ ω V (v_j − v_i) of the field.
+void set_tangent_state(const Body& body, const MaterialBlock& block, int k, const Tensor& moment, const Vector& pull,
+                       const std::vector<PointTangent>* tangents, ForceStates& states, std::vector<Vector>& result) {
+  const int i = block.points[k];
+  const MaterialPoint& point = body.points[i];
+  const Symmetric& shape_inverse = body.shape_inverse[i];
+  const Tensor dF = moment * to_tensor(shape_inverse);
+  const double share = body.share(i), C = block.own_springs_of(point);
+  const ForceState state = tangents ? tangent_state(shape_inverse, C, (*tangents)[i], dF)
+                                    : tangent_state(point, shape_inverse, C, block.moduli(k), dF, share);
+  states.tensors[i] = state;
+  result[i] = state.stiffness() * pull;
+  for (int c = 0; c < 3; ++c) result[i] += state.column[c].head<3>().matrix() * body.first_moment[i][c];
+  if (block.has_springs(ResidualKind::both_gradients)) {
+    states.gradients[i] = bonds::gradient_state(dF, point.stabilization, share * share, block.material.stabilization);
+  }
+}
+
+// The states of the points under a change of their places, `field`, and in `result` what their own states give.
+struct TangentStates {
+  const Body& body;
+  Displacements field;
+  const std::vector<PointTangent>* tangents;
+  ForceStates& states;
+  std::vector<Vector>& result;
+
+  void operator()(Part part) const {
+    const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); };
+    over_blocks(body, Bodies::all, part, sweep, [&](const MaterialBlock& block, const LaneGroups& groups) {
+      over_groups(body, groups, [&](const LaneGroup& group, auto weight) { set(block, group, weight); });
+    });
+  }
+
+ private:
+  template <class Weight>
+  void set(const MaterialBlock& block, const LaneGroup& group, Weight weight) const {
+    if (block.is_ordinary()) {
+      set_tangent_scalars(body, block, group, field.sites, weight, states.scalars);
+      for (int l = 0; l < group.count; ++l) result[group.i[l]].setZero();
+    } else if (block.is_quadratic()) {
+      set_tangent_cells(body, block, group, field.sites, weight, tangents, states.quadratics);
+      for (int l = 0; l < group.count; ++l) {
+        const int i = group.i[l];
+        result[i] = bonds::quadratic_own_force(states.quadratics[i], (*body.fits)[i]);
+      }
+    } else {
+      const auto [dN, pull] = moments(group, field, body.has_springs(ResidualKind::own_gradient), weight);
+      for (int l = 0; l < group.count; ++l) {
+        set_tangent_state(body, block, group.k[l], at(dN, l), at(pull, l), tangents, states, result);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
+                   const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result) {
+  const Displacements field{directions.data(), true};
+  const TangentStates set_states{body, field, tangents, scratch, result};
+  behind_exchange(
+      halo, places(directions), site_stride, 3, [&] { set_states(Part::interior); },
+      [&] { set_states(Part::boundary); });
+  if (!scratch.gradients.empty()) {
+    const ResidualSum sum{body, Bodies::all, field, scratch, result, {}};
+    behind_exchange(halo, scratch.gradients, [&](Part part) { sum(part); });
+  }
+  const auto change_of = [&](const auto& family) { return bonds::OfField(family, directions.data()); };
+  add_up(halo, ForceSum{body, Bodies::all, field, change_of, scratch, result},
+         [] { return 0; });  // the estimate of the step has a time of its own
+  for_each_point(0, body.owned(), [&](int i) { result[i] *= -1; });
+}
+
+}  // namespace strut

@@ -1,0 +1,20 @@
+// The linearised forces: for the critical time step and for Newton's iterations.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+struct PointTangent;
+
+// Collective. The linearised operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
+// `directions` holds v in the place of y: a copy of the body's sites, or these themselves where no block is ordinary.
+// `tangents`: of the owned points by correspondence (tangent.hpp); if null, those of the elastic moduli, without the
+// geometric stiffness (of the order stress/modulus), which is left out of ordinary points in any case.
+// `scratch`: a copy of body.force_states, or these themselves: forces and the next stresses do without.
+void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
+                   const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result);
+
+}  // namespace strut

@@ -1,0 +1,66 @@
+#include "run/run_control.hpp"
+
+#include <csignal>
+#include <iostream>
+
+namespace strut {
+
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+}  // namespace
+
+void catch_signals() {
+  std::signal(SIGINT, [](int) { signalled = 1; });
+  std::signal(SIGTERM, [](int) { signalled = 1; });
+}
+
+bool is_signalled() { return signalled != 0; }
+
+void say(const Communicator& communicator, const std::string& text) {
+  if (communicator.rank() == 0) std::cout << text << std::flush;
+}
+
+ExplicitRunControl::ExplicitRunControl(const RunServices& services, const CentralDifference& solver)
+    : services_(services),
+      progress_(services.scene.body.domain.communicator, services.deck.solver.initial_time, solver.time(),
+                services.deck.solver.final_time) {}
+
+void ExplicitRunControl::save(CentralDifference& solver) {
+  Checkpoint& checkpoint = services_.checkpoint;
+  const bool wanted = is_over(solver) ? checkpoint.due_at_the_end() : ending_ || saving_;
+  if (wanted || checkpoint.due(solver.steps(), solver.time())) checkpoint.write(solver.steps(), solver.time());
+}
+
+bool ExplicitRunControl::observe(CentralDifference& solver) {
+  warn_of_fixed_step(solver);
+  services_.monitor.check_step(solver);
+  const bool last = is_over(solver) || ending_;
+  const auto ledger = services_.writers.write(
+      services_.scene.body, solver, [&] { return solver.reactions(); }, last);
+  if (ledger) services_.monitor.check_energy(*ledger);
+  progress_.show(solver.steps(), solver.time(), solver.dt());
+  return last;
+}
+
+void ExplicitRunControl::warn_of_fixed_step(const CentralDifference& solver) {
+  const StepControl& control = services_.scene.control;
+  if (warned_ || !(control.fixed_dt > solver.critical_time_step())) return;
+  say(services_.scene.body.domain.communicator, step_warning(control, solver.critical_time_step(), solver.time()));
+  warned_ = true;
+}
+
+bool ExplicitRunControl::prepare_next(CentralDifference& solver) {
+  using Request = CentralDifference::Request;
+  const Checkpoint& checkpoint = services_.checkpoint;
+  solver.request(is_signalled() ? Request::stop : checkpoint.due_by_the_clock() ? Request::save : Request::none);
+  ending_ = solver.agreed_request() == Request::stop;
+  saving_ = solver.agreed_request() == Request::save;
+  const double next = solver.time() + solver.dt();
+  const int step = solver.steps() + 1;
+  return next >= services_.deck.solver.final_time || ending_ || saving_ || services_.writers.due(step, next) ||
+         checkpoint.due(step, next);
+}
+
+}  // namespace strut

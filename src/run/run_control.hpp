@@ -1,0 +1,53 @@
+// What goes on beside the steps of a run: checkpoints, output, limits, progress, and how a run is ended by a signal.
+#pragma once
+
+#include "checkpoint/checkpoint.hpp"
+#include "deck/deck.hpp"
+#include "output/writers.hpp"
+#include "run/monitor.hpp"
+#include "run/report.hpp"
+#include "setup/scene.hpp"
+
+namespace strut {
+
+// From now on SIGINT and SIGTERM end the run after the step in hand.
+void catch_signals();
+bool is_signalled();
+
+// On rank 0.
+void say(const Communicator& communicator, const std::string& text);
+
+// All that a run has beside its solver.
+struct RunServices {
+  const deck::Deck& deck;
+  const Scene& scene;
+  OutputWriters& writers;
+  Checkpoint& checkpoint;
+  Monitor& monitor;
+};
+
+// Of explicit steps. Energies are known everywhere at the times that are looked at or kept, for ranks agree a step
+// ahead on what is to be done.
+class ExplicitRunControl {
+ public:
+  ExplicitRunControl(const RunServices& services, const CentralDifference& solver);
+
+  // Collective. Between advance_position() and advance_velocity(): saves a checkpoint where one is due.
+  void save(CentralDifference& solver);
+  // Collective. After advance_velocity(): output, limits, progress. Whether this was the last time.
+  bool observe(CentralDifference& solver);
+  // Before advance_position(): tells what this rank wants of the next times, and whether diagnostics are wanted there.
+  bool prepare_next(CentralDifference& solver);
+
+  void finish() { progress_.finish(); }
+
+ private:
+  bool is_over(const CentralDifference& solver) const { return solver.time() >= services_.deck.solver.final_time; }
+  void warn_of_fixed_step(const CentralDifference& solver);
+
+  RunServices services_;
+  Progress progress_;
+  bool warned_ = false, ending_ = false, saving_ = false;
+};
+
+}  // namespace strut
