@@ -15,22 +15,12 @@
 #include "base/math/rotation.hpp"
 #include "base/math/tensors.hpp"
 #include "materials/laws.hpp"
+#include "mechanics/formulation/formulation.hpp"
 #include "mechanics/stabilization/stabilization.hpp"
 #include "points/domain.hpp"
 #include "points/site.hpp"
 
 namespace strut {
-
-// ω(r), r = |ξ|/δ: 1; 1 − r; 1 − 3r² + 2r³.
-enum class Influence { one, linear_decay, cubic_decay };
-
-// How the bonds of a block come to their force.
-//   correspondence: the family gives F, the law a stress, and the stress the force of each bond
-//   ordinary: the linear elastic solid of Silling et al. (2007), forces along the bonds; of the law only its moduli
-//   count
-//   quadratic: the family gives F and its gradient over the cell of the point, the law stresses at four places of the
-//   cell, and these the force of each bond (quadratic_fit.hpp)
-enum class Formulation { correspondence, ordinary, quadratic };
 
 // What a bond reads of an end by correspondence: a tensor by columns, and in their fourth lanes up to three numbers.
 struct alignas(32) TensorRecord {

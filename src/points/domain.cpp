@@ -373,12 +373,6 @@ ClusterLists lists_of(const Stencils& stencils, const Search& search, const Cand
 
 }  // namespace
 
-bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
-  constexpr double tolerance = 1 + 1e-9;  // a neighbor at exactly the horizon stays in despite round-off
-  const double horizon = 0.5 * (one_horizon + other_horizon) * tolerance;
-  return xi.squaredNorm() <= horizon * horizon;
-}
-
 BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
                      const Communicator& communicator) {
   constexpr double pencils = 1.0 / 6;  // of a lattice a point: between a full block's eighth and a foam's fifth

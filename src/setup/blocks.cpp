@@ -9,33 +9,7 @@
 
 namespace strut {
 
-namespace {
-
-Stabilization stabilization_of(const deck::Material& material) {
-  switch (material.stabilization) {
-    case deck::StabilizationType::silling:
-      return SillingStabilization{material.stabilization_coefficient};
-    case deck::StabilizationType::mean_gradient:
-      return MeanGradientStabilization{material.stabilization_coefficient};
-    default:
-      return NoStabilization();
-  }
-}
-
-Formulation formulation_of(deck::Formulation formulation) {
-  switch (formulation) {
-    case deck::Formulation::ordinary:
-      return Formulation::ordinary;
-    case deck::Formulation::quadratic:
-      return Formulation::quadratic;
-    default:
-      return Formulation::correspondence;
-  }
-}
-
-}  // namespace
-
-bool is_quadratic(const deck::Material& material) { return material.formulation == deck::Formulation::quadratic; }
+bool is_quadratic(const deck::Material& material) { return material.formulation == Formulation::quadratic; }
 
 const deck::Block* section_of(const deck::Deck& deck, const std::string& block) {
   const deck::Block* general = nullptr;
@@ -67,11 +41,10 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
     const deck::Material& material = deck.materials[section_of(deck, name)->material];
-    const bool ordinary = material.formulation == deck::Formulation::ordinary;
     materials.push_back({material.density,
                          material.law,
-                         ordinary ? NoStabilization() : stabilization_of(material),
-                         formulation_of(material.formulation),
+                         material.stabilization,
+                         material.formulation,
                          {material.linear_viscosity, material.quadratic_viscosity}});
   }
   return materials;
@@ -88,11 +61,11 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
                                             : BlockBonds(*section->horizon, body));
     const deck::Material& material = deck.materials[section->material];
     const bool by_touch = is_quadratic(material) && cloud.joined;
-    const bool is_alike = deck.discretization.influence == deck::Influence::one;  // others fade with the distance
+    const bool is_alike = deck.discretization.influence == Influence::one;  // others fade with the distance
     bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
     bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
     const bool any = bonds.back().touching || bonds.back().through_material;
-    if (any || material.formulation != deck::Formulation::correspondence) bonds.back().families = FamilyKind::lists;
+    if (any || material.formulation != Formulation::correspondence) bonds.back().families = FamilyKind::lists;
   }
   return bonds;
 }
@@ -122,17 +95,6 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
          << ", whose mean spacing is " << spacings[b]
          << " m: expected between 1 and 20 spacings, usually 2 to 4 (is the mesh in m?)";
     problems.add("Blocks > " + section->name + " > Horizon", text.str());
-  }
-}
-
-Influence influence_of(deck::Influence influence) {
-  switch (influence) {
-    case deck::Influence::one:
-      return Influence::one;
-    case deck::Influence::linear_decay:
-      return Influence::linear_decay;
-    default:
-      return Influence::cubic_decay;
   }
 }
 

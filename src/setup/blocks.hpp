@@ -28,8 +28,6 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 
-Influence influence_of(deck::Influence influence);
-
 // Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness.
 std::string thin_members(const Body& body);
 

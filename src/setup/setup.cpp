@@ -43,7 +43,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   Domain domain = healthy_domain(deck, std::move(cloud), communicator, dropped);
   Scene scene{
-      make_body(std::move(domain), influence_of(deck.discretization.influence), materials),
+      make_body(std::move(domain), deck.discretization.influence, materials),
       {},
       {},
       {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},

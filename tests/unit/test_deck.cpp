@@ -46,7 +46,7 @@ TEST(Deck, ReadsFormulationAndBondsAcrossVoids) {
                R"(<Parameter name="Bonds Across Voids" type="bool" value="false"/> <Parameter name="Material" )");
   const Deck deck = folder.read(cells);
   EXPECT_EQ(deck.materials[0].formulation, Formulation::quadratic);
-  EXPECT_EQ(deck.materials[0].stabilization, StabilizationType::none);
+  EXPECT_EQ(residual_of(deck.materials[0].stabilization), ResidualKind::none);
   EXPECT_EQ(deck.blocks[0].across_voids, std::optional(false));
 }
 
@@ -57,8 +57,7 @@ TEST(Deck, ReadsMaterials) {
   const Material& copper = deck.materials[0];
   EXPECT_EQ(copper.name, "copper");
   EXPECT_EQ(copper.density, 8960);
-  EXPECT_EQ(copper.stabilization, StabilizationType::mean_gradient);
-  EXPECT_EQ(copper.stabilization_coefficient, 0.05);
+  EXPECT_EQ(std::get<MeanGradientStabilization>(copper.stabilization).coefficient, 0.05);
   const auto& j2 = std::get<materials::J2>(copper.law);
   EXPECT_DOUBLE_EQ(j2.bulk, 110e9 / (3 * (1 - 2 * 0.296)));
   EXPECT_DOUBLE_EQ(j2.shear, 110e9 / (2 * 1.296));
@@ -69,7 +68,7 @@ TEST(Deck, ReadsMaterials) {
   EXPECT_EQ(std::get<materials::JohnsonCookRate>(j2.flow.rate).coefficient, 0.03);
   EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).bulk, 160e9);
   EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).shear, 80e9);
-  EXPECT_EQ(deck.materials[1].stabilization, StabilizationType::none);
+  EXPECT_EQ(residual_of(deck.materials[1].stabilization), ResidualKind::none);
   EXPECT_EQ(deck.materials[1].formulation, Formulation::correspondence);
 }
 
@@ -106,7 +105,7 @@ TEST(Deck, ReadsOrdinaryMaterials) {
   EXPECT_EQ(deck.materials[0].formulation, Formulation::correspondence);
   EXPECT_EQ(deck.materials[1].formulation, Formulation::ordinary);
   EXPECT_EQ(std::get<materials::Elastic>(deck.materials[1].law).bulk, 160e9);
-  EXPECT_EQ(deck.materials[1].stabilization_coefficient, 0);
+  EXPECT_EQ(coefficient_of(deck.materials[1].stabilization), 0);
 }
 
 TEST(Deck, ReadsBlocks) {
@@ -220,8 +219,7 @@ TEST(Deck, HasDefaults) {
   EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::error);
   EXPECT_TRUE(deck.node_sets.empty());
   EXPECT_TRUE(deck.conditions.empty());
-  EXPECT_EQ(deck.materials[0].stabilization, StabilizationType::mean_gradient);
-  EXPECT_EQ(deck.materials[0].stabilization_coefficient, 0.01);
+  EXPECT_EQ(std::get<MeanGradientStabilization>(deck.materials[0].stabilization).coefficient, 0.01);
   EXPECT_TRUE(std::holds_alternative<materials::NoHardening>(flow(deck).hardening));
   EXPECT_TRUE(std::holds_alternative<materials::NoRate>(flow(deck).rate));
   EXPECT_EQ(deck.solver.initial_time, 0);

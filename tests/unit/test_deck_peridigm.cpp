@@ -32,11 +32,10 @@ bool told(const Deck& deck, const std::string& note) {
 TEST(DeckOfPeridigm, HourglassCoefficients) {
   const DeckFolder folder;
   const Deck none = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.0"));
-  EXPECT_EQ(none.materials[0].stabilization, StabilizationType::none);
+  EXPECT_EQ(residual_of(none.materials[0].stabilization), ResidualKind::none);
   EXPECT_TRUE(none.notes.empty());
   const Deck some = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.02"));
-  EXPECT_EQ(some.materials[0].stabilization, StabilizationType::silling);
-  EXPECT_EQ(some.materials[0].stabilization_coefficient, 0.04);
+  EXPECT_EQ(std::get<SillingStabilization>(some.materials[0].stabilization).coefficient, 0.04);
   EXPECT_TRUE(told(some,
                    "Materials > copper > Hourglass Coefficient is taken as Stabilization 'Silling' with the "
                    "coefficient 0.04, about the same in effect"));

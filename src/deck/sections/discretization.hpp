@@ -6,12 +6,12 @@
 
 #include "base/math/tensors.hpp"
 #include "deck/forward.hpp"
+#include "mechanics/formulation/formulation.hpp"
 
 namespace strut::deck {
 
 enum class MeshType { exodus, text, grid };
 enum class Points { elements, nodes };
-enum class Influence { one, linear_decay, cubic_decay };  // 1; 1 − r; 1 − 3r² + 2r³, with r = |ξ|/δ
 enum class DegeneratePoints { error, drop };
 
 // Equal cells, with a point at the centre of each, x fastest.

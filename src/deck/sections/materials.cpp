@@ -22,14 +22,19 @@ const ChoiceKey<Formulation> formulation(
                 "that share an element."},
     {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
 
-const ChoiceKey<StabilizationType> stabilization(
+// By their names.
+std::vector<std::pair<std::string, Stabilization>> stabilizations() {
+  std::vector<std::pair<std::string, Stabilization>> all;
+  for_each_stabilization([&all]<class S>(const S& one) { all.emplace_back(S::name, one); });
+  return all;
+}
+
+const ChoiceKey<Stabilization> stabilization(
     {.name = "Stabilization",
      .fallback = "Mean Gradient",
      .meaning = "What holds zero-energy modes down: a spring in each bond on what the mean deformation "
                 "gradient of both ends, or (Silling) each end's own, does not see of it."},
-    {{"Mean Gradient", StabilizationType::mean_gradient},
-     {"Silling", StabilizationType::silling},
-     {"None", StabilizationType::none}});
+    stabilizations());
 
 const RealKey stabilization_coefficient(
     {.name = "Stabilization Coefficient",
@@ -50,7 +55,8 @@ const RealKey quadratic_viscosity(
 
 void check_needs_no_stabilization(const Values& values, Problems& problems) {
   for (const Key& key : {Key(stabilization), Key(stabilization_coefficient)}) {
-    if (!values.given(key) || (values.has(stabilization) && values[stabilization] == StabilizationType::none)) continue;
+    if (!values.given(key) || (values.has(stabilization) && residual_of(values[stabilization]) == ResidualKind::none))
+      continue;
     problems.add(
         values.path_to(key),
         "given, but Formulation 'Quadratic Correspondence' has no zero-energy modes and takes none; expected no "
@@ -60,12 +66,11 @@ void check_needs_no_stabilization(const Values& values, Problems& problems) {
 
 void read_correspondence(const Values& values, Material& material, Problems& problems) {
   material.formulation = values[formulation];
-  material.stabilization = values[stabilization];
+  material.stabilization = with_coefficient(values[stabilization], values[stabilization_coefficient]);
   material.linear_viscosity = values[linear_viscosity];
   material.quadratic_viscosity = values[quadratic_viscosity];
-  material.stabilization_coefficient = values[stabilization_coefficient];
   if (material.formulation != Formulation::quadratic) return;
-  material.stabilization = StabilizationType::none;
+  material.stabilization = NoStabilization();
   check_needs_no_stabilization(values, problems);
 }
 

@@ -6,11 +6,10 @@
 
 #include "deck/forward.hpp"
 #include "materials/laws.hpp"
+#include "mechanics/formulation/formulation.hpp"
+#include "mechanics/stabilization/stabilization.hpp"
 
 namespace strut::deck {
-
-enum class StabilizationType { none, silling, mean_gradient };
-enum class Formulation { correspondence, ordinary, quadratic };
 
 struct Material {
   std::string name;
@@ -18,9 +17,8 @@ struct Material {
   Formulation formulation{};
   materials::AnyLaw law;  // ordinary: Elastic
   // By correspondence.
-  StabilizationType stabilization{};
+  Stabilization stabilization = NoStabilization();
   double linear_viscosity{}, quadratic_viscosity{};
-  double stabilization_coefficient{};  // in units of (λ + 2μ)/(tr K/3), dimensionless
 };
 
 Section materials_section();

@@ -39,7 +39,7 @@ struct Update {
     LawPoints g{{}, group.k, group};
     for (int l = 0; l < LaneGroup::width; ++l) {
       g.points[l] = &body().points[group.i[l]];
-      if (law.pass.order == 0) fetch_ahead(body().points.data(), group.i[l]);
+      if (law.pass.level == 0) fetch_ahead(body().points.data(), group.i[l]);
     }
     return g;
   }
@@ -54,7 +54,7 @@ struct Update {
     const int i = g.i[l];
     body().force_states.tensors[i] = bonds::force_state(Tensor::Zero(), 0);
     body().force_density[i].setZero();
-    store_gradient(i, 0, body().share(i, law.pass.order));
+    store_gradient(i, 0, body().share(i, law.pass.level));
   }
 
   // What the springs on both ends' gradients read.
@@ -85,7 +85,7 @@ struct Update {
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
     const auto [N, pull] = moments(group, {body().domain.sites.data()}, with_springs, weight);
     const LaneTensor F = deformation_gradient(group, N, shape_inverse);
-    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
+    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
     const Deformed now = law.advance(g, F, share);
     const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);
@@ -113,19 +113,6 @@ struct Update {
 };
 
 }  // namespace
-
-void add_damping(const MaterialBlock& block, const StressPass& pass, const LaneGroups& groups, StepReport& report) {
-  if (block.viscous.empty() || pass.order > 0) return;  // a whole step asks for it
-  const auto damping = [&block, &groups](int g) {
-    const LaneGroup group = groups[g];
-    double most = 0;
-    for (const int k : group.k) {
-      for (int q = 0; q < block.places_a_point(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
-    }
-    return most;
-  };
-  report.damping = largest(0, groups.count(), report.damping, damping);
-}
 
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
                     StepReport& report) {

@@ -1,8 +1,9 @@
 // Ordinary points: from the places to the force state of each, t = ω (a |ξ| + b e), and what F would be.
+#include "mechanics/formulation/ordinary.hpp"
+
 #include <cmath>
 
 #include "base/math/rotation.hpp"
-#include "mechanics/formulation/correspondence.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
 
 namespace strut {

@@ -1,5 +1,7 @@
 // By quadratic correspondence, from the places of the points to the states of their bonds: F at four places of each
 // cell, rotation, law and first Piola–Kirchhoff stress there.
+#include "mechanics/formulation/quadratic.hpp"
+
 #include <array>
 
 #include "mechanics/formulation/quadratic_cell.hpp"
@@ -24,7 +26,7 @@ struct Update {
     for (int l = 0; l < LaneGroup::width; ++l) {
       g.places[l] = static_cast<int>(block().place(group.k[l], q));
       g.points[l] = &block().cells[g.places[l]];
-      if (law.pass.order == 0) fetch_ahead(block().cells.data(), g.places[l]);
+      if (law.pass.level == 0) fetch_ahead(block().cells.data(), g.places[l]);
     }
     return g;
   }
@@ -46,12 +48,12 @@ struct Update {
   double advance(const LaneGroup& group) const {
     const std::vector<Site>& sites = body().domain.sites;
     for (const int i : group.i) {
-      if (law.pass.order == 0) fetch_ahead(&(*body().fits)[i], 0);
+      if (law.pass.level == 0) fetch_ahead(&(*body().fits)[i], 0);
     }
     QuadraticCells cells(group, *body().fits, sites);
     cells.take(
         bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, sites.data(), body().fits->multipliers(), weight));
-    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.order); });
+    const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
     const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
     const std::array<LawPoints, 4> points{places(group, 0), places(group, 1), places(group, 2), places(group, 3)};
     const Lanes has_flowed = flowed(points);

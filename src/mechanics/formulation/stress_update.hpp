@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/math/rotation.hpp"
-#include "mechanics/formulation/correspondence.hpp"
+#include "mechanics/formulation/stress_pass.hpp"
 
 namespace strut {
 
@@ -238,6 +238,21 @@ struct LawUpdate {
 
 // What a law point adds to ω²: M/(3ρ) J |U⁻¹|², m²/s².
 inline Lanes squared_speed(const Deformed& now) { return now.stiffness * now.J * small::square(now.inverse_stretch); }
+
+// The largest damping by viscosity of the points of a whole step.
+inline void add_damping(const MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
+                        StepReport& report) {
+  if (block.viscous.empty() || pass.level > 0) return;  // a whole step asks for it
+  const auto damping = [&block, &groups](int g) {
+    const LaneGroup group = groups[g];
+    double most = 0;
+    for (const int k : group.k) {
+      for (int q = 0; q < block.places_a_point(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
+    }
+    return most;
+  };
+  report.damping = largest(0, groups.count(), report.damping, damping);
+}
 
 // Calls what the compiler is to inline whole: what is not inlined into the loop over groups passes its lanes through
 // memory. Checking builds (debug, asan) go without: it would take the compiler many minutes.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "mechanics/kernels/lattice_sweep.hpp"
-
 namespace strut {
 
 LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take) : lattice_(&lattice) {

@@ -1,8 +1,7 @@
 // The stabilizations of zero-energy modes that a block can have: one of them (residual.hpp says what a type is).
 #pragma once
 
-#include <stdexcept>
-#include <string>
+#include <cstddef>
 #include <type_traits>
 #include <variant>
 
@@ -17,7 +16,7 @@ struct NoStabilization {
   double coefficient = 0;
 };
 
-using Stabilization = std::variant<NoStabilization, SillingStabilization, MeanGradientStabilization>;
+using Stabilization = std::variant<MeanGradientStabilization, SillingStabilization, NoStabilization>;
 
 inline double coefficient_of(const Stabilization& stabilization) {
   return std::visit([](const auto& s) { return s.coefficient; }, stabilization);
@@ -48,17 +47,11 @@ inline constexpr int bond_stabilizations = []<class... S>(std::type_identity<std
   return (static_cast<int>(BondStabilization<S>) + ...);
 }(std::type_identity<Stabilization>());
 
-// Of the name that the deck gives it.
-inline Stabilization stabilization_named(const std::string& name, double coefficient) {
-  Stabilization result;
-  bool known = false;
-  for_each_stabilization([&]<class S>(S one) {
-    if (name != S::name) return;
-    one.coefficient = S::residual == ResidualKind::none ? 0 : coefficient;
-    result = one, known = true;
-  });
-  if (!known) throw std::logic_error("there is no stabilization '" + name + "'");
-  return result;
+// The same with another coefficient.
+inline Stabilization with_coefficient(Stabilization stabilization, double coefficient) {
+  std::visit([&]<class S>(S& s) { s.coefficient = S::residual == ResidualKind::none ? 0 : coefficient; },
+             stabilization);
+  return stabilization;
 }
 
 }  // namespace strut

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "points/bounding_box.hpp"
-#include "points/domain.hpp"
+#include "points/cloud.hpp"
 
 namespace strut {
 

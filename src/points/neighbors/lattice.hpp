@@ -13,10 +13,10 @@
 #include "base/math/pencil.hpp"
 #include "base/math/tensors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "points/neighbors/block_bonds.hpp"
 
 namespace strut {
 
-struct BlockBonds;
 struct PointCloud;
 
 // Where the lattice of a body is, the same on all ranks.

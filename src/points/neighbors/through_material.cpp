@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "points/domain.hpp"
+#include "points/neighbors/block_bonds.hpp"
 
 namespace strut {
 

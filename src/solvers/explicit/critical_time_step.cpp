@@ -126,9 +126,9 @@ StoredField combine(const std::vector<StoredField>& basis, const Eigen::VectorXd
 
 }  // namespace
 
-// Of the basis; of places, or sites where these are needed.
+// Of the basis and the image; of places, or sites where these are needed.
 double CriticalTimeStep::bytes(const Body& body) {
-  const double fields = basis_size * sizeof(Eigen::Vector3f);
+  const double fields = basis_size * sizeof(Eigen::Vector3f) + sizeof(Vector);
   const double seen = body.force_states.scalars.empty() ? sizeof(Vector) : sizeof(Site);
   return fields * body.owned() + seen * static_cast<double>(body.domain.sites.size());
 }
@@ -142,7 +142,7 @@ void CriticalTimeStep::serialize(Archive& archive, const Body& body) {
 double CriticalTimeStep::estimate(Body& body) {
   static Teuchos::Time& timer = phase("Critical time step");
   const Timed timed(timer);
-  Field& image = body.previous_velocity;
+  Field image(body.owned());
   found_ ? add_noise(body, mode_, image) : set_noise(body, image);
   double bound = 0;
   for (int cycle = 0; cycle < most_cycles; ++cycle) {
@@ -161,7 +161,6 @@ double CriticalTimeStep::estimate(Body& body) {
     bound = value + residual;
     if (!(residual > accuracy * value)) break;
   }
-  body.previous_velocity = body.velocity;
   return bound > 0 ? 2 / std::sqrt(bound) : std::numeric_limits<double>::infinity();
 }
 

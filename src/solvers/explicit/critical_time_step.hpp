@@ -12,7 +12,7 @@ class CriticalTimeStep {
  public:
   // Collective. 2/ω_max in s, the same on any number of ranks to the last bit; infinity for a body without stiffness.
   // Later calls start from the mode found last, which makes them cheaper. Spoils body.force_states, which are of use
-  // only between stresses and forces, and body.previous_velocity, which is the velocity afterwards.
+  // only between stresses and forces.
   double estimate(Body& body);
 
   void serialize(Archive& archive, const Body& body);  // at the group of all owned points

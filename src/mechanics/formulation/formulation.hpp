@@ -1,0 +1,17 @@
+// How the bonds of a block come to their force, and how much each counts.
+#pragma once
+
+namespace strut {
+
+// ω(r), r = |ξ|/δ: 1; 1 − r; 1 − 3r² + 2r³.
+enum class Influence { one, linear_decay, cubic_decay };
+
+// How the bonds of a block come to their force.
+//   correspondence: the family gives F, the law a stress, and the stress the force of each bond
+//   ordinary: the linear elastic solid of Silling et al. (2007), forces along the bonds; of the law only its moduli
+//   count
+//   quadratic: the family gives F and its gradient over the cell of the point, the law stresses at four places of the
+//   cell, and these the force of each bond (quadratic_fit.hpp)
+enum class Formulation { correspondence, ordinary, quadratic };
+
+}  // namespace strut
