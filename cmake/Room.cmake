@@ -1,13 +1,16 @@
-# strut_room(NAME SOURCES … SEES … PRIVATE …): the library strut_NAME of the folder it is called from.
+# strut_room(NAME SOURCES … SEES … READS … PRIVATE …): the library strut_NAME of the folder it is called from.
 # Its headers are reached as "NAME/header.hpp" through a folder that holds a link to this room alone, so the rooms
-# a target can include are exactly those it links.
+# a target can include are exactly those it names: SEES links them, too; READS takes types from their headers only.
 function(strut_room name)
-  cmake_parse_arguments(room "" "" "SOURCES;SEES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(room "" "" "SOURCES;SEES;READS;PRIVATE" ${ARGN})
   set(door ${CMAKE_BINARY_DIR}/rooms/${name})
   file(MAKE_DIRECTORY ${door})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${door}/${name} SYMBOLIC)
   add_library(strut_${name} STATIC ${room_SOURCES})
   target_include_directories(strut_${name} PUBLIC ${door})
+  foreach(room IN LISTS room_READS)
+    target_include_directories(strut_${name} PUBLIC ${CMAKE_BINARY_DIR}/rooms/${room})
+  endforeach()
   list(TRANSFORM room_SEES PREPEND strut_)
   target_link_libraries(strut_${name} PUBLIC ${room_SEES} PRIVATE ${room_PRIVATE})
 endfunction()
