@@ -149,13 +149,14 @@ DeepestPenetration Contact::deepest() const {
   return deepest;
 }
 
-FrictionWork Contact::friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const {
+FrictionWork Contact::friction_work(double impulse_time, std::span<const Vector> before,
+                                    std::span<const Vector> after) const {
   FrictionWork work;
   for (const ContactPair& contact_pair : contact_pairs_) {
     for (std::size_t k = 0; k < contact_pair.friction.size(); ++k) {
       const int i = contact_pair.pairs.owned[k];
-      work.before += 0.5 * kick * contact_pair.friction[k].dot(before[i]);
-      work.after += 0.5 * kick * contact_pair.friction[k].dot(after[i]);
+      work.before += 0.5 * impulse_time * contact_pair.friction[k].dot(before[i]);
+      work.after += 0.5 * impulse_time * contact_pair.friction[k].dot(after[i]);
     }
   }
   return work;

@@ -55,9 +55,9 @@ class Contact {
   double penetration() const { return penetration_; }
   DeepestPenetration deepest() const;
 
-  // Of the last forces of friction on this rank's points, over a kick of length `kick` (s) from the velocities `before`
+  // Of the last forces of friction on this rank's points, over the time of an impulse (s) from the velocities `before`
   // to those `after`.
-  FrictionWork friction_work(double kick, std::span<const Vector> before, std::span<const Vector> after) const;
+  FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
   int searches() const { return searches_; }  // so far, of all interactions
 

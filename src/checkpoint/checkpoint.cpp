@@ -15,12 +15,12 @@ bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator)
   return communicator.max(there ? 1.0 : 0.0) > 0;
 }
 
-Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator, Keep keep)
+Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize)
     : settings_(deck.restart),
       deck_name_(deck.file.string()),
       deck_text_(deck.text),
       communicator_(communicator),
-      serialize_(std::move(keep)),
+      serialize_(std::move(serialize)),
       schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
   schedule_.done(deck.solver.initial_time);
   if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_file()); });

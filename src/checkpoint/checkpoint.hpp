@@ -19,10 +19,10 @@ bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator)
 class Checkpoint {
  public:
   // What is kept, by an archive that saves or restores.
-  using Keep = std::function<void(Archive&)>;
+  using Serialize = std::function<void(Archive&)>;
 
   // Collective. Throws Error on all ranks: another run that is on keeps things under the same name.
-  Checkpoint(const deck::Deck& deck, const Communicator& communicator, Keep keep);
+  Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
@@ -46,7 +46,7 @@ class Checkpoint {
   deck::Restart settings_;
   std::string deck_name_, deck_text_;
   Communicator communicator_;
-  Keep serialize_;
+  Serialize serialize_;
   Schedule schedule_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   int last_step_ = 0;  // that was written, or taken up

@@ -33,7 +33,7 @@ enum class InEquilibria { load, hold, tool, impossible };
 
 // The points that move at times between whole steps: at those of `level`, which come every 2^−level of the step.
 struct MovingPoints {
-  const std::vector<std::uint8_t>& levels;  // of owned points: how often the step of their motion is halved
+  const std::vector<std::uint8_t>& levels;  // of owned points: the time-step levels of their motion
   int level;
 
   bool include(int i) const { return levels[i] >= level; }

@@ -21,10 +21,10 @@ void NonReflectingEnd::change_velocities(VelocityUpdate& update) const {
     const double speed = normal.dot(before), push = normal.dot(change), dt = update.steps.of(i);
     const Vector sliding = before - speed * normal, shear = change - push * normal;
     Vector& v = update.body.velocity[i];
-    const Vector kicked = v;
+    const Vector before_end = v;
     v = dragged(speed, push, along, dt) * normal;
     for (int c = 0; c < 3; ++c) v[c] += dragged(sliding[c], shear[c], across, dt);
-    update.record(i, v - kicked);
+    update.record(i, v - before_end);
   }
 }
 

@@ -6,7 +6,7 @@ namespace strut {
 
 namespace {
 
-// Where a tool is, and how fast over the steps of its points, which differ by how often they are halved.
+// Where a tool is, and how fast over the steps of its points, which differ by their time-step level.
 class ToolMotion {
  public:
   ToolMotion(const RigidTool& tool, double t, double whole_step)

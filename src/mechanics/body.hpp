@@ -121,7 +121,7 @@ struct MaterialBlock {
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
   bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
-  // Its body moves as a whole, without strain (in rigid motion.hpp): there is nothing to compute.
+  // Its body moves as a whole, without strain (rigid_motion.hpp): there is nothing to compute.
   bool in_rigid_motion = false;
   double rest_frequency_bound = 0;  // 1/s, the largest of its points, as a part of their steps, in rigid motion
 
@@ -180,7 +180,7 @@ struct Body {
   // to which the sum adds what the far ends of their bonds give.
   std::vector<Vector> force_density;
   Deduplicated<Vector> first_moment;  // Σ ω V ξ, m⁴
-  // Where some points are stepped alone (subcycles.hpp), ghosts too: how often the step of a point's stress is halved.
+  // Where some points have time steps of their own (multi-time-stepping), ghosts too: the level h of each, Δt/2ʰ.
   // Empty: no point's.
   std::vector<std::uint8_t> time_levels;
   // Current after a step with diagnostics:
@@ -191,7 +191,7 @@ struct Body {
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
-  // The step of a point's stress as a part of the one that is halved `order` times.
+  // The step of a point's stress as a part of the one of a level.
   double share(int i, int level = 0) const { return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]); }
   const MaterialBlock& block_of(int i) const { return blocks[domain.cloud.blocks[i]]; }
   // Energy of the stabilization, J/m³, as current as the residual.

@@ -8,11 +8,11 @@ namespace strut {
 
 namespace {
 
-void keep_vectors(Archive& archive, const std::string& name, std::vector<Vector>& vectors) {
+void serialize_vectors(Archive& archive, const std::string& name, std::vector<Vector>& vectors) {
   archive.field(name, 3, [&](std::size_t i, int c) -> double& { return vectors[i][c]; });
 }
 
-void keep_numbers(Archive& archive, const std::string& name, std::vector<double>& numbers) {
+void serialize_numbers(Archive& archive, const std::string& name, std::vector<double>& numbers) {
   archive.field(name, 1, [&](std::size_t i, int) -> double& { return numbers[i]; });
 }
 
@@ -29,11 +29,11 @@ void compare_reference(Archive& archive, const Body& body) {
                         "other volumes; a run can go on with the same one only");
 }
 
-void keep_motion(Archive& archive, Body& body) {
+void serialize_motion(Archive& archive, Body& body) {
   archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
-  keep_vectors(archive, "velocity", body.velocity);
-  keep_vectors(archive, "previous_velocity", body.previous_velocity);
-  keep_vectors(archive, "force_density", body.force_density);
+  serialize_vectors(archive, "velocity", body.velocity);
+  serialize_vectors(archive, "previous_velocity", body.previous_velocity);
+  serialize_vectors(archive, "force_density", body.force_density);
 }
 
 void keep_points(Archive& archive, Body& body) {
@@ -44,8 +44,8 @@ void keep_points(Archive& archive, Body& body) {
   archive.field("stress", 6, [&](std::size_t i, int c) -> double& { return points[i].stress.data()[c]; });
   // A failed point has none left.
   archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
-  keep_numbers(archive, "residual", body.residual);
-  if (body.has_springs(ResidualKind::both_gradients)) keep_numbers(archive, "bond_work", body.bond_work);
+  serialize_numbers(archive, "residual", body.residual);
+  if (body.has_springs(ResidualKind::both_gradients)) serialize_numbers(archive, "bond_work", body.bond_work);
 }
 
 // The law points of quadratic correspondence.
@@ -95,13 +95,13 @@ std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& point
 
 void serialize(Archive& archive, Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    archive.number("undisturbed_" + std::to_string(b), body.blocks[b].in_rigid_motion);
+    archive.number("rigid_motion_" + std::to_string(b), body.blocks[b].in_rigid_motion);
     keep_block(archive, body, b, body.blocks[b]);
   }
   const auto owned = body.domain.cloud.ids.begin() + body.owned();
   archive.points("all points", {body.domain.cloud.ids.begin(), owned});
   compare_reference(archive, body);
-  keep_motion(archive, body);
+  serialize_motion(archive, body);
   keep_points(archive, body);
   if (!archive.loading()) return;
   body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);

@@ -7,7 +7,7 @@
 namespace strut {
 
 // Collective. Leaves the archive at the group of all owned points. Of restored bodies the ghosts' places are as their
-// owners'; time-step levels are not among it (subcycles.hpp).
+// owners'; time-step levels are not among it (multi_time_stepping.hpp).
 void serialize(Archive& archive, Body& body);
 
 // The ids of owned points, over all ranks.

@@ -79,7 +79,7 @@ struct Update {
     return F;
   }
 
-  // The largest pace² of the points of a group.
+  // The largest frequency bound² of the points of a group.
   double advance(const LaneGroup& group) const {
     const LawPoints g = members(group);
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
@@ -91,7 +91,7 @@ struct Update {
     const LaneTensor A = force_states(now, C, shape_inverse, share);
     const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);
     const Lanes volume = lanes_of([&](int l) { return body().domain.volume(group.i[l]); });
-    const Lanes pace2 =
+    const Lanes bound2 =
         share * share * volume * squared_speed(now) * (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
@@ -106,7 +106,7 @@ struct Update {
       }
       store_point(g, l, now, A, shared_C[l], share[l]);
       body().force_density[group.i[l]] = at(own, l);
-      fastest = std::max(fastest, pace2[l]);
+      fastest = std::max(fastest, bound2[l]);
     }
     return fastest;
   }

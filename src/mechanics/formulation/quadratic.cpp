@@ -44,7 +44,7 @@ struct Update {
     return Lanes::Zero();
   }
 
-  // The largest pace² of the points of a group.
+  // The largest frequency bound² of the points of a group.
   double advance(const LaneGroup& group) const {
     const std::vector<Site>& sites = body().domain.sites;
     for (const int i : group.i) {
@@ -91,12 +91,12 @@ struct Update {
   }
 
  private:
-  // Reports points that are turned inside out at a place, and returns the largest pace² of the others.
-  double report(const LaneGroup& group, const Lanes& determinant, const Lanes& pace2) const {
+  // Reports points that are turned inside out at a place, and returns the largest frequency bound² of the others.
+  double report(const LaneGroup& group, const Lanes& determinant, const Lanes& bound2) const {
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (determinant[l] > 0) {
-        fastest = std::max(fastest, pace2[l]);
+        fastest = std::max(fastest, bound2[l]);
       } else {
         const bool is_number = !std::isnan(determinant[l]);
         law.failure.report(group.k[l], is_number ? Failure::Kind::inverted : Failure::Kind::not_finite);

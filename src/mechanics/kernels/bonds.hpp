@@ -287,7 +287,7 @@ OwnGradient<ScalarOf<Family>> own_gradient(const Family& family, const GradientS
 }
 
 // Calls visit(ω V_j t less the share, z, ξ, share) over a family, with the force t of the stabilization S, which is the
-// one at `kind`. It acts at the steps of the end whose step is halved less often, so with the greater share of a step.
+// one at `kind`. It acts at the steps of the end of the lower time-step level, so with the greater share of a step.
 template <class S, class Family, class Weight, class Visit>
 inline void over_residuals(std::size_t kind, const Family& family, const Site* places, const GradientState* gradients,
                            Weight weight, Visit&& visit) {

@@ -126,8 +126,8 @@ void CentralDifference::gather_reactions(int conditions) {
   substep_impulses_ = ReactionImpulses(conditions);
 }
 
-// What a substep gives belongs to the step before this kick. The first kick begins half a step back, with velocities
-// that conditions have not changed, and so they answer for half of it.
+// What a substep gives belongs to the step before this impulse. The first impulse begins half a step back, with
+// velocities that conditions have not changed, and so they answer for half of it.
 void CentralDifference::take_reactions(const ReactionImpulses& now, double impulse_time) {
   const double length = steps_ == 0 ? 0.5 * impulse_time : impulse_time;
   for (std::size_t c = 0; c < reaction_forces_.size(); ++c) {
@@ -150,7 +150,8 @@ void CentralDifference::start() {
                  [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
-// Between time() and the next: the kicks of the points that are stepped alone. Times of order m come every dt/2^m.
+// Between time() and the next: the impulses of the points of higher time-step levels. Times of level m come every
+// dt/2^m.
 StepReport CentralDifference::substeps() {
   StepReport first;
   const int levels = multi_stepping_.level_count();
@@ -256,8 +257,8 @@ void CentralDifference::serialize(Archive& archive) {
   archive.number("updates", updates_);
   archive.number("dt", dt_);
   archive.number("limit", critical_at_estimate_);
-  archive.number("pace", frequency_bound_);
-  archive.number("pace_at_estimate", bound_at_estimate_);
+  archive.number("frequency_bound", frequency_bound_);
+  archive.number("bound_at_estimate", bound_at_estimate_);
   archive.number("damping", damping_);
   archive.number("regroup_due", levels_due_);
   archive.number("estimate_due", estimate_due_);
@@ -273,13 +274,13 @@ void CentralDifference::serialize(Archive& archive) {
 void CentralDifference::serialize_work(Archive& archive) {
   archive.number("put_in", initial_energy_);
   archive.number("largest_energy", largest_energy_);
-  const auto keep = [&archive](const std::string& when, Work& work) {
+  const auto serialize = [&archive](const std::string& when, Work& work) {
     archive.share("external_work" + when, work.external);
     archive.share("contact_work" + when, work.contact);
   };
-  keep("", work_);
-  keep("_before", impulse_work_.before);
-  keep("_after", impulse_work_.after);
+  serialize("", work_);
+  serialize("_before", impulse_work_.before);
+  serialize("_after", impulse_work_.after);
   substep_impulses_.serialize(archive);
 }
 

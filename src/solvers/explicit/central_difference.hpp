@@ -35,7 +35,8 @@ class CentralDifference {
   const contact::Contact& contact() const { return contact_; }
 
   // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then
-  // advance_position(). kick: velocities from the mid-step before time() to the one after. The step does not pass
+  // advance_position().
+  // Velocities from the mid-step before time() to the one after. The step does not pass
   // `final_time`.
   void advance_velocity(double final_time);
   // move: places to time() + dt, then stresses and forces there. Throws Error on all ranks when a point fails.
@@ -54,7 +55,7 @@ class CentralDifference {
   const std::string& warning() const { return warning_; }
   bool went_on() const { return went_on_; }
 
-  // Of any rank: agreed upon by all at the end of advance_position(), the greatest wish of all.
+  // Of any rank: agreed upon by all at the end of advance_position(), the greatest request of all.
   enum class Request { none, save, stop };
   Request agreed_request() const { return agreed_request_; }
   void request(Request request) { request_ = request; }
@@ -91,7 +92,7 @@ class CentralDifference {
   Work work_;                                    // up to the mid-step before time()
   ImpulseWork impulse_work_;                     // of the impulses at time()
   std::vector<Vector> reaction_forces_;  // N, on this rank's points at time(), by condition; empty: not asked for
-  ReactionImpulses substep_impulses_;    // of the substeps since the last kick
+  ReactionImpulses substep_impulses_;    // of the substeps since the last whole step
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   double initial_energy_ = 0, largest_energy_ = 0;

@@ -14,13 +14,13 @@ namespace {
 constexpr int max_level = 6;
 
 // The fastest motion of a point whose stress is stepped by Δt/2^h turns by no more than twice this angle in its step,
-// and by four times in the step before the last halving: less than half a period (README).
+// and by four times in the step of the level below: less than half a period (README).
 constexpr double most_turn = 0.6;
 
 // A substep of a point, with its share of the points that it moves, beside a whole step of a point.
 constexpr double cost_of_substep = 1.5;
 
-// Families between points that are halved h times and those that are halved h − 2 times or less (README).
+// Families between points of level h and those of level h − 2 or less (README).
 constexpr int families_between_levels = 2;
 
 constexpr double worth_while = 0.75;  // of the cost of a run without
@@ -34,7 +34,7 @@ class FrequencyHistogram {
   void add(double frequency_bound) { counts_[class_of(frequency_bound)] += 1; }
   void agree(const Communicator& communicator) { communicator.sum(counts_); }
 
-  // Paces of points that are not halved are below this, where the run costs least.
+  // Frequency bounds of points of level 0 are below this, where the run costs least.
   double best() const {
     int best = 0;
     const int last = static_cast<int>(classes_per_octave * (max_level + std::log2(margin_)));
@@ -57,13 +57,13 @@ class FrequencyHistogram {
   std::array<double, classes> counts_{};
 };
 
-// A point that is halved is at most `margin` times as fast in its own steps as one that is not.
+// A point of a higher level is at most `margin` times as fast in its own steps as one of level 0.
 int level_of(double frequency_bound, double bound, double margin) {
   if (!(frequency_bound > bound)) return 0;
   return std::clamp(static_cast<int>(std::ceil(std::log2(frequency_bound / (margin * bound)))), 1, max_level);
 }
 
-// The cost of a step of a point, in that of one that is not halved.
+// The cost of a step of a point, in that of one of level 0.
 double cost_of(int levels) { return 1 + cost_of_substep * ((1 << levels) - 1); }
 
 double FrequencyHistogram::cost(int c) const {
@@ -84,7 +84,7 @@ bool may_be_subcycled(const Body& body, std::size_t block) {
 
 bool moves_rigidly(const Body& body, int i) { return body.blocks[body.domain.cloud.blocks[i]].in_rigid_motion; }
 
-// Calls visit(i, whether it may be halved) for the owned points.
+// Calls visit(i, whether it may have a higher level) for the owned points.
 template <class Visit>
 void over_points(const Body& body, Visit&& visit) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -93,7 +93,8 @@ void over_points(const Body& body, Visit&& visit) {
   }
 }
 
-// The frequency bounds of owned points over all ranks: the largest, and the largest of those that may not be halved.
+// The frequency bounds of owned points over all ranks: the largest, and the largest of those that may not have a higher
+// level.
 struct FrequencyBounds {
   std::vector<double> values;
   double largest = 0, floor = 0;
@@ -124,7 +125,7 @@ void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) 
   numbers.assign(values.begin(), values.end());
 }
 
-// Points near those that are halved h times are halved h − 1 times at least.
+// Points near those of level h are of level h − 1 at least.
 void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   for (int n = 0; n < families_between_levels; ++n) {
     const std::vector<std::uint8_t> before = levels;
@@ -158,7 +159,7 @@ std::vector<std::uint8_t> chosen_levels(Body& body, double margin) {
   return pays ? levels : std::vector<std::uint8_t>{};
 }
 
-// How often the motion of each point is halved: as the stress of any point that moves it.
+// The level of the motion of each point: that of any point whose stress moves it.
 std::vector<std::uint8_t> motion_levels_of(const Body& body, const std::vector<std::uint8_t>& levels) {
   std::vector<std::uint8_t> motion_levels(levels.begin(), levels.begin() + body.owned());
   for_each_point(0, body.owned(), [&](int i) {
@@ -257,8 +258,8 @@ void MultiTimeStepping::serialize(Archive& archive, Body& body) {
   bool any = body.domain.communicator.max(body.time_levels.empty() ? 0.0 : 1.0) > 0;  // ranks without points have none
   std::vector<std::uint8_t> levels(body.owned(), 0);
   if (!body.time_levels.empty()) std::copy_n(body.time_levels.begin(), body.owned(), levels.begin());
-  archive.number("has_halvings", any);
-  archive.field("halvings", 1, [&](std::size_t i, int) -> std::uint8_t& { return levels[i]; });
+  archive.number("has_time_levels", any);
+  archive.field("time_levels", 1, [&](std::size_t i, int) -> std::uint8_t& { return levels[i]; });
   if (!archive.loading()) return;
   body.time_levels.clear();
   if (any) {

@@ -13,8 +13,8 @@ namespace strut {
 
 class MultiTimeStepping {
  public:
-  // Collective. Chooses how often the step of each point is halved (body.time-step levels), by its frequency bound:
-  // what costs least; none where that saves little. The forces of the points whose time-step levels change are halved
+  // Collective. Chooses the time-step level of each point (body.time_levels), by its frequency bound:
+  // what costs least; none where that saves little. The forces of the points whose time-step levels change are scaled
   // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
   // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
   // the step will be such a part of the stable one.
@@ -26,7 +26,7 @@ class MultiTimeStepping {
   // In a step, the mean of all points of all ranks.
   double updates_a_point() const { return updates_; }
 
-  // Of owned points: how often the step of their motion is halved, as the one of the stiffest point that moves them.
+  // Of owned points: the time-step levels of their motion, as that of the stiffest point that moves them.
   // Empty: of none.
   const std::vector<std::uint8_t>& motion_levels() const { return motion_levels_; }
 

@@ -31,7 +31,7 @@ void Constraints::remove(Field& field) const {
   for (std::size_t i = 0; i < field.size(); ++i) field[i] = free_projection_[i] * field[i];
 }
 
-void Constraints::keep(Field& field) const {
+void Constraints::keep_constrained(Field& field) const {
   for (std::size_t i = 0; i < field.size(); ++i) field[i] -= free_projection_[i] * field[i];
 }
 
@@ -45,7 +45,7 @@ void Constraints::add_reactions(const Field& forces, std::vector<Vector>& by_con
 Field Constraints::way_left(const Body& body) const {
   Field left(body.owned());
   for (int i = 0; i < body.owned(); ++i) left[i] = places_[i] - body.current(i);
-  keep(left);
+  keep_constrained(left);
   return left;
 }
 

@@ -158,12 +158,12 @@ void Equilibrium::go_back() {
 void Equilibrium::serialize(Archive& archive) {
   if (!archive.loading()) committed_.restore(body_);  // to the last bit, after a trial that was broken off
   strut::serialize(archive, body_);
-  const auto keep_field = [&archive](const std::string& name, Field& field) {
+  const auto serialize_field = [&archive](const std::string& name, Field& field) {
     archive.field(name, 3, [&field](std::size_t i, int c) -> double& { return field[i][c]; });
   };
   forces_.resize(body_.owned(), Vector::Zero());
-  keep_field("forces", forces_);
-  keep_field("outer_forces", outer_);
+  serialize_field("forces", forces_);
+  serialize_field("outer_forces", outer_);
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
   archive.number("largest_scale", largest_scale_);

@@ -45,7 +45,7 @@ bool is_a_way(const Field& way, const Body& body) {
 
 Newton::Newton(Equilibrium& equilibrium, const Observer& observer)
     : equilibrium_(equilibrium),
-      audience_(observer),
+      observer_(observer),
       krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
 
 // Of a point alone.
@@ -155,12 +155,12 @@ Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
 }
 
 void Newton::tell(const Search& search, int products) const {
-  if (!audience_.iterations) return;
+  if (!observer_.iterations) return;
   char line[160];
   std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N, damping %.0e%s",
                 search.iterations + 1, products, search.left.norm, search.left.scale, damping_,
                 search.left.failed ? "  failed" : "");
-  audience_.iterations(line);
+  observer_.iterations(line);
 }
 
 Search Newton::solve(const Tolerance& tolerance) {
@@ -181,7 +181,7 @@ Search Newton::solve(const Tolerance& tolerance) {
     search.evaluations += products;
     search.left = advance(search.left, step, moves);
     tell(search, products);
-    search.interrupted = equilibrium_.body().domain.communicator.max(audience_.leaves() ? 1.0 : 0.0) > 0;
+    search.interrupted = equilibrium_.body().domain.communicator.max(observer_.leaves() ? 1.0 : 0.0) > 0;
     if (search.interrupted) return search;
     std::fill(way.begin(), way.end(), Vector::Zero());
     moves = false;

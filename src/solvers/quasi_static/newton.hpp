@@ -28,7 +28,7 @@ class Newton {
   void tell(const Search& search, int products) const;
 
   Equilibrium& equilibrium_;
-  const Observer& audience_;
+  const Observer& observer_;
   Krylov krylov_;
   double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;

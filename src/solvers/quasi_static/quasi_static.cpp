@@ -27,10 +27,10 @@ constexpr double newton_bytes = 17e3;
 
 QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
                          double initial_time, double final_time, Observer observer)
-    : audience_(std::move(observer)),
+    : observer_(std::move(observer)),
       equilibrium_(body, std::move(conditions), std::move(contact)),
-      newton_(equilibrium_, audience_),
-      relaxation_(equilibrium_, audience_),
+      newton_(equilibrium_, observer_),
+      relaxation_(equilibrium_, observer_),
       control_(control),
       time_(initial_time),
       final_time_(final_time),
@@ -152,7 +152,7 @@ void QuasiStatic::commit(const Search& search) {
                 "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left", steps_,
                 time_, dt_, search.iterations, search.evaluations,
                 search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
-  audience_.load_steps(line);
+  observer_.load_steps(line);
   if (!control_.with_tangent || search.iterations <= easily * search.rounds) dt_ = std::min(2 * dt_, longest_);
 }
 

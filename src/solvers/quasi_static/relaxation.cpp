@@ -60,13 +60,13 @@ Search Relaxation::solve(const Tolerance& tolerance, int most) {
   for (int n = 0; n < most && !search.left.failed; ++n) {
     if (n % renewal == 0) {
       renew_masses();
-      search.interrupted = ranks.max(audience_.leaves() ? 1.0 : 0.0) > 0;
+      search.interrupted = ranks.max(observer_.leaves() ? 1.0 : 0.0) > 0;
       if (search.interrupted) return search;
     }
     const Field way = n < ramp ? held.way_left(body) : Field(body.owned(), Vector::Zero());
     for (int i = 0; i < body.owned(); ++i) {
-      const Vector kick = equilibrium_.residual()[i] / masses_[i];
-      velocity[i] = ((2 - damping) * velocity[i] + 2 * kick) / (2 + damping);
+      const Vector push = equilibrium_.residual()[i] / masses_[i];
+      velocity[i] = ((2 - damping) * velocity[i] + 2 * push) / (2 + damping);
       const Vector move = velocity[i] + way[i] / std::max(1, ramp - n);
       body.domain.sites[i].current.head<3>() += move.array();
     }

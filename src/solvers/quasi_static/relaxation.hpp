@@ -1,5 +1,5 @@
-// Equilibrium by dynamic relaxation: motion under the forces that are left, with masses that let all parts of the body
-// keep frequency bound with each other and a damping that adapts to the slowest of them. It needs no tangent.
+// Equilibrium by dynamic relaxation: motion under the forces that are left, with masses by which all parts of the
+// body are as fast as each other, and a damping that adapts to the slowest of them. It needs no tangent.
 #pragma once
 
 #include "solvers/explicit/critical_time_step.hpp"
@@ -9,7 +9,7 @@ namespace strut {
 
 class Relaxation {
  public:
-  Relaxation(Equilibrium& equilibrium, const Observer& observer) : equilibrium_(equilibrium), audience_(observer) {}
+  Relaxation(Equilibrium& equilibrium, const Observer& observer) : equilibrium_(equilibrium), observer_(observer) {}
 
   // Of iterations, which are some thousand times Newton's.
   static int most(const Tolerance& tolerance) { return 1000 * tolerance.most_iterations; }
@@ -23,7 +23,7 @@ class Relaxation {
   void renew_masses();
 
   Equilibrium& equilibrium_;
-  const Observer& audience_;
+  const Observer& observer_;
   CriticalTimeStep critical_time_step_;
   std::vector<double> masses_;  // N/m: of points, in a time whose unit is one iteration
 };
