@@ -1,6 +1,6 @@
 // What a law of contact is: the touching distance of two points, and from their overlap the force that parts them, its
 // slope and the energy that it stores. A new law is a type of its own (penalty.hpp, hertz.hpp), a line in laws.hpp, and
-// an entry in src/deck/contact_laws.cpp.
+// an entry in src/deck/sections/contact_laws.cpp.
 #pragma once
 
 #include <algorithm>

@@ -31,7 +31,7 @@ struct ResidualSum {
   template <class S>
   void pass(Part part, std::size_t kind) const {
     const auto sweep = [&](LatticeSums& sums, const LatticeSums::Take& take) {
-      sums.residuals<S>(kind, u, states.gradients, take);
+      sums.residuals(kind, u, states.gradients, take);
     };
     over_blocks(body, bodies, part, sweep, [&](const MaterialBlock& block, const LaneGroups& groups) {
       if (block.material.stabilization.index() != kind) return;

@@ -390,6 +390,53 @@ BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bon
   return costs;
 }
 
+namespace {
+
+// Lattices that are faster than lists, or asked for.
+std::vector<LatticeFrame> chosen_frames(const std::vector<LatticeFrame>& found, const Stencils& stencils,
+                                        const CandidatePool& pool, int owned, const Communicator& communicator) {
+  std::vector<LatticeFrame> chosen;
+  for (std::size_t l = 0; l < found.size(); ++l) {
+    if (found[l].wanted || is_faster(stencils.lattices[l], pool, owned, communicator)) chosen.push_back(found[l]);
+  }
+  return chosen;
+}
+
+// The points of a domain in their order, owned ones and ghosts.
+struct Members {
+  std::vector<int> in_pool, local, bodies;  // local: of the pool's members, −1 of those that are left out
+  std::vector<Site> sites;
+  std::vector<std::int64_t> ghost_ids;
+};
+
+Members members_of(const CandidatePool& pool, const Order& order, int owned) {
+  Members members{.in_pool = order.points, .local = std::vector<int>(pool.ids.size(), -1)};
+  members.in_pool.insert(members.in_pool.end(), order.ghosts.begin(), order.ghosts.end());
+  members.sites.reserve(members.in_pool.size());
+  for (const int p : members.in_pool) {
+    members.local[p] = static_cast<int>(members.sites.size());
+    Site& site = members.sites.emplace_back();
+    site.reference << pool.positions[p].array(), pool.volumes[p];
+    site.current << pool.positions[p].array(), pool.deltas[p];
+    members.bodies.push_back(pool.bodies[p]);
+    if (p >= owned) members.ghost_ids.push_back(pool.ids[p]);
+  }
+  return members;
+}
+
+void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& pool, const Members& members, int owned,
+                  Families& families) {
+  if (frames.empty()) return;
+  std::vector<Vector> positions;
+  for (const int p : members.in_pool) positions.push_back(pool.positions[p]);
+  Stencils own = stencils_of(frames, positions, members.bodies, owned);
+  families.lattices = std::move(own.lattices);
+  families.lattice_of = std::move(own.of);
+  families.lattice_of.resize(owned);
+}
+
+}  // namespace
+
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
@@ -403,10 +450,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
       candidates_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
   const std::vector<LatticeFrame> found = lattice_frames(cloud, own_horizons, bonds, communicator);
   Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
-  std::vector<LatticeFrame> frames;
-  for (std::size_t l = 0; l < found.size(); ++l) {
-    if (found[l].wanted || is_faster(stencils.lattices[l], pool, owned, communicator)) frames.push_back(found[l]);
-  }
+  const std::vector<LatticeFrame> frames = chosen_frames(found, stencils, pool, owned, communicator);
   if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
   const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
@@ -415,34 +459,13 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   const Order order = order_of(stencils, search, pool, cloud.blocks);
   PointCloud mine = reordered(cloud, order.points);
   mine.positions = {}, mine.volumes = {};
-  std::vector<int> local(pool.ids.size(), -1);
-  std::vector<Site> sites;
-  sites.reserve(order.points.size() + order.ghosts.size());
-  std::vector<std::int64_t> ghost_ids;
-  std::vector<int> bodies;
-  std::vector<int> members = order.points;
-  members.insert(members.end(), order.ghosts.begin(), order.ghosts.end());
-  for (const int p : members) {
-    local[p] = static_cast<int>(sites.size());
-    Site& site = sites.emplace_back();
-    site.reference << pool.positions[p].array(), pool.volumes[p];
-    site.current << pool.positions[p].array(), pool.deltas[p];
-    bodies.push_back(pool.bodies[p]);
-    if (p >= owned) ghost_ids.push_back(pool.ids[p]);
-  }
-  Families families{lists_of(stencils, search, pool, cloud.blocks, order, local), {}, {}};
-  if (!frames.empty()) {
-    std::vector<Vector> positions;
-    for (const int p : members) positions.push_back(pool.positions[p]);
-    Stencils own = stencils_of(frames, positions, bodies, owned);
-    families.lattices = std::move(own.lattices);
-    families.lattice_of = std::move(own.of);
-    families.lattice_of.resize(owned);
-  }
-  Halo halo(communicator, mine.ids, ghost_ids);
-  return {
-      communicator,     std::move(mine),   order.interior,      owned,          static_cast<int>(order.ghosts.size()),
-      std::move(sites), std::move(blocks), std::move(families), std::move(halo)};
+  Members members = members_of(pool, order, owned);
+  Families families{lists_of(stencils, search, pool, cloud.blocks, order, members.local), {}, {}};
+  add_lattices(frames, pool, members, owned, families);
+  Halo halo(communicator, mine.ids, members.ghost_ids);
+  const int ghosts = static_cast<int>(order.ghosts.size());
+  return {communicator,      std::move(mine),     order.interior, owned, ghosts, std::move(members.sites),
+          std::move(blocks), std::move(families), std::move(halo)};
 }
 
 PointCloud whole_cloud(const Domain& domain) {

@@ -279,8 +279,8 @@ constexpr int residual_outputs = 12;  // M, a force
 }  // namespace
 
 template <class S>
-void LatticeSums::residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
-                            const Take& take) {
+void LatticeSums::gather_residuals_of(std::size_t kind, const Displacements& u,
+                                      const std::vector<GradientState>& gradients, const Take& take) {
   const auto fill = [&](const Cells& cells, const Put& put) {
     const auto [ui, V] = u.of(cells.of(u.sites));
     const auto F = small::numbers_of<12>(cells.of(gradients.data()));
@@ -364,15 +364,12 @@ void LatticeSums::gather_residuals(int slot, int z) {
   std::copy_n(force, 3, sums_.of(z, slot) + 9);
 }
 
-namespace {
-
-// Makes the sums of every stabilization of the variant.
-[[maybe_unused]] void make_residuals(LatticeSums& sums, const Displacements& u,
-                                     const std::vector<GradientState>& gradients) {
-  for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { sums.residuals<S>(kind, u, gradients, {}); });
+void LatticeSums::residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
+                            const Take& take) {
+  for_each_bond_stabilization([&]<class S>(const S&, std::size_t place) {
+    if (place == kind) gather_residuals_of<S>(kind, u, gradients, take);
+  });
 }
-
-}  // namespace
 
 LaneVector LatticeSums::Chunk::residual_forces(const LaneIndices& points) const {
   return OfGroup(*this, points).vector(9);

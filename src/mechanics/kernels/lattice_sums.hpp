@@ -124,8 +124,7 @@ class LatticeSums {
   // stay as they are meanwhile.
   void moments(const Displacements& u, const Take& take);
   void squares(const Displacements& u, const Take& take);
-  // Of the stabilization S, the one at `kind`. `gradients`: F, or δF of a field, and C.
-  template <class S>
+  // Of the stabilization at `kind` of the variant. `gradients`: F, or δF of a field, and C.
   void residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
                  const Take& take);
   void forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take);
@@ -240,6 +239,9 @@ class LatticeSums {
   void gather_shape(int slot, int z);
   template <class S>
   void gather_residuals(int slot, int z);
+  template <class S>
+  void gather_residuals_of(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
+                           const Take& take);
   std::uint64_t* column_bits(int y) { return &column_bits_[static_cast<std::size_t>(y % ring_.rows) * words_]; }
   const Pencil* source_at(int place, int z) {
     const int slot = lattice_->slot_at(place);
