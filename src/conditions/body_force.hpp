@@ -1,6 +1,7 @@
 // A load on the volume of the body, such as weight.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "base/math/function.hpp"
@@ -10,14 +11,17 @@ namespace strut {
 
 // Along one axis of coordinates.
 struct BodyForce {
-  std::vector<int> points;
-  int component;
-  Function value;  // of the reference position and time: N/m³ of reference volume
+  std::vector<int> points = {};
+  int component = 0;
+  Function value = Function();  // of the reference position and time: N/m³ of reference volume
 
   static constexpr Stage stage = Stage::forces;
   static constexpr double Work::*ledger_entry = &Work::external;
   static constexpr int reaction_place = no_reaction;
   static constexpr InEquilibria in_equilibria = InEquilibria::load;
+
+  std::vector<Function> values_at_points() const { return {value}; }
+  BodyForce on(std::vector<int> all, int, const Body&) const { return {std::move(all), component, value}; }
 
   void add_forces(double t, Body& body) const;
   void add_work(double t, double impulse_time, const Body& body, ImpulseWork& work) const;

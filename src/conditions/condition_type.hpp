@@ -4,23 +4,29 @@
 // Every condition states
 //   stage           when it acts in a step, relative to others
 //   ledger_entry    the entry of the energy ledger that its work goes to
-//   reaction_place  its place in the deck, by which its reaction is asked for; no_reaction: it has none
+//   reaction_place  a member: its place in the deck, by which its reaction is asked for; static and no_reaction: it
+//                   has none
 //   in_equilibria   what it is in a load step without inertia
-// and, as these demand, what the concepts below list. A new one is a header of its own, a line in the variant
-// (condition.hpp), and the place where it is made of a deck.
+// and, as these demand, what the concepts below list. A new one is a unit of its own, a line in the variant
+// (condition.hpp), and its keys in a deck with what makes it of them (deck/sections/conditions.cpp).
 #pragma once
 
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "base/math/function.hpp"
+#include "base/math/tensors.hpp"
 #include "conditions/impulse_work.hpp"
 #include "conditions/reactions.hpp"
-#include "conditions/velocity_update.hpp"
-#include "mechanics/body.hpp"
 
 namespace strut {
+
+// Named only: a deck reads the types of conditions without the body that they act on.
+struct Body;
+struct VelocityUpdate;
 
 // The order in which conditions act; those of one stage act in the order of the deck. `forces` change force densities,
 // the others velocities, after all forces have: each may undo what earlier stages did, and so a point that a motion
@@ -56,6 +62,19 @@ concept StatesItsRoles = requires(const T& condition) {
   requires std::same_as<decltype(T::ledger_entry), double Work::*const>;
   { condition.reaction_place } -> std::convertible_to<int>;
   requires std::same_as<decltype(T::in_equilibria), const InEquilibria>;
+};
+
+template <class T>
+concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_place)>;
+
+// A deck makes a prototype: what it says of the condition, without points. Set-up completes it.
+//   values_at_points  the functions of the deck that it evaluates at its points: set-up has seen to it that they are
+//                     numbers there
+//   on                the condition on these points, at this place in the deck
+template <class T>
+concept IsPrototypeToo = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
+  { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
+  { prototype.on(points, place, body) } -> std::same_as<T>;
 };
 
 // Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff.
@@ -112,6 +131,6 @@ concept ActsInEquilibria =
     (T::in_equilibria == InEquilibria::impossible && SaysWhyNotInEquilibria<T>);
 
 template <class T>
-concept ConditionType = StatesItsRoles<T> && ActsInSteps<T> && ActsInEquilibria<T>;
+concept ConditionType = StatesItsRoles<T> && IsPrototypeToo<T> && ActsInSteps<T> && ActsInEquilibria<T>;
 
 }  // namespace strut

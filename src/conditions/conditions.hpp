@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "conditions/condition.hpp"
+#include "conditions/velocity_update.hpp"
+#include "mechanics/body.hpp"
 
 namespace strut {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conditions/velocity_update.hpp"
+
 namespace strut {
 
 namespace {
@@ -14,6 +16,20 @@ double dragged(double before, double change, double rate, double dt) {
 }
 
 }  // namespace
+
+NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int, const Body& body) const {
+  NonReflectingEnd end{normal};
+  for (const int i : points) {
+    const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
+    const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, material.law);
+    const double s = body.domain.cloud.spacings[i];
+    end.drags.push_back({.point = i,
+                         .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),
+                         .across = 2 / s * std::sqrt(moduli.shear / material.density),
+                         .gain = std::max(1.0, 2 * body.domain.volume(i) / (s * s * s))});
+  }
+  return end;
+}
 
 void NonReflectingEnd::change_velocities(VelocityUpdate& update) const {
   for (const auto& [i, along, across, gain] : drags) {
@@ -32,20 +48,6 @@ std::optional<NonReflectingEnd> NonReflectingEnd::in_substeps(const MovingPoints
   NonReflectingEnd part = *this;
   std::erase_if(part.drags, [&](const Drag& drag) { return !moving.include(drag.point); });
   return part;
-}
-
-NonReflectingEnd non_reflecting_end(const std::vector<int>& points, const Vector& normal, const Body& body) {
-  NonReflectingEnd end{normal, {}};
-  for (const int i : points) {
-    const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
-    const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, material.law);
-    const double s = body.domain.cloud.spacings[i];
-    end.drags.push_back({.point = i,
-                         .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),
-                         .across = 2 / s * std::sqrt(moduli.shear / material.density),
-                         .gain = std::max(1.0, 2 * body.domain.volume(i) / (s * s * s))});
-  }
-  return end;
 }
 
 }  // namespace strut

@@ -17,8 +17,8 @@ struct NonReflectingEnd {
     double along, across;  // traction over speed and mass of half a layer: 2 c_p/s and 2 c_s/s, s the spacing; 1/s
     double gain;           // mass of the point over that of half a layer
   };
-  Vector normal;  // of unit length
-  std::vector<Drag> drags;
+  Vector normal = Vector::UnitX();  // of unit length
+  std::vector<Drag> drags = {};
 
   static constexpr Stage stage = Stage::drags;
   static constexpr double Work::*ledger_entry = &Work::external;
@@ -28,12 +28,13 @@ struct NonReflectingEnd {
       "'Non-Reflecting End' has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed "
       "motion, a load, a plane or a tool";
 
+  std::vector<Function> values_at_points() const { return {}; }
+  // The drags are by the moduli of the undeformed blocks.
+  NonReflectingEnd on(std::vector<int> points, int, const Body& body) const;
+
   void change_velocities(VelocityUpdate& update) const;
   std::optional<NonReflectingEnd> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = false;
 };
-
-// The end that these points are, by the moduli of their undeformed blocks.
-NonReflectingEnd non_reflecting_end(const std::vector<int>& points, const Vector& normal, const Body& body);
 
 }  // namespace strut

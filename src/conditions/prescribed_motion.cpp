@@ -1,6 +1,7 @@
 #include "conditions/prescribed_motion.hpp"
 
 #include "conditions/value_at_point.hpp"
+#include "conditions/velocity_update.hpp"
 
 namespace strut {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/math/function.hpp"
@@ -11,15 +12,20 @@ namespace strut {
 
 // One component of the motion of some points.
 struct PrescribedMotion {
-  std::vector<int> points;
-  int component;
-  Function value;  // of the reference position and time: m, or m/s
-  bool is_velocity;
+  std::vector<int> points = {};
+  int component = 0;
+  Function value = Function();  // of the reference position and time: m, or m/s
+  bool is_velocity = false;
   int reaction_place = no_reaction;
 
   static constexpr Stage stage = Stage::motions;
   static constexpr double Work::*ledger_entry = &Work::external;
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
+
+  std::vector<Function> values_at_points() const { return {value}; }
+  PrescribedMotion on(std::vector<int> all, int place, const Body&) const {
+    return {std::move(all), component, value, is_velocity, place};
+  }
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<PrescribedMotion> in_substeps(const MovingPoints& moving) const;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "conditions/velocity_update.hpp"
+
 namespace strut {
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/math/function.hpp"
@@ -14,9 +15,9 @@ namespace strut {
 // A tool that some points meet. One that would enter it is stopped at its surface, and is free to leave. While it is
 // stopped, Coulomb friction takes up to `friction` times the impulse of the tool from its sliding over the tool.
 struct RigidTool {
-  std::vector<int> points;
-  Shape shape;                                    // before it travels
-  std::array<std::optional<Function>, 3> travel;  // along x, y, z, of t only, m; nothing: it stays
+  std::vector<int> points = {};
+  Shape shape;                                         // before it travels
+  std::array<std::optional<Function>, 3> travel = {};  // along x, y, z, of t only, m; nothing: it stays
   double friction = 0;
   int reaction_place = no_reaction;
 
@@ -26,6 +27,11 @@ struct RigidTool {
   static constexpr Stage stage = Stage::tools;
   static constexpr double Work::*ledger_entry = &Work::contact;
   static constexpr InEquilibria in_equilibria = InEquilibria::tool;
+
+  std::vector<Function> values_at_points() const { return {}; }
+  RigidTool on(std::vector<int> all, int place, const Body&) const {
+    return {std::move(all), shape, travel, friction, place};
+  }
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<RigidTool> in_substeps(const MovingPoints& moving) const;

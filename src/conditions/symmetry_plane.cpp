@@ -1,5 +1,7 @@
 #include "conditions/symmetry_plane.hpp"
 
+#include "conditions/velocity_update.hpp"
+
 namespace strut {
 
 void SymmetryPlane::change_velocities(VelocityUpdate& update) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "conditions/condition_type.hpp"
@@ -10,13 +11,16 @@ namespace strut {
 
 // Points keep their distance to a plane.
 struct SymmetryPlane {
-  std::vector<int> points;
-  Vector normal;  // of unit length
+  std::vector<int> points = {};
+  Vector normal = Vector::UnitX();  // of unit length
   int reaction_place = no_reaction;
 
   static constexpr Stage stage = Stage::planes;
   static constexpr double Work::*ledger_entry = &Work::external;
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
+
+  std::vector<Function> values_at_points() const { return {}; }
+  SymmetryPlane on(std::vector<int> all, int place, const Body&) const { return {std::move(all), normal, place}; }
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;

@@ -20,15 +20,8 @@ bool means_reaction(const std::string& name) {
   return kind.starts_with("Reaction") || !did_you_mean(kind, reaction_names).empty();
 }
 
-bool reacts(deck::ConditionType type) {
-  switch (type) {
-    case deck::ConditionType::initial_velocity:
-    case deck::ConditionType::body_force:
-    case deck::ConditionType::open_end:
-      return false;
-    default:
-      return true;
-  }
+bool reacts(const ConditionPrototype& kind) {
+  return std::visit([]<class Type>(const Type&) { return Reacts<Type>; }, kind);
 }
 
 // The place in the deck of the condition of this name; throws where it is none that reacts.
@@ -36,7 +29,7 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
                        const std::string& path) {
   std::vector<std::string> valid;
   for (std::size_t place = 0; place < conditions.size(); ++place) {
-    if (!reacts(conditions[place].type)) continue;
+    if (!reacts(conditions[place].kind)) continue;
     if (conditions[place].name == wanted) return static_cast<int>(place);
     valid.push_back(conditions[place].name);
   }

@@ -1,6 +1,8 @@
 #include "setup/conditions.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
@@ -25,48 +27,28 @@ std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
   return points;
 }
 
-void set_initial_velocity(const deck::Condition& condition, const std::vector<int>& points, double t, Body& body) {
-  for (const int i : points) {
-    body.velocity[i][condition.component] = finite_value(condition.value, body.domain.reference(i), t);
+void check_values(const std::vector<Function>& values, const std::vector<int>& points, double t, const Domain& domain) {
+  for (const Function& value : values) {
+    for (const int i : points) finite_value(value, domain.reference(i), t);
   }
 }
 
-Shape shape_of(const deck::Condition& condition) {
-  switch (condition.type) {
-    case deck::ConditionType::rigid_cylinder:
-      return Cylinder{condition.point, condition.axis.normalized(), condition.radius};
-    case deck::ConditionType::rigid_box:
-      return Box{condition.lower, condition.upper};
-    default:
-      return HalfSpace{condition.point, condition.normal.normalized()};
-  }
+void put(const ConditionType auto& prototype, std::vector<int> points, int place, double, Scene& scene) {
+  scene.conditions.add(prototype.on(std::move(points), place, scene.body));
+}
+
+void put(const ActsOnce auto& prototype, const std::vector<int>& points, int, double t, Scene& scene) {
+  prototype.set_initial_state(points, t, scene.body);
 }
 
 // `place`: of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, double t, Scene& scene) {
   std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
-  for (const int i : points) finite_value(condition.value, scene.body.domain.reference(i), t);
-  Conditions& all = scene.conditions;
-  const Vector normal = condition.normal.normalized();
-  switch (condition.type) {
-    case deck::ConditionType::initial_velocity:
-      return set_initial_velocity(condition, points, t, scene.body);
-    case deck::ConditionType::prescribed_displacement:
-    case deck::ConditionType::prescribed_velocity: {
-      const bool is_velocity = condition.type == deck::ConditionType::prescribed_velocity;
-      return all.add(PrescribedMotion{std::move(points), condition.component, condition.value, is_velocity, place});
-    }
-    case deck::ConditionType::body_force:
-      return all.add(BodyForce{std::move(points), condition.component, condition.value});
-    case deck::ConditionType::symmetry_plane:
-      return all.add(SymmetryPlane{std::move(points), normal, place});
-    case deck::ConditionType::rigid_plane:
-    case deck::ConditionType::rigid_cylinder:
-    case deck::ConditionType::rigid_box:
-      return all.add(RigidTool{std::move(points), shape_of(condition), condition.travel, condition.friction, place});
-    case deck::ConditionType::open_end:
-      return all.add(non_reflecting_end(points, normal, scene.body));
-  }
+  const auto add = [&](const auto& prototype) {
+    check_values(prototype.values_at_points(), points, t, scene.body.domain);
+    put(prototype, std::move(points), place, t, scene);
+  };
+  std::visit(add, condition.kind);
 }
 
 }  // namespace

@@ -139,57 +139,57 @@ TEST(Deck, ReadsConditions) {
   ASSERT_EQ(deck.conditions.size(), 3u);
   const Condition &trajectory = deck.conditions[0], &pull = deck.conditions[1], &wall = deck.conditions[2];
   EXPECT_EQ(trajectory.name, "flight");
-  EXPECT_EQ(trajectory.type, ConditionType::initial_velocity);
   EXPECT_EQ(trajectory.node_set, "all");
-  EXPECT_EQ(trajectory.component, 2);
-  EXPECT_EQ(trajectory.value(1, 2, 3, 4), -50);
-  EXPECT_EQ(pull.type, ConditionType::prescribed_displacement);
+  const InitialVelocity& velocity = std::get<InitialVelocity>(trajectory.kind);
+  EXPECT_EQ(velocity.component, 2);
+  EXPECT_EQ(velocity.value(1, 2, 3, 4), -50);
   EXPECT_EQ(pull.node_set, "low");
-  EXPECT_EQ(pull.component, 1);
-  EXPECT_DOUBLE_EQ(pull.value(0, 2, 0, 3), 6e-3);
-  EXPECT_EQ(wall.type, ConditionType::rigid_plane);
-  EXPECT_EQ(wall.point, Vector(0, 0, -1e-3));
-  EXPECT_EQ(wall.normal, Vector(0, 0, 2));
+  const PrescribedMotion& displacement = std::get<PrescribedMotion>(pull.kind);
+  EXPECT_FALSE(displacement.is_velocity);
+  EXPECT_EQ(displacement.component, 1);
+  EXPECT_DOUBLE_EQ(displacement.value(0, 2, 0, 3), 6e-3);
+  const HalfSpace& half = std::get<HalfSpace>(std::get<RigidTool>(wall.kind).shape);
+  EXPECT_EQ(half.point, Vector(0, 0, -1e-3));
+  EXPECT_EQ(half.normal, Vector(0, 0, 1)) << "of unit length, whatever that in the deck";
 }
 
 TEST(Deck, ReadsEveryTypeOfCondition) {
   const DeckFolder folder;
-  const std::vector<std::pair<std::string, ConditionType>> components = {
-      {"Initial Velocity", ConditionType::initial_velocity},
-      {"Prescribed Displacement", ConditionType::prescribed_displacement},
-      {"Prescribed Velocity", ConditionType::prescribed_velocity},
-      {"Body Force", ConditionType::body_force}};
-  for (const auto& [name, type] : components) {
-    EXPECT_EQ(folder.read(changed(full_deck, "Initial Velocity", name)).conditions[0].type, type);
-  }
+  const auto first = [&](const std::string& type) {
+    return folder.read(changed(full_deck, "Initial Velocity", type)).conditions[0].kind;
+  };
+  EXPECT_EQ(std::get<InitialVelocity>(first("Initial Velocity")).component, 2);
+  EXPECT_FALSE(std::get<PrescribedMotion>(first("Prescribed Displacement")).is_velocity);
+  EXPECT_TRUE(std::get<PrescribedMotion>(first("Prescribed Velocity")).is_velocity);
+  EXPECT_EQ(std::get<BodyForce>(first("Body Force")).component, 2);
+  EXPECT_EQ(std::get<BodyForce>(first("Body Force")).value(1, 2, 3, 4), -50);
   const Deck deck = folder.read(changed(full_deck, "Rigid Plane", "Symmetry Plane"));
-  EXPECT_EQ(deck.conditions[2].type, ConditionType::symmetry_plane);
+  EXPECT_EQ(std::get<SymmetryPlane>(deck.conditions[2].kind).normal, Vector(0, 0, 1));
 }
 
 TEST(Deck, ReadsTools) {
   const DeckFolder folder;
-  EXPECT_FALSE(folder.read(full_deck).conditions[2].travel[0]) << "without travel it stays";
-  const Condition roll = folder
-                             .read(changed(full_deck, wall_shape, R"("Rigid Cylinder"/>
+  const auto tool = [&](const std::string& shape) {
+    return std::get<RigidTool>(folder.read(changed(full_deck, wall_shape, shape)).conditions[2].kind);
+  };
+  EXPECT_FALSE(tool(wall_shape).travel[0]) << "without travel it stays";
+  const RigidTool roll = tool(R"("Rigid Cylinder"/>
       <Parameter name="Point" type="string" value="0 0 -1e-3"/> <Parameter name="Axis" type="string" value="0 2 0"/>
       <Parameter name="Radius" type="double" value="0.5"/> <Parameter name="Travel Y" type="string" value="3*t"/>
-      <Parameter name="Friction Coefficient" type="double" value="0.1"/>)"))
-                             .conditions[2];
-  EXPECT_EQ(roll.type, ConditionType::rigid_cylinder);
-  EXPECT_EQ(roll.point, Vector(0, 0, -1e-3));
-  EXPECT_EQ(roll.axis, Vector(0, 2, 0));
-  EXPECT_EQ(roll.radius, 0.5);
+      <Parameter name="Friction Coefficient" type="double" value="0.1"/>)");
+  const Cylinder& cylinder = std::get<Cylinder>(roll.shape);
+  EXPECT_EQ(cylinder.point, Vector(0, 0, -1e-3));
+  EXPECT_EQ(cylinder.axis, Vector(0, 1, 0));
+  EXPECT_EQ(cylinder.radius, 0.5);
   EXPECT_EQ(roll.friction, 0.1);
   EXPECT_FALSE(roll.travel[0] || roll.travel[2]);
   EXPECT_EQ(roll.travel[1].value()(0, 0, 0, 2), 6);
-  const Condition block = folder
-                              .read(changed(full_deck, wall_shape, R"("Rigid Box"/>
+  const RigidTool block = tool(R"("Rigid Box"/>
       <Parameter name="Lower Corner" type="string" value="0 -1 2"/>
-      <Parameter name="Upper Corner" type="string" value="1 0 3"/> <Parameter name="Travel Z" type="double" value="4"/>)"))
-                              .conditions[2];
-  EXPECT_EQ(block.type, ConditionType::rigid_box);
-  EXPECT_EQ(block.lower, Vector(0, -1, 2));
-  EXPECT_EQ(block.upper, Vector(1, 0, 3));
+      <Parameter name="Upper Corner" type="string" value="1 0 3"/> <Parameter name="Travel Z" type="double" value="4"/>)");
+  const Box& box = std::get<Box>(block.shape);
+  EXPECT_EQ(box.lower, Vector(0, -1, 2));
+  EXPECT_EQ(box.upper, Vector(1, 0, 3));
   EXPECT_EQ(block.friction, 0);
   EXPECT_EQ(block.travel[2].value()(0, 0, 0, 2), 4);
 }

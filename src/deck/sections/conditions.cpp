@@ -24,9 +24,17 @@ Section along_axis(const std::string& type, const std::string& unit, const std::
   return {.name = type, .meaning = meaning, .keys = {component, of_unit}};
 }
 
-void read_along_axis(const Values& values, Condition& condition, Problems&) {
-  condition.component = values[component];
-  condition.value = values[value];
+ConditionPrototype read_initial_velocity(const Values& values, Problems&) {
+  return InitialVelocity{.component = values[component], .value = values[value]};
+}
+
+template <bool is_velocity>
+ConditionPrototype read_prescribed_motion(const Values& values, Problems&) {
+  return PrescribedMotion{.component = values[component], .value = values[value], .is_velocity = is_velocity};
+}
+
+ConditionPrototype read_body_force(const Values& values, Problems&) {
+  return BodyForce{.component = values[component], .value = values[value]};
 }
 
 const VectorKey end_normal({.name = "Normal", .meaning = "Of the end's surface, of any length but zero."});
@@ -39,29 +47,26 @@ Section non_reflecting_end() {
           .keys = {end_normal}};
 }
 
-void read_non_reflecting_end(const Values& values, Condition& condition, Problems& problems) {
-  condition.normal = read_direction(values, end_normal, problems);
+ConditionPrototype read_non_reflecting_end(const Values& values, Problems& problems) {
+  return NonReflectingEnd{.normal = read_direction(values, end_normal, problems)};
 }
 
 struct ConditionEntry {
   Section schema;  // named as "Type" has it
-  ConditionType type;
-  void (*read)(const Values& values, Condition& condition, Problems& problems);
+  ConditionPrototype (*read)(const Values& values, Problems& problems);
 };
 
 const std::vector<ConditionEntry>& entries() {
-  using enum ConditionType;
   static const std::vector<ConditionEntry> all = {
-      {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."), initial_velocity, read_along_axis},
-      {along_axis("Prescribed Displacement", "m", "The displacement at every time."), prescribed_displacement,
-       read_along_axis},
-      {along_axis("Prescribed Velocity", "m/s", "The velocity at every time."), prescribed_velocity, read_along_axis},
-      {along_axis("Body Force", "N/m³", "A force per reference volume."), body_force, read_along_axis},
-      {symmetry_plane_section(), symmetry_plane, read_plane},
-      {rigid_plane_section(), rigid_plane, read_rigid_plane},
-      {rigid_cylinder_section(), rigid_cylinder, read_rigid_cylinder},
-      {rigid_box_section(), rigid_box, read_rigid_box},
-      {non_reflecting_end(), ConditionType::open_end, read_non_reflecting_end},
+      {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."), read_initial_velocity},
+      {along_axis("Prescribed Displacement", "m", "The displacement at every time."), read_prescribed_motion<false>},
+      {along_axis("Prescribed Velocity", "m/s", "The velocity at every time."), read_prescribed_motion<true>},
+      {along_axis("Body Force", "N/m³", "A force per reference volume."), read_body_force},
+      {symmetry_plane_section(), read_symmetry_plane},
+      {rigid_plane_section(), read_rigid_plane},
+      {rigid_cylinder_section(), read_rigid_cylinder},
+      {rigid_box_section(), read_rigid_box},
+      {non_reflecting_end(), read_non_reflecting_end},
   };
   return all;
 }
@@ -70,10 +75,7 @@ Condition read_condition(const Values& values, Problems& problems) {
   Condition condition;
   condition.name = values.name();
   condition.node_set = values[node_set];
-  if (const ConditionEntry* entry = chosen_of(entries(), values)) {
-    condition.type = entry->type;
-    entry->read(values, condition, problems);
-  }
+  if (const ConditionEntry* entry = chosen_of(entries(), values)) condition.kind = entry->read(values, problems);
   return condition;
 }
 

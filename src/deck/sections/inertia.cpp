@@ -9,12 +9,12 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
                         const std::vector<ContactModel>& contact_models, Problems& problems) {
   if (!solver.quasi_static) return;
   for (const Condition& condition : conditions) {
-    const bool is_velocity = condition.type == ConditionType::initial_velocity;
-    if (!is_velocity && condition.type != ConditionType::open_end) continue;
-    problems.add("Boundary Conditions > " + condition.name + " > Type",
-                 std::string(is_velocity ? "'Initial Velocity'" : "'Non-Reflecting End'") +
-                     " has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed "
-                     "motion, a load, a plane or a tool");
+    const auto check = [&]<class Type>(const Type&) {
+      if constexpr (Type::in_equilibria == InEquilibria::impossible) {
+        problems.add("Boundary Conditions > " + condition.name + " > Type", Type::why_not_in_equilibria);
+      }
+    };
+    std::visit(check, condition.kind);
   }
   for (const ContactModel& one : contact_models) {
     if (one.model.friction == 0) continue;

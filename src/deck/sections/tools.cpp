@@ -26,15 +26,16 @@ Section tool(Section section) {
   return section;
 }
 
-void read_tool(const Values& values, Condition& condition, Problems& problems) {
-  condition.friction = values[friction];
+RigidTool read_tool(Shape shape, const Values& values, Problems& problems) {
+  RigidTool tool{.shape = std::move(shape), .friction = values[friction]};
   for (int c = 0; c < 3; ++c) {
-    condition.travel[c] = values[travel[c]];
-    if (!condition.travel[c] || !condition.travel[c]->depends_on_place()) continue;
+    tool.travel[c] = values[travel[c]];
+    if (!tool.travel[c] || !tool.travel[c]->depends_on_place()) continue;
     problems.add(
         values.path_to(travel[c]),
-        "'" + condition.travel[c]->text() + "' depends on x, y or z; expected a number or an expression in t, in m");
+        "'" + tool.travel[c]->text() + "' depends on x, y or z; expected a number or an expression in t, in m");
   }
+  return tool;
 }
 
 const VectorKey point_on_plane({.name = "Point", .unit = "m", .meaning = "On the plane."});
@@ -66,18 +67,17 @@ void check_corners(const Values& values, Problems& problems) {
 
 Section symmetry_plane_section() { return plane("Symmetry Plane", "The points keep their distance to the plane."); }
 
-void read_plane(const Values& values, Condition& condition, Problems& problems) {
-  condition.point = values[point_on_plane];
-  condition.normal = read_direction(values, normal, problems);
+// `Point` is for the reader of the deck: the points keep the distance that they have.
+ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems) {
+  return SymmetryPlane{.normal = read_direction(values, normal, problems)};
 }
 
 Section rigid_plane_section() {
   return tool(plane("Rigid Plane", "A wall: the points stay on the side the normal points to."));
 }
 
-void read_rigid_plane(const Values& values, Condition& condition, Problems& problems) {
-  read_plane(values, condition, problems);
-  read_tool(values, condition, problems);
+ConditionPrototype read_rigid_plane(const Values& values, Problems& problems) {
+  return read_tool(HalfSpace{values[point_on_plane], read_direction(values, normal, problems)}, values, problems);
 }
 
 Section rigid_cylinder_section() {
@@ -86,11 +86,9 @@ Section rigid_cylinder_section() {
                .keys = {point_on_axis, axis, radius}});
 }
 
-void read_rigid_cylinder(const Values& values, Condition& condition, Problems& problems) {
-  condition.point = values[point_on_axis];
-  condition.axis = read_direction(values, axis, problems);
-  condition.radius = values[radius];
-  read_tool(values, condition, problems);
+ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems) {
+  const Cylinder roll{values[point_on_axis], read_direction(values, axis, problems), values[radius]};
+  return read_tool(roll, values, problems);
 }
 
 Section rigid_box_section() {
@@ -99,17 +97,16 @@ Section rigid_box_section() {
                .keys = {lower, upper}});
 }
 
-void read_rigid_box(const Values& values, Condition& condition, Problems& problems) {
-  condition.lower = values[lower];
-  condition.upper = values[upper];
-  read_tool(values, condition, problems);
+ConditionPrototype read_rigid_box(const Values& values, Problems& problems) {
+  const RigidTool block = read_tool(Box{values[lower], values[upper]}, values, problems);
   check_corners(values, problems);
+  return block;
 }
 
 Vector read_direction(const Values& values, const VectorKey& key, Problems& problems) {
   const Vector direction = values[key];
   if (values.has(key) && direction.isZero(0)) problems.add(values.path_to(key), "is zero; expected a direction");
-  return direction;
+  return direction.normalized();
 }
 
 }  // namespace strut::deck

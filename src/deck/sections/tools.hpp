@@ -1,25 +1,25 @@
 // Planes and rigid tools among the boundary conditions: the keys of each shape and their reading.
 #pragma once
 
+#include "conditions/prototype.hpp"
 #include "deck/forward.hpp"
 #include "deck/keys.hpp"
-#include "deck/sections/condition.hpp"
 
 namespace strut::deck {
 
 Section symmetry_plane_section();
-void read_plane(const Values& values, Condition& condition, Problems& problems);
+ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems);
 
 Section rigid_plane_section();
-void read_rigid_plane(const Values& values, Condition& condition, Problems& problems);
+ConditionPrototype read_rigid_plane(const Values& values, Problems& problems);
 
 Section rigid_cylinder_section();
-void read_rigid_cylinder(const Values& values, Condition& condition, Problems& problems);
+ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems);
 
 Section rigid_box_section();
-void read_rigid_box(const Values& values, Condition& condition, Problems& problems);
+ConditionPrototype read_rigid_box(const Values& values, Problems& problems);
 
-// Of any length but zero; says so where it is zero.
+// Of unit length, of a key with any but zero; says so where it is zero.
 Vector read_direction(const Values& values, const VectorKey& key, Problems& problems);
 
 }  // namespace strut::deck

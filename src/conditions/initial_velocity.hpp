@@ -1,0 +1,26 @@
+// The velocity that points start with. It acts once, at set-up: a deck states it among the conditions, but it is none
+// in steps.
+#pragma once
+
+#include <vector>
+
+#include "base/math/function.hpp"
+#include "conditions/condition_type.hpp"
+
+namespace strut {
+
+// One component.
+struct InitialVelocity {
+  int component = 0;
+  Function value = Function();  // of the reference position and time: m/s
+
+  static constexpr InEquilibria in_equilibria = InEquilibria::impossible;
+  static constexpr const char* why_not_in_equilibria =
+      "'Initial Velocity' has no meaning with Solver > QuasiStatic, which knows no inertia; expected a prescribed "
+      "motion, a load, a plane or a tool";
+
+  std::vector<Function> values_at_points() const { return {value}; }
+  void set_initial_state(const std::vector<int>& points, double t, Body& body) const;
+};
+
+}  // namespace strut

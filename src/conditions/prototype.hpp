@@ -1,0 +1,31 @@
+// What a deck can say of a condition: which it is, with all that it has but its points.
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "conditions/condition.hpp"
+#include "conditions/initial_velocity.hpp"
+
+namespace strut {
+
+// What acts once, at set-up.
+//   set_initial_state  of these points, at time t
+template <class T>
+concept ActsOnce = !ConditionType<T> && ActsInEquilibria<T> &&
+                   requires(const T& prototype, const std::vector<int>& points, double t, Body& body) {
+  { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
+  { prototype.set_initial_state(points, t, body) } -> std::same_as<void>;
+};
+static_assert(ActsOnce<InitialVelocity>);
+
+template <class Conditions>
+struct WithWhatActsOnce;
+template <class... Types>
+struct WithWhatActsOnce<std::variant<Types...>> {
+  using type = std::variant<InitialVelocity, Types...>;
+};
+
+using ConditionPrototype = WithWhatActsOnce<Condition>::type;
+
+}  // namespace strut
