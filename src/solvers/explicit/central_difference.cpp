@@ -93,18 +93,25 @@ void CentralDifference::advance_velocity(double final_time) {
   add_forces(conditions_, time_, body_);
   if (steps_ == 0) start();
   const double impulse_time = 0.5 * (previous_dt_ + dt_);
+  for_each_point(0, body_.owned(), [&](int i) { apply_force(i, impulse_time); });
+  apply_conditions(impulse_time);
+  if (steps_ == 0) initial_energy_ = 0, initial_energy_ = imbalance(ledger());
+}
+
+void CentralDifference::apply_force(int i, double impulse_time) {
+  body_.previous_velocity[i] = body_.velocity[i];
+  body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
+}
+
+// Their changes of the velocities, their reactions, and the work of all impulses at time().
+void CentralDifference::apply_conditions(double impulse_time) {
   work_ = work_ + impulse_work_.before + impulse_work_.after;
   impulse_work_ = {};
-  for_each_point(0, body_.owned(), [&](int i) {
-    body_.previous_velocity[i] = body_.velocity[i];
-    body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
-  });
   ReactionImpulses impulses(static_cast<int>(reaction_forces_.size()));
   change_velocities(conditions_, time_, point_steps(), body_, impulse_work_, impulses);
   take_reactions(impulses, impulse_time);
   add_work_of_forces(conditions_, time_, impulse_time, body_, impulse_work_);
   add_work_of_friction(impulse_time);
-  if (steps_ == 0) initial_energy_ = 0, initial_energy_ = imbalance(ledger());
 }
 
 // ω² of a sum of operators is at most the sum of theirs. A damping by the velocities of the mid-step before takes as
@@ -171,44 +178,43 @@ StepReport CentralDifference::substep(int level, double t) {
   const PointTimeSteps steps = point_steps();
   const std::vector<int>& moved = multi_stepping_.moved(level);
   const int count = static_cast<int>(moved.size());
-  for_each_point(0, count, [&](int n) {
-    const int i = moved[n];
-    body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
-  });
+  for_each_point(0, count, [&](int n) { move(moved[n], steps); });
   const double impulse_time = std::ldexp(dt_, -level);
   const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
-  for_each_point(0, count, [&](int n) {
-    const int i = moved[n];
-    body_.previous_velocity[i] = body_.velocity[i];
-    body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
-  });
+  for_each_point(0, count, [&](int n) { apply_force(moved[n], impulse_time); });
   ImpulseWork work;
   change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, substep_impulses_);
   work_ = work_ + work.before + work.after;
   return report;
 }
 
+void CentralDifference::move(int i, const PointTimeSteps& steps) {
+  body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
+}
+
 void CentralDifference::advance_position(bool with_diagnostics) {
-  static Teuchos::Time& timer = phase("Motion and conditions");
   update_rigid_motion(body_);
   const StepReport between = substeps();
-  {
-    const Timed timed(timer);
-    const PointTimeSteps steps = point_steps();
-    for_each_point(0, body_.owned(),
-                   [&](int i) { body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array(); });
-  }
-  time_ = next_time_;
-  ++steps_;
-  ++steps_since_estimate_;
-  updates_ += multi_stepping_.updates_a_point();
-  most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
+  move_points();
   StepReport report = advance_stress(body_, dt_, with_diagnostics);
   take_worse(between.failure, report.failure);
   if (levels_due_) reassign_levels(report);
   sum_forces(body_, with_diagnostics);
   contact_.add_forces(kinematics(), dt_, body_.force_density);
   check(report);
+}
+
+// To the end of the step.
+void CentralDifference::move_points() {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  const Timed timed(timer);
+  const PointTimeSteps steps = point_steps();
+  for_each_point(0, body_.owned(), [&](int i) { move(i, steps); });
+  time_ = next_time_;
+  ++steps_;
+  ++steps_since_estimate_;
+  updates_ += multi_stepping_.updates_a_point();
+  most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
 }
 
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what

@@ -36,11 +36,12 @@ class CentralDifference {
 
   // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then
   // advance_position().
-  // Velocities from the mid-step before time() to the one after. The step does not pass
+  // Velocities from the mid-step before time() to the one after: loads, impulses, conditions. The step does not pass
   // `final_time`.
   void advance_velocity(double final_time);
-  // move: places to time() + dt, then stresses and forces there. Throws Error on all ranks when a point fails.
-  // `with_diagnostics`: the ledger, or a look at the body, will be asked for at the new time.
+  // Places to time() + dt, by way of the substeps of points of higher time-step levels; then stresses and forces there.
+  // Throws Error on all ranks when a point fails. `with_diagnostics`: the ledger, or a look at the body, will be asked
+  // for at the new time.
   void advance_position(bool with_diagnostics);
 
   Ledger ledger();  // collective; after advance_velocity()
@@ -66,6 +67,10 @@ class CentralDifference {
 
  private:
   contact::Kinematics kinematics() const;
+  void apply_force(int i, double impulse_time);
+  void apply_conditions(double impulse_time);
+  void move(int i, const PointTimeSteps& steps);
+  void move_points();
   void add_work_of_friction(double impulse_time);
   void take_reactions(const ReactionImpulses& now, double impulse_time);
   void choose_step(double final_time);
