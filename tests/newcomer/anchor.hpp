@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "conditions/condition_type.hpp"
+#include "mechanics/body.hpp"
 
 namespace strut {
 

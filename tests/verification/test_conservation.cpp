@@ -10,7 +10,7 @@ namespace {
 
 BlockMaterial copper(bool plastic) {
   const materials::Elastic e = std::get<materials::Elastic>(elastic(110e9, 0.296));
-  if (!plastic) return {8960, e, 0.02};
+  if (!plastic) return {8960, e, SillingStabilization{0.02}};
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
   return {8960, materials::J2{e.bulk, e.shear, flow}, MeanGradientStabilization{0.05}};
 }
@@ -84,7 +84,8 @@ TEST(CriticalTimeStep, LimitIsTheLimit) {
 TEST(CriticalTimeStep, ScalesWithSpacingAndSpeed) {
   const Communicator world;
   const auto limit = [&](double spacing, double young) {
-    LatticeSpec spec{{7, 7, 7}, spacing, 2.015, 0, Influence::one, {1000, elastic(young, 0.3), SillingStabilization{0.02}}};
+    LatticeSpec spec{{7, 7, 7}, spacing,        2.015,
+                     0,         Influence::one, {1000, elastic(young, 0.3), SillingStabilization{0.02}}};
     Body body = lattice_body(spec, world);
     return CentralDifference(body, {}, {}, {0, 1}, 0).critical_time_step();
   };

@@ -21,7 +21,8 @@ Tensor next_rotation(const Tensor& R, const Tensor& F) {
 TEST(Rotation, FullTurnLeavesNoStress) {
   const Communicator world;
   const double young = 110e9;
-  LatticeSpec spec{{6, 6, 7}, 1e-3, 2.5, 0.1, Influence::one, {8960, elastic(young, 0.296), SillingStabilization{0.02}}};
+  LatticeSpec spec{{6, 6, 7}, 1e-3,           2.5,
+                   0.1,       Influence::one, {8960, elastic(young, 0.296), SillingStabilization{0.02}}};
   Body body = lattice_body(spec, world);
   const int steps = 72;  // of 5°
   for (int n = 1; n <= steps; ++n) {

@@ -181,7 +181,8 @@ TEST(Stability, StrainRatesOfSevenDecades) {
   const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
   const materials::J2 law{moduli.bulk, moduli.shear, flow};
   for (const double rate : {1.0, 1e3, 1e7}) {
-    Body body = lattice_body({{5, 5, 5}, h, 2.015, 0, Influence::one, {density, law, MeanGradientStabilization{coefficient}}}, world);
+    Body body = lattice_body(
+        {{5, 5, 5}, h, 2.015, 0, Influence::one, {density, law, MeanGradientStabilization{coefficient}}}, world);
     const double dt = 1e-3 / rate;
     for (int n = 1; n <= 100; ++n) {
       const double stretch = std::exp(-1e-3 * n), across = 1 / std::sqrt(stretch);

@@ -13,7 +13,8 @@ namespace {
 // (C₀, C̄: the stabilizations, Silling's and by the mean gradient)
 
 struct Lattice {
-  LatticeSpec spec{{19, 19, 19}, 1.0, 2.515, 0, Influence::linear_decay, {1000, elastic(1e9, 0.2), SillingStabilization{0.05}}};
+  LatticeSpec spec{
+      {19, 19, 19}, 1.0, 2.515, 0, Influence::linear_decay, {1000, elastic(1e9, 0.2), SillingStabilization{0.05}}};
   Vector direction{1, 0.4, -0.2}, wave{0.5, 0.8, 0.3};
 };
 
@@ -63,7 +64,9 @@ TEST(Waves, DispersionOfTheOperator) {
 // The root mean square error of the displacement over the pulse's own, after it has split and travelled half a bar.
 double pulse_error(int cells, const Communicator& world) {
   const double young = 1e9, density = 1000, speed = std::sqrt(young / density), length = 1, width = 0.2;
-  LatticeSpec spec{{cells, 3, 3}, length / cells, 2.015, 0, Influence::one, {density, elastic(young, 0.0), SillingStabilization{0.02}}};
+  LatticeSpec spec{{cells, 3, 3},  length / cells,
+                   2.015,          0,
+                   Influence::one, {density, elastic(young, 0.0), SillingStabilization{0.02}}};
   Body body = lattice_body(spec, world);
   const double amplitude = 1e-6, centre = 0.5 * length;
   const auto start = [&](double x) { return amplitude * pulse((x - centre) / width); };
