@@ -88,8 +88,10 @@ void set_shapes(Body& body, MaterialBlock& block, const LaneGroups& groups, Fami
         set_shape(body, block, group.k[l], at(K, l), sums.shape_inverses[group.i[l]]);
       }
       if (!group.cluster) return;
-      const auto S = bonds::first_moment(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), weight);
-      for (int l = 0; l < group.count; ++l) sums.first_moments[group.i[l]] = at(S, l);
+      for (int l = 0; l < group.count; ++l) {
+        const bonds::OfPoint family{body.domain.families, group.i[l]};
+        sums.first_moments[group.i[l]] = bonds::first_moment(family, body.domain.sites.data(), weight);
+      }
     });
   });
 }

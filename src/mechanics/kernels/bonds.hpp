@@ -194,15 +194,15 @@ inline Moments<ScalarOf<Family>> gather(const Family& family, const Site* sites,
   return Moments<T>(sums);  // a copy: kept in registers while it is added up
 }
 
-// Σ ω V ξ
-template <class Family, class Weight>
-inline Vector3<ScalarOf<Family>> first_moment(const Family& family, const Site* sites, Weight weight) {
-  using T = ScalarOf<Family>;
-  Vector3<T> sum = zero_vector<T>();
-  over(family, sites, weight, [&](int, const T& w, const Vector3<T>& xi, const auto&) {
-    for (int c = 0; c < 3; ++c) sum.c[c] += w * xi.c[c];
+// Σ ω V ξ of a point, added up in more digits: it acts with the same sign in every step, so that its round-off would be
+// a drift of the momentum.
+template <class Weight>
+inline Vector first_moment(const OfPoint& family, const Site* sites, Weight weight) {
+  long double sum[3] = {0, 0, 0};
+  over(family, sites, weight, [&](int, double w, const Vector3<double>& xi, double) {
+    for (int c = 0; c < 3; ++c) sum[c] += static_cast<long double>(w) * xi.c[c];
   });
-  return sum;
+  return {static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
 }
 
 // Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]. with_springs: whether any point of the scene has C.
@@ -352,6 +352,12 @@ inline ScalarOf<Family> residual_energy(std::size_t kind, const Family& family, 
 
 inline void pack_tensor(const Tensor& tensor, TensorRecord& record) {
   for (int c = 0; c < 3; ++c) record.column[c] << tensor.col(c).array(), 0;
+}
+
+inline Tensor tensor_of(const TensorRecord& record) {
+  Tensor tensor;
+  for (int c = 0; c < 3; ++c) tensor.col(c) = record.column[c].head<3>().matrix();
+  return tensor;
 }
 
 inline ForceState force_state(const Tensor& A, double stiffness) {

@@ -295,7 +295,22 @@ MultiTimeStepping::Level MultiTimeStepping::make_level(const Body& body, const s
     });
   };
   ClusterLists::Builder(result.sources, motion_levels.size()).add_all(result.moved, sources, by_id);
+  set_moment_errors(body, result);
   return result;
+}
+
+void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
+  bonds::with_influence(body.influence, [&](auto weight) {
+    for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+      if (body.blocks[b].lattice < 0) continue;
+      for (const int k : level.stressed[b].places) {
+        const int i = body.blocks[b].points[k];
+        const bonds::OfPoint family{body.domain.families, i};
+        const Vector moment = bonds::first_moment(family, body.domain.sites.data(), weight);
+        level.moment_errors.emplace_back(i, moment - body.first_moment[i]);
+      }
+    }
+  });
 }
 
 StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
@@ -316,6 +331,9 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
     if (body.time_levels[i] < level) body.force_density[i].setZero();  // its own state acts at other times
   }
   for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { add_residuals<S>(kind, body, now, level); });
+  for (const auto& [i, error] : now.moment_errors) {
+    if (!moves_rigidly(body, i)) body.force_density[i] += bonds::tensor_of(body.force_states.tensors[i]) * error;
+  }
   exchange_states(now.halo, body.force_states.tensors);
   exchange_states(now.halo, body.force_states.quadratics);
   bonds::with_influence(body.influence, [&](auto weight) {

@@ -5,6 +5,9 @@
 // momenta are conserved as before. Contact and loads act once a step.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "base/archive.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/mechanics.hpp"
@@ -46,11 +49,15 @@ class MultiTimeStepping {
     std::vector<SelectedPoints> stressed;  // of each block: those that are due
     std::vector<int> moved;
     ClusterLists sources;  // of the moved points: the stressed points of their families
+    // Of points on lattices: Σ ω V ξ by differences of places, as the far ends of lists have it, less that by whole
+    // cells (Body::first_moment).
+    std::vector<std::pair<int, Vector>> moment_errors;
     Halo halo;
   };
   template <class S>
   void add_residuals(std::size_t kind, Body& body, Level& now, int level) const;
   void make_levels(Body& body);
+  static void set_moment_errors(const Body& body, Level& level);
   Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, const std::vector<double>& ids,
                    int level) const;
 
