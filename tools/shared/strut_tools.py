@@ -1,6 +1,7 @@
 """What the Python tools share: installing what is missing, ending with one line, handing a mesh to strut-mesh, tables in pages."""
 import argparse
 import contextlib
+import csv
 import difflib
 import os
 import re
@@ -224,6 +225,25 @@ def write_stream(path, parts):
         said = errors.decode(errors="replace").strip().splitlines() or [f"exit status {run.returncode}"]
         fail(said[0] if said[0].startswith("strut-mesh") else f"strut-mesh: {said[0]}")
     print(out.decode(), end="")
+
+
+def run_deck(deck, folder, ranks=None, limit=None):
+    """tools/run of a deck in a folder: the text of its log, which stays there as NAME.log. `limit`: seconds after which the
+    run is ended, and no failure."""
+    log = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0] + ".log")
+    command = [os.path.join(ROOT, "tools/run"), *(["-np", str(ranks)] if ranks else []), str(deck)]
+    if limit:
+        command = ["timeout", "-k", "10", str(limit), *command]
+    with open(log, "w") as output:
+        subprocess.run(command, cwd=folder, stdout=output, stderr=subprocess.STDOUT if limit else None, check=not limit)
+    with open(log) as output:
+        return output.read()
+
+
+def history_of(path):
+    """The rows of a history, as numbers."""
+    with open(path, newline="") as history:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(history)]
 
 
 def with_core_seconds(run):

@@ -1,4 +1,4 @@
-// Who is within the horizon of a point: families as lists, or as stencils of a lattice.
+// Who is within the horizon of a point: families as neighbor lists, or as stencils of a lattice.
 #pragma once
 
 #include <algorithm>
