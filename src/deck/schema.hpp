@@ -1,5 +1,5 @@
 // What a deck may hold, as data: keys, sections, and what may be said of them. Each key is declared once, beside its
-// reading (sections/, materials/); checking, defaults and the reference page (inputs/KEYS.md) follow from it.
+// reading (sections/, laws/); checking, defaults and the reference page (inputs/KEYS.md) follow from it.
 #pragma once
 
 #include <limits>

@@ -1,7 +1,7 @@
 #include "deck/sections/materials.hpp"
 
-#include "deck/materials/constants.hpp"
-#include "deck/materials/laws.hpp"
+#include "deck/laws/constants.hpp"
+#include "deck/laws/laws.hpp"
 #include "deck/problems.hpp"
 #include "deck/values.hpp"
 

@@ -1,4 +1,4 @@
-#include "deck/materials/tables.hpp"
+#include "deck/laws/tables.hpp"
 
 #include "deck/numbers.hpp"
 

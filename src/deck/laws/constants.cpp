@@ -1,4 +1,4 @@
-#include "deck/materials/constants.hpp"
+#include "deck/laws/constants.hpp"
 
 #include "base/errors.hpp"
 

@@ -1,9 +1,9 @@
-#include "deck/materials/laws.hpp"
+#include "deck/laws/laws.hpp"
 
-#include "deck/materials/constants.hpp"
-#include "deck/materials/flow_stress.hpp"
-#include "deck/materials/metal_foam.hpp"
-#include "deck/materials/polymer_foam.hpp"
+#include "deck/laws/constants.hpp"
+#include "deck/laws/flow_stress.hpp"
+#include "deck/laws/metal_foam.hpp"
+#include "deck/laws/polymer_foam.hpp"
 
 namespace strut::deck {
 

@@ -1,7 +1,7 @@
 // Hardening curves and rate factors: for each its keys and how it is made from them. A new one is one entry.
-#include "deck/materials/flow_stress.hpp"
+#include "deck/laws/flow_stress.hpp"
 
-#include "deck/materials/tables.hpp"
+#include "deck/laws/tables.hpp"
 #include "deck/numbers.hpp"
 
 namespace strut::deck {

@@ -1,12 +1,12 @@
-#include "deck/materials/polymer_foam.hpp"
+#include "deck/laws/polymer_foam.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <vector>
 
-#include "deck/materials/constants.hpp"
-#include "deck/materials/tables.hpp"
+#include "deck/laws/constants.hpp"
+#include "deck/laws/tables.hpp"
 #include "deck/numbers.hpp"
 
 namespace strut::deck {

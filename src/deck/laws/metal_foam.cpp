@@ -1,8 +1,8 @@
-#include "deck/materials/metal_foam.hpp"
+#include "deck/laws/metal_foam.hpp"
 
 #include <cmath>
 
-#include "deck/materials/constants.hpp"
+#include "deck/laws/constants.hpp"
 
 namespace strut::deck {
 
