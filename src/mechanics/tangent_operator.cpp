@@ -96,8 +96,7 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
   const ForceState state = tangents ? tangent_state(shape_inverse, C, (*tangents)[i], dF)
                                     : tangent_state(point, shape_inverse, C, block.moduli(k), dF, share);
   states.tensors[i] = state;
-  result[i] = state.stiffness() * pull;
-  for (int c = 0; c < 3; ++c) result[i] += state.column[c].head<3>().matrix() * body.first_moment[i][c];
+  result[i] = bonds::tensor_of(state) * body.first_moment[i] + state.stiffness() * pull;
   if (block.has_springs(ResidualKind::both_gradients)) {
     states.gradients[i] = bonds::gradient_state(dF, point.stabilization, share * share, block.material.stabilization);
   }
@@ -110,6 +109,7 @@ struct TangentStates {
   const std::vector<PointTangent>* tangents;
   ForceStates& states;
   std::vector<Vector>& result;
+  bool with_springs = body.has_springs(ResidualKind::own_gradient);  // asked once, not for each group
 
   void operator()(Part part) const {
     const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); };
@@ -131,7 +131,7 @@ struct TangentStates {
         result[i] = bonds::quadratic_own_force(states.quadratics[i], (*body.fits)[i]);
       }
     } else {
-      const auto [dN, pull] = moments(group, field, body.has_springs(ResidualKind::own_gradient), weight);
+      const auto [dN, pull] = moments(group, field, with_springs, weight);
       for (int l = 0; l < group.count; ++l) {
         set_tangent_state(body, block, group.k[l], at(dN, l), at(pull, l), tangents, states, result);
       }
