@@ -269,7 +269,7 @@ TEST(Thickness, IsThatOfPrisms) {
 
 // A uniform stress along a round strut leaves its surface free: there should be no force away from the ends. Without
 // the correction, which needs to know the surface, there is; with it 0.64 of that at its ridge
-// (src/mechanics/quadratic.md).
+// (src/mechanics/formulation/quadratic.md).
 TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
   const auto force_of = [](bool with_surface) {
     double sum = 0;

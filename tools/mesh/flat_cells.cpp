@@ -11,7 +11,7 @@ namespace strut::mesh {
 namespace {
 
 // What a run asks for: neighbors, and their mean square distance in any direction, in spacings²
-// (src/mechanics/quadratic_fit.cpp).
+// (src/mechanics/formulation/quadratic_fit_solver.cpp).
 constexpr std::size_t least_neighbours = 4;
 constexpr double least_spread = 0.02;
 
