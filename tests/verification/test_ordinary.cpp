@@ -308,7 +308,7 @@ TEST_P(Bodies, StableStepDoesNotTurn) {
   deform(turned, [&](const Vector& X) -> Vector { return R * X; });
   const double one = CentralDifference(straight, {}, {}, {0, 1}, 0).critical_time_step();
   const double other = CentralDifference(turned, {}, {}, {0, 1}, 0).critical_time_step();
-  EXPECT_NEAR(one / other, 1, 0.02);  // the accuracy of two estimates (StableStep::accuracy, half of it in the step)
+  EXPECT_NEAR(one / other, 1, 0.02);  // the accuracy of two estimates (CriticalTimeStep::accuracy, half of it in the step)
 }
 
 TEST(Failures, AStepFarTooLargeIsReported) {

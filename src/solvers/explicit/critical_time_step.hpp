@@ -1,4 +1,4 @@
-// The largest critical time step of central differences, 2/ω_max, in the current state.
+// The critical time step of central differences in the current state, 2/ω_max: the largest stable one.
 #pragma once
 
 #include "base/archive.hpp"
