@@ -77,7 +77,7 @@ std::vector<Observable> kinematic() {
           "Velocity", "at the time of the frame, m/s",
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
       observable(
-          "Force", "internal force and loads, N; where points are stepped alone, what acts at the end of a step",
+          "Force", "internal force and loads, N; where points are subcycled, what acts at the end of a step",
           [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
       observable(
           "Force_Density", "the same per reference volume, N/m³",
