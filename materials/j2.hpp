@@ -128,7 +128,7 @@ struct J2 {
     return result;
   }
 
-  // Flow went on: the flow stress linearised about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
+  // Flow went on: the flow stress linearized about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
   // It follows a change of the rate at once, where the last rate itself as a guess would lag behind.
   template <class T>
   T warm_guess(const T& q, const Curve<T>& at_rest, const StateOf<T>& state, const T& dt) const {

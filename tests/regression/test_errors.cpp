@@ -232,7 +232,7 @@ TEST_F(Mistake, NodesOfSpheresOrOfAText) {
                {"1 problem\n", "Discretization > Points: 'Nodes'", "expected 'Elements'"});
 }
 
-TEST_F(Mistake, FewNeighboursAtANodeAreTheNodes) {
+TEST_F(Mistake, FewNeighborsAtANodeAreTheNodes) {
   const std::string mesh = key("Input Mesh File", "bar.g");
   const std::string deck = changed(right_parts().text(), key("Horizon", "2.01e-3"), key("Horizon Factor", "1.1"));
   // A corner has three neighbors at one spacing; the first one is node 1.
@@ -309,7 +309,7 @@ Parts straggling_parts(const std::string& degenerate) {
   return parts;
 }
 
-TEST_F(Mistake, PointsWithTooFewNeighbours) {
+TEST_F(Mistake, PointsWithTooFewNeighbors) {
   folder.write("points.txt", points_with_stragglers());
   expect_error(straggling_parts("Error").text(),
                {"Discretization > Degenerate Points", "3 points have too few neighbors", "of block block_7",
@@ -320,7 +320,7 @@ TEST_F(Mistake, PointsWithTooFewNeighbours) {
       << shown;
 }
 
-TEST_F(Mistake, PointsWithTooFewNeighboursAreDroppedOnRequest) {
+TEST_F(Mistake, PointsWithTooFewNeighborsAreDroppedOnRequest) {
   folder.write("points.txt", points_with_stragglers());
   const fs::path deck = write_deck(straggling_parts("Drop").text());
   testing::internal::CaptureStdout();

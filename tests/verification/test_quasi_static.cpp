@@ -58,7 +58,7 @@ TEST_P(Tangent, IsTheDerivativeOfTheForces) {
   const double h = 1e-5 * spacing;
   const Field above = forces_at(h), below = forces_at(-h);
   forces_at(0);
-  equilibrium.linearise();
+  equilibrium.linearize();
   Field product(body.owned());
   equilibrium.apply(direction, product);
   const double scale = largest_over(body, [&](int i) { return product[i].norm(); });
