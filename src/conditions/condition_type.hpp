@@ -57,7 +57,7 @@ struct HeldDirection {
 };
 
 template <class T>
-concept StatesItsRoles = requires(const T& condition) {
+concept HasRoles = requires(const T& condition) {
   requires std::same_as<decltype(T::stage), const Stage>;
   requires std::same_as<decltype(T::ledger_entry), double Work::*const>;
   { condition.reaction_place } -> std::convertible_to<int>;
@@ -72,7 +72,7 @@ concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_place)>;
 //                     numbers there
 //   on                the condition on these points, at this place in the deck
 template <class T>
-concept IsPrototypeToo = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
+concept IsPrototype = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
   { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
   { prototype.on(points, place, body) } -> std::same_as<T>;
 };
@@ -87,12 +87,12 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
 };
 
-// Where acts_at_start: for who looks ahead.
-//   foretell  puts the velocities that it imposes on points at time t, in the mean over a moment (s), into `velocities`
+// Where acts_at_start: used by the check for undeclared contact (setup), which looks ahead.
+//   predict_velocities  puts the velocities that it imposes at time t, as a mean over `moment` (s), into `velocities`
 template <class T>
-concept ForetellsVelocities = requires(const T& condition, double t, double moment, const Body& body,
-                                       std::vector<Vector>& velocities) {
-  { condition.foretell(t, moment, body, velocities) } -> std::same_as<void>;
+concept PredictsVelocities = requires(const T& condition, double t, double moment, const Body& body,
+                                      std::vector<Vector>& velocities) {
+  { condition.predict_velocities(t, moment, body, velocities) } -> std::same_as<void>;
 };
 
 // All other stages.
@@ -104,7 +104,7 @@ concept ChangesVelocities = requires(const T& condition, VelocityUpdate& update,
   { condition.change_velocities(update) } -> std::same_as<void>;
   { condition.in_substeps(moving) } -> std::same_as<std::optional<T>>;
   requires std::same_as<decltype(T::acts_at_start), const bool>;
-  requires !T::acts_at_start || ForetellsVelocities<T>;
+  requires !T::acts_at_start || PredictsVelocities<T>;
 };
 
 // InEquilibria::hold.
@@ -131,6 +131,6 @@ concept ActsInEquilibria =
     (T::in_equilibria == InEquilibria::impossible && SaysWhyNotInEquilibria<T>);
 
 template <class T>
-concept ConditionType = StatesItsRoles<T> && IsPrototypeToo<T> && ActsInSteps<T> && ActsInEquilibria<T>;
+concept ConditionType = HasRoles<T> && IsPrototype<T> && ActsInSteps<T> && ActsInEquilibria<T>;
 
 }  // namespace strut
