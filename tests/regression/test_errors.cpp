@@ -271,7 +271,7 @@ TEST_F(Mistake, UnknownReactions) {
   expect_error(with("Reaction_Z(wal)"), {"History > Variables > Reaction_Z(wal): 'wal' is no section",
                                          "(did you mean 'wall'?); there are wall, floor"});
   expect_error(with("Reaction_Z(flight)"),
-               {"'flight' is no section of Boundary Conditions with prescribed motion, symmetry plane or tool"});
+               {"'flight' is no section of Boundary Conditions that has a reaction force", "there are wall, floor"});
   for (const std::string name : {"Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
     expect_error(with(name), {"History > Variables > " + name + ": expected one of Reaction_X, Reaction_Y, Reaction_Z",
                               "in brackets the name of a section of Boundary Conditions"});
