@@ -7,8 +7,7 @@
 //   reaction_place  a member: its place in the deck, by which its reaction is asked for; static and no_reaction: it
 //                   has none
 //   in_equilibria   what it is in a load step without inertia
-// and, as these demand, what the concepts below list. A new one is a unit of its own, a line in the variant
-// (condition.hpp), and its keys in a deck with what makes it of them (deck/sections/conditions.cpp).
+// and, as these demand, what the concepts below list. How to add one: CONTRIBUTING.md.
 #pragma once
 
 #include <concepts>
@@ -29,8 +28,9 @@ struct Body;
 struct VelocityUpdate;
 
 // The order in which conditions act; those of one stage act in the order of the deck. `forces` change force densities,
-// the others velocities, after all forces have: each may undo what earlier stages did, and so a point that a motion
-// carries against a tool does not enter it.
+// the others velocities, after all forces have: `drags` resist them, `motions` prescribe them, `planes` and `tools`
+// limit them. Each may undo what earlier stages did, and so a point that a motion carries against a tool does not enter
+// it.
 enum class Stage { forces, drags, motions, planes, tools };
 
 // `load`: its forces act there as in a step; `hold`: points have given places along some directions; `tool`: unilateral
@@ -77,9 +77,11 @@ concept IsPrototype = requires(const T& prototype, std::vector<int> points, int 
   { prototype.on(points, place, body) } -> std::same_as<T>;
 };
 
-// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff.
+// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff. The
+// estimate of the critical time step does not know it: where it is stiff, the deck needs a smaller Safety Factor.
 //   add_forces  adds to the force density what it does at time t
-//   add_work    adds the work of these forces over the time of an impulse, once velocities are final
+//   add_work    adds the work of these forces, once velocities are final; impulse_time is what they have acted for, the
+//               mean of the steps before and after t
 template <class T>
 concept AddsForces = requires(const T& condition, double t, double impulse_time, Body& body, const Body& after,
                               ImpulseWork& work) {
@@ -96,7 +98,9 @@ concept PredictsVelocities = requires(const T& condition, double t, double momen
 };
 
 // All other stages.
-//   change_velocities  changes velocities to what it allows, and records each change
+//   change_velocities  changes velocities, as the forces at update.t leave them, to what it allows, and records each
+//                      change. update.steps.of(i) is the time for which the velocity then carries point i on: the next
+//                      step, or the part of it that is the point's own step
 //   in_substeps        its part for the points that move between whole steps; nothing: it does not act there
 //   acts_at_start      initial velocities are changed, too, so that the first step needs no impulse
 template <class T>
