@@ -3,7 +3,7 @@
 // Method: implicit radial return (Wilkins 1964; Simo & Hughes, Computational Inelasticity, 3.3). The deviator of the
 // elastic trial stress is scaled back so that
 //   σ_trial − 3μ Δε̄ − σ̄(ε̄ + Δε̄, Δε̄/dt) = 0.
-// Written once for a point and for points side by side, a lane each.
+// Written once for a point and for several points, one per SIMD lane.
 // Trade-off: first order in the step where the direction of loading turns, exact where it does not; stable for any
 // step, and the stress never lies above the flow stress. Units: Pa, 1/s, s.
 #pragma once
@@ -128,7 +128,7 @@ struct J2 {
     return result;
   }
 
-  // Flow went on: the flow stress linearised about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
+  // Flow went on: the flow stress linearized about the last step, σ̄(ε̄, ε̇_old) + ∂σ̄/∂ε̄ Δε̄ + ∂σ̄/∂ε̇ (Δε̄/dt − ε̇_old).
   // It follows a change of the rate at once, where the last rate itself as a guess would lag behind.
   template <class T>
   T warm_guess(const T& q, const Curve<T>& at_rest, const StateOf<T>& state, const T& dt) const {

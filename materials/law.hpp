@@ -1,23 +1,31 @@
 // The contract of a constitutive law: one pure step of one material point in the unrotated frame.
 //
 // A law is a plain struct of parameters. It sees no bonds, halos, files or decks.
-//   step      takes a step of length dt, the old unrotated Cauchy stress (Pa) and its own State, which it updates; it
-//             returns the new unrotated Cauchy stress. A law of the first form goes by the unrotated rate of
-//             deformation d = Rᵀ D R, one of the second form by the stretch reached. A step is inline: what a law does
-//             not ask for is not computed.
-//   State     a struct of doubles only; state_names names them in order, as they appear in output. State{} is that of
-//             an undeformed point; a law whose output should begin with other numbers says so in virgin_state().
-//   moduli    the elastic moduli that bound the critical time step, of the Cauchy stress; of the state, where they
-//   change. energies  elastic_energy and dissipation feed the ledger of a run. flow_stress  what the equivalent stress
-//   equals while the point yields; infinity where it never yields. has_flowed  of a law whose flow keeps the volume:
-//   whether the point ever did. Where several law points follow one
-//             motion, they then share their change of volume (volumetric locking: src/mechanics/quadratic.md).
-//   side by side  a law may take points side by side, a lane each: its step and its StateOf<T> are then templates over
-//             the number, double or RawLanes, and State is StateOf<double>. All lanes are computed; those where J is
-//             not positive are thrown away.
-//   tangent   if it has one: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
-//             with its mirror image, and J with it (J = det U). NaN where the step does not converge. tangent_of
-//             (tangent.hpp) finds it by differences for laws that have none.
+//
+// clang-format off
+//   step              takes a step of length dt, the old unrotated Cauchy stress (Pa) and its own State, which it
+//                     updates; it returns the new unrotated Cauchy stress. A law of the first form uses the unrotated
+//                     rate of deformation d = Rᵀ D R, one of the second form the stretch reached. A step is inline:
+//                     what a law does not ask for is not computed.
+//   State             a struct of doubles only; State{} is that of an undeformed point.
+//   state_names       name the members of State in their order, as they appear in output.
+//   virgin_state      optional: the state of an undeformed point as output shows it, where that is not State{}.
+//   moduli            the elastic moduli that bound the critical time step, of the Cauchy stress; with the state as an
+//                     argument where they change.
+//   elastic_energy    J per m³ of current volume, and
+//   dissipation       J per m³ of reference volume: both feed the energy ledger of a run.
+//   equivalent_stress what is compared with the flow stress, Pa.
+//   flow_stress       what the equivalent stress equals while the point yields, Pa; infinity where it never yields.
+//   has_flowed        optional, of a law whose plastic flow keeps the volume: whether the point ever flowed. Where
+//                     several law points follow one motion, they then share their change of volume (volumetric
+//                     locking: src/mechanics/formulation/quadratic.md).
+//   StateOf<T>        optional, SIMD: a law may take several points at once, one per lane. Its step and StateOf<T> are
+//                     then templates over the number, double or RawLanes, and State is StateOf<double>. All lanes are
+//                     computed; those where J is not positive are thrown away.
+//   tangent           optional: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
+//                     with its mirror image, and J with it (J = det U). NaN where the step does not converge. For laws
+//                     without one, tangent_of (tangent.hpp) takes differences.
+// clang-format on
 #pragma once
 
 #include <array>
@@ -66,7 +74,7 @@ concept Law = std::copyable<L> && std::default_initializable<typename L::State> 
   { L::state_names.size() } -> std::convertible_to<std::size_t>;
 };
 
-// Whether a law takes points side by side.
+// Whether a law takes several points at once, one per SIMD lane.
 template <class L>
 inline constexpr bool takes_lanes = requires(const L law, const StepOf<RawLanes>& step,
                                              const SymmetricOf<RawLanes>& stress,

@@ -1,4 +1,4 @@
-// The door of the materials room: every law, and the variant that a block holds.
+// Public header of materials: every law, and the variant that a block holds.
 #pragma once
 
 #include <variant>

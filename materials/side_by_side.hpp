@@ -1,6 +1,7 @@
-// The numbers of points side by side, as a law may take them, a point a lane. What is written with + − * / < && and ?:
-// is the same for one point (double) and for these, where a comparison gives a mask and ?: chooses by lane. Functions
-// here are those of the standard library for them; exp and log are Eigen's, good to two units in the last place.
+// SIMD: numbers of several points, one per lane, as a law may take them ("side by side"). What is written with + − * /
+// < && and ?: is the same for one point (double) and for these, where a comparison gives a mask and ?: chooses by lane.
+// Functions here are those of the standard library for them; exp and log are Eigen's, good to two units in the last
+// place.
 #pragma once
 
 #include <cmath>

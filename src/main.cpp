@@ -20,16 +20,16 @@ usage: strut [option] deck.xml              on one core
        mpirun -np 8 strut [option] deck.xml  on eight
 
   deck.xml             run it: results are written where the deck says, seen from this folder, in place of older ones
-  --continue deck.xml  go on with a run that was ended, by a signal, an error or the machine, from where it was last
-                       kept (section Restart); on any number of ranks. Begins anew where nothing was kept, unless the result is complete
-  --check deck.xml     say what is wrong with it, or what the run would do: points, memory, step, time. Writes nothing
+  --continue deck.xml  resume a run from its last checkpoint (section Restart), on any number of ranks. Where there is
+                       none it starts anew, unless the result is complete
+  --check deck.xml     say what is wrong with it, or what the run would do: points, memory, time step, time. Writes nothing
   --keys               all keys of a deck, their units and defaults, as a page of Markdown
   --version            the version and how it was built, as every file that it writes has it
   --help, -h           this page
 
-Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and what is
-kept to go on (relative to this folder).
-Signals: SIGTERM and SIGINT end a run after the step in hand, with a last frame, and keep what it takes to go on.
+Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
+checkpoint (relative to this folder).
+Signals: SIGTERM and SIGINT end a run after the current step, with a last frame and a checkpoint.
 Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal.
 )";
 

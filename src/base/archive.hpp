@@ -1,5 +1,5 @@
-// What a run must know to go on, by name. One description of it, the functions `keep` of its parts, serves to save and
-// to restore, so that neither knows of something that the other has forgotten.
+// What a checkpoint contains, by name. The `serialize` functions of the parts both save and restore it, so that neither
+// direction can forget what the other has.
 #pragma once
 
 #include <cstdint>

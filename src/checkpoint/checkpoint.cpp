@@ -68,7 +68,7 @@ bool Checkpoint::due_by_the_clock() const {
 
 void Checkpoint::write(int step, double time) {
   if (!settings_.enabled || (written_ && step == last_step_)) return;
-  static Teuchos::Time& timer = phase("Restart");
+  static Teuchos::Time& timer = phase("Checkpoint");
   const Timed timed(timer);
   Snapshot snapshot;
   Archive archive = Archive::saving_to(snapshot);

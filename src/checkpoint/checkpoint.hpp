@@ -1,4 +1,4 @@
-// When a run writes what it must know to go on, and how it takes that up again.
+// When a run writes a checkpoint, and how it resumes from one.
 #pragma once
 
 #include <chrono>
@@ -18,26 +18,26 @@ bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator)
 
 class Checkpoint {
  public:
-  // What is kept, by an archive that saves or restores.
+  // Passes an archive, which saves or restores, over all that a checkpoint contains.
   using Serialize = std::function<void(Archive&)>;
 
-  // Collective. Throws Error on all ranks: another run that is on keeps things under the same name.
+  // Collective. Throws Error on all ranks: another run that has not ended writes checkpoints under the same name.
   Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  // Collective. Throws Error on all ranks: what is there is damaged, or of another model.
+  // Collective. Throws Error on all ranks: the file is damaged, or of another model.
   void load();
-  void remove();  // collective: what an earlier run has left; throws Error where it is no such thing
-  void close();   // collective; at the end of a run that is over: what it kept stays if the deck asks for that
+  void remove();  // collective: the checkpoint of an earlier run; throws Error where the file is no checkpoint
+  void close();   // collective; at the end of a run that is over: removes the checkpoint unless the deck asks for it
 
   bool due(int step, double time) const;  // by the steps or the time of the simulation
   bool due_by_the_clock() const;          // on this rank
   bool due_at_the_end() const { return settings_.enabled && settings_.asked_for; }
   void write(int step, double time);  // collective; throws Error when the disk is full
 
-  // How to go on after an error, for its message.
+  // How to resume after an error, for its message.
   std::string hint() const;
 
  private:
@@ -49,10 +49,10 @@ class Checkpoint {
   Serialize serialize_;
   Schedule schedule_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  int last_step_ = 0;  // that was written, or taken up
+  int last_step_ = 0;  // that was written, or loaded
   double last_time_ = 0;
   bool written_ = false;
-  std::optional<io::FileLock> lock_;  // on rank 0, of a file beside: the kept one is replaced by each new one
+  std::optional<io::FileLock> lock_;  // on rank 0, of a file of its own: each checkpoint replaces the last one
 };
 
 }  // namespace strut

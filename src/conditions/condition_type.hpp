@@ -7,8 +7,7 @@
 //   reaction_place  a member: its place in the deck, by which its reaction is asked for; static and no_reaction: it
 //                   has none
 //   in_equilibria   what it is in a load step without inertia
-// and, as these demand, what the concepts below list. A new one is a unit of its own, a line in the variant
-// (condition.hpp), and its keys in a deck with what makes it of them (deck/sections/conditions.cpp).
+// and, as these demand, what the concepts below list. How to add one: CONTRIBUTING.md.
 #pragma once
 
 #include <concepts>
@@ -29,8 +28,9 @@ struct Body;
 struct VelocityUpdate;
 
 // The order in which conditions act; those of one stage act in the order of the deck. `forces` change force densities,
-// the others velocities, after all forces have: each may undo what earlier stages did, and so a point that a motion
-// carries against a tool does not enter it.
+// the others velocities, after all forces have: `drags` resist them, `motions` prescribe them, `planes` and `tools`
+// limit them. Each may undo what earlier stages did, and so a point that a motion carries against a tool does not enter
+// it.
 enum class Stage { forces, drags, motions, planes, tools };
 
 // `load`: its forces act there as in a step; `hold`: points have given places along some directions; `tool`: unilateral
@@ -57,7 +57,7 @@ struct HeldDirection {
 };
 
 template <class T>
-concept StatesItsRoles = requires(const T& condition) {
+concept HasRoles = requires(const T& condition) {
   requires std::same_as<decltype(T::stage), const Stage>;
   requires std::same_as<decltype(T::ledger_entry), double Work::*const>;
   { condition.reaction_place } -> std::convertible_to<int>;
@@ -72,14 +72,16 @@ concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_place)>;
 //                     numbers there
 //   on                the condition on these points, at this place in the deck
 template <class T>
-concept IsPrototypeToo = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
+concept IsPrototype = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
   { prototype.values_at_points() } -> std::same_as<std::vector<Function>>;
   { prototype.on(points, place, body) } -> std::same_as<T>;
 };
 
-// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff.
+// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff. The
+// estimate of the critical time step does not know it: where it is stiff, the deck needs a smaller Safety Factor.
 //   add_forces  adds to the force density what it does at time t
-//   add_work    adds the work of these forces over the time of an impulse, once velocities are final
+//   add_work    adds the work of these forces, once velocities are final; impulse_time is what they have acted for, the
+//               mean of the steps before and after t
 template <class T>
 concept AddsForces = requires(const T& condition, double t, double impulse_time, Body& body, const Body& after,
                               ImpulseWork& work) {
@@ -87,16 +89,18 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
 };
 
-// Where acts_at_start: for who looks ahead.
-//   foretell  puts the velocities that it imposes on points at time t, in the mean over a moment (s), into `velocities`
+// Where acts_at_start: used by the check for undeclared contact (setup), which looks ahead.
+//   predict_velocities  puts the velocities that it imposes at time t, as a mean over `moment` (s), into `velocities`
 template <class T>
-concept ForetellsVelocities = requires(const T& condition, double t, double moment, const Body& body,
-                                       std::vector<Vector>& velocities) {
-  { condition.foretell(t, moment, body, velocities) } -> std::same_as<void>;
+concept PredictsVelocities = requires(const T& condition, double t, double moment, const Body& body,
+                                      std::vector<Vector>& velocities) {
+  { condition.predict_velocities(t, moment, body, velocities) } -> std::same_as<void>;
 };
 
 // All other stages.
-//   change_velocities  changes velocities to what it allows, and records each change
+//   change_velocities  changes velocities, as the forces at update.t leave them, to what it allows, and records each
+//                      change. update.steps.of(i) is the time for which the velocity then carries point i on: the next
+//                      step, or the part of it that is the point's own step
 //   in_substeps        its part for the points that move between whole steps; nothing: it does not act there
 //   acts_at_start      initial velocities are changed, too, so that the first step needs no impulse
 template <class T>
@@ -104,7 +108,7 @@ concept ChangesVelocities = requires(const T& condition, VelocityUpdate& update,
   { condition.change_velocities(update) } -> std::same_as<void>;
   { condition.in_substeps(moving) } -> std::same_as<std::optional<T>>;
   requires std::same_as<decltype(T::acts_at_start), const bool>;
-  requires !T::acts_at_start || ForetellsVelocities<T>;
+  requires !T::acts_at_start || PredictsVelocities<T>;
 };
 
 // InEquilibria::hold.
@@ -131,6 +135,6 @@ concept ActsInEquilibria =
     (T::in_equilibria == InEquilibria::impossible && SaysWhyNotInEquilibria<T>);
 
 template <class T>
-concept ConditionType = StatesItsRoles<T> && IsPrototypeToo<T> && ActsInSteps<T> && ActsInEquilibria<T>;
+concept ConditionType = HasRoles<T> && IsPrototype<T> && ActsInSteps<T> && ActsInEquilibria<T>;
 
 }  // namespace strut

@@ -68,11 +68,11 @@ Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving)
   return some;
 }
 
-std::vector<Vector> foretold_velocities(const Conditions& conditions, double t, double moment, const Body& body) {
+std::vector<Vector> predicted_velocities(const Conditions& conditions, double t, double moment, const Body& body) {
   std::vector<Vector> velocities = body.velocity;
   conditions.visit([&]<class Type>(const Type& one) {
     if constexpr (Type::stage != Stage::forces) {
-      if constexpr (Type::acts_at_start) one.foretell(t, moment, body, velocities);
+      if constexpr (Type::acts_at_start) one.predict_velocities(t, moment, body, velocities);
     }
   });
   return velocities;

@@ -47,7 +47,7 @@ Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving)
 
 // The initial velocities of owned points, and in their place those that conditions impose at time t, in the mean over a
 // moment (s).
-std::vector<Vector> foretold_velocities(const Conditions& conditions, double t, double moment, const Body& body);
+std::vector<Vector> predicted_velocities(const Conditions& conditions, double t, double moment, const Body& body);
 
 // Throws Error where a condition has no meaning without inertia.
 void check_equilibria_possible(const Conditions& conditions);

@@ -1,7 +1,7 @@
 // An end that waves leave as if the body went on behind it: the viscous traction −ρ c_p v_n − ρ c_s v_t (Lysmer &
 // Kuhlemeyer 1969) on the layer of points that has the end's surface. The traction acts in the middle of the layer:
 // what is beyond it, half of a layer of whole cells, is taken to belong to the other side, and its inertia is the other
-// side's (README).
+// side's (docs/theory.md, Non-reflecting ends).
 #pragma once
 
 #include <optional>

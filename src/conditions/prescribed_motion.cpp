@@ -37,7 +37,8 @@ std::optional<PrescribedMotion> PrescribedMotion::in_substeps(const MovingPoints
   return PrescribedMotion{moving.among(points), component, value, is_velocity, reaction_place};
 }
 
-void PrescribedMotion::foretell(double t, double moment, const Body& body, std::vector<Vector>& velocities) const {
+void PrescribedMotion::predict_velocities(double t, double moment, const Body& body,
+                                          std::vector<Vector>& velocities) const {
   for (const int i : points) {
     const auto at = [&](double time) { return value_at_point(value, body, i, time); };
     velocities[i][component] = is_velocity ? at(t) : (at(t + moment) - at(t)) / moment;

@@ -30,7 +30,7 @@ struct PrescribedMotion {
   void change_velocities(VelocityUpdate& update) const;
   std::optional<PrescribedMotion> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = true;
-  void foretell(double t, double moment, const Body& body, std::vector<Vector>& velocities) const;
+  void predict_velocities(double t, double moment, const Body& body, std::vector<Vector>& velocities) const;
   std::vector<HeldDirection> held_directions(const Body& body, double t, double dt) const;
 };
 

@@ -14,8 +14,8 @@ namespace strut {
 // The reaction place of conditions that have no reaction.
 constexpr int no_reaction = -1;
 
-// Of all conditions at one time. N, over all ranks, by the condition's place in the deck; zero for conditions that are
-// no prescribed motion, symmetry plane or tool. Empty where nobody asked for reactions.
+// Of all conditions at one time. N, over all ranks, by the condition's place in the deck; zero for those that have no
+// reaction. Empty where nobody asked for reactions.
 struct Reactions {
   std::vector<Vector> forces;
 };

@@ -21,7 +21,7 @@ struct RigidTool {
   double friction = 0;
   int reaction_place = no_reaction;
 
-  // How far it has travelled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
+  // How far it has traveled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
   Vector offset(double t) const;
 
   static constexpr Stage stage = Stage::tools;

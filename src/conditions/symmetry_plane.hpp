@@ -26,7 +26,7 @@ struct SymmetryPlane {
   std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = true;
   // Nothing: the plane sets nothing in motion.
-  void foretell(double, double, const Body&, std::vector<Vector>&) const {}
+  void predict_velocities(double, double, const Body&, std::vector<Vector>&) const {}
   std::vector<HeldDirection> held_directions(const Body& body, double t, double dt) const;
 };
 

@@ -1,5 +1,5 @@
-// The problems found in a deck: collected while it is read, so that the user sees all of them at once. A second door
-// of the room: set-up collects what only deck and mesh together show in the same way.
+// The problems found in a deck: collected while it is read, so that the user sees all of them at once. A second public
+// header of deck: set-up collects what only deck and mesh together show in the same way.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The door of mechanics: forces, their linearisation, frequency bounds and energies of a body.
+// Public header of mechanics: forces, their linearization, frequency bounds and energies of a body.
 #pragma once
 
 #include "mechanics/energies.hpp"

@@ -21,8 +21,8 @@ Tensor elastic_change(const MaterialPoint& point, const materials::Moduli& modul
   return point.deformation_gradient.determinant() * to_tensor(stress) * inverse_F.transpose();
 }
 
-// The force state of the tangent at one point, for δF. A point that is stepped alone by a
-// `share` of the step is as stiff to it as one of share² the stiffness is to the whole. C: of its springs.
+// The force state of the tangent at one point, for δF. A subcycled point, whose step is a `share` of the whole, is as
+// stiff to its own step as one of share² the stiffness is to the whole step. C: of its springs.
 ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
                          const materials::Moduli& moduli, const Tensor& dF, double share) {
   const Tensor A = elastic_change(point, moduli, dF) * to_tensor(shape_inverse) - C * dF;

@@ -1,4 +1,4 @@
-// The linearised forces: for the critical time step and for Newton's iterations.
+// The linearized forces: for the critical time step and for Newton's iterations.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@ namespace strut {
 
 struct PointTangent;
 
-// Collective. The linearised operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
+// Collective. The linearized operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
 // `directions` holds v in the place of y: a copy of the body's sites, or these themselves where no block is ordinary.
 // `tangents`: of the owned points by correspondence (tangent.hpp); if null, those of the elastic moduli, without the
 // geometric stiffness (of the order stress/modulus), which is left out of ordinary points in any case.

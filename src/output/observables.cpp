@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 #include <span>
+#include <type_traits>
+#include <variant>
 
 #include "base/errors.hpp"
 
@@ -65,7 +67,7 @@ std::vector<Observable> kinematic() {
       observable(
           "Displacement", "y − X, m", [](const Body& b, int i) { return b.displacement(i); }, true),
       observable(
-          "Coordinate_X", "of the present place y, m", [](const Body& b, int i) { return b.current(i)[0]; }, true),
+          "Coordinate_X", "of the current position y, m", [](const Body& b, int i) { return b.current(i)[0]; }, true),
       observable(
           "Coordinate_Y", "of y, m", [](const Body& b, int i) { return b.current(i)[1]; }, true),
       observable(
@@ -77,7 +79,7 @@ std::vector<Observable> kinematic() {
           "Velocity", "at the time of the frame, m/s",
           [](const Body& b, int i) -> Vector { return 0.5 * (b.previous_velocity[i] + b.velocity[i]); }, true),
       observable(
-          "Force", "internal force and loads, N; where points are stepped alone, what acts at the end of a step",
+          "Force", "internal force and loads, N; where points are subcycled, what acts at the end of a step",
           [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
       observable(
           "Force_Density", "the same per reference volume, N/m³",
@@ -101,7 +103,7 @@ std::vector<Observable> kinematic() {
 
 std::vector<Observable> stresses() {
   return {
-      observable("Cauchy_Stress", "Pa", cauchy),
+      observable("Cauchy_Stress", "σ, Pa", cauchy),
       observable("Unrotated_Cauchy_Stress", "Rᵀ σ R, Pa", [](const Body& b, int i) { return b.points[i].stress; }),
       observable("Von_Mises_Stress", "√(3/2 s:s), Pa",
                  [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
@@ -146,6 +148,42 @@ Observable state_variable(const std::string& name) {
   return {name, 1, false, "state of the material law; by quadratic correspondence the mean over the cell", fill};
 }
 
+template <class L>
+void add_state_names(std::set<std::string>& names) {
+  names.insert(L::state_names.begin(), L::state_names.end());
+}
+
+// The fixed observables, and the state variables of these names.
+std::vector<Observable> with_states(const std::set<std::string>& states) {
+  std::vector<Observable> all = kinematic();
+  for (auto group : {stresses(), fixed_properties()}) all.insert(all.end(), group.begin(), group.end());
+  for (const std::string& name : states) all.push_back(state_variable(name));
+  return all;
+}
+
+const char* const introduction = R"(# Output variables
+
+Generated from the tables in `src/output/observables.cpp`; do not edit by hand. SI units throughout.
+
+Each is a field of the points that the section `Output` of a deck can write (`Output Variables`). With `Max_` or `Min_`
+in front it is a column that the section `History` can write: the extreme over all points, or with the name of a node
+set or block, `Max_Displacement(foot)`, over its points. 3 components are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a
+tensor row by row. An extreme of several components is that of the root of the sum of their squares.
+
+X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of
+the [glossary](../docs/glossary.md). What the state variables of the laws mean, and their units, stand at `State` in the
+headers of [materials](../materials/README.md).
+
+| variable | components | in the Exodus file | meaning, with its unit |
+|---|---|---|---|
+)";
+
+// As a cell of a table.
+std::string escaped(std::string text) {
+  for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
+  return text;
+}
+
 std::vector<std::string> names_of(const std::vector<Observable>& all, const std::vector<std::string>& prefixes) {
   std::vector<std::string> names;
   for (const std::string& prefix : prefixes) {
@@ -162,15 +200,24 @@ const Observable* find(const std::vector<Observable>& all, const std::string& na
 }  // namespace
 
 std::vector<Observable> observables(const Body& body) {
-  std::vector<Observable> all = kinematic();
-  for (auto group : {stresses(), fixed_properties()}) all.insert(all.end(), group.begin(), group.end());
   std::set<std::string> states;
   for (const MaterialBlock& block : body.blocks) {
-    std::visit([&]<class L>(const L&) { states.insert(L::state_names.begin(), L::state_names.end()); },
-               block.material.law);
+    std::visit([&]<class L>(const L&) { add_state_names<L>(states); }, block.material.law);
   }
-  for (const std::string& name : states) all.push_back(state_variable(name));
-  return all;
+  return with_states(states);
+}
+
+std::string observables_page() {
+  std::set<std::string> states;
+  [&]<class... L>(std::type_identity<std::variant<L...>>) {
+    (add_state_names<L>(states), ...);
+  }(std::type_identity<materials::AnyLaw>());
+  std::string text = introduction;
+  for (const Observable& o : with_states(states)) {
+    text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
+            escaped(o.meaning) + " |\n";
+  }
+  return text;
 }
 
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,

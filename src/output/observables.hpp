@@ -1,4 +1,5 @@
-// What a run can show of its points: one table, from which output, history and the errors about names are made.
+// What a run can show of its points: one table, from which output, history, the errors about names and the page
+// inputs/VARIABLES.md are made.
 #pragma once
 
 #include <functional>
@@ -13,13 +14,16 @@ struct Observable {
   std::string name;
   int components = 1;  // 1, 3, 6 or 9, as Exodus output names them
   bool nodal = false;
-  std::string meaning;  // with its unit
+  std::string meaning;  // with its unit, for the page
   // Writes the components of every owned point, point by point.
   std::function<void(const Body&, std::vector<double>&)> fill;
 };
 
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);
+
+// The page inputs/VARIABLES.md: the fixed ones, and the state variables of all laws.
+std::string observables_page();
 
 // The members of `all` that `names` ask for. Throws one Error for all names that are not there, with the valid ones.
 // `where`: the place in the deck.

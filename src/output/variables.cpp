@@ -33,7 +33,7 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
     if (conditions[place].name == wanted) return static_cast<int>(place);
     valid.push_back(conditions[place].name);
   }
-  const std::string expected = "' is no section of Boundary Conditions with prescribed motion, symmetry plane or tool";
+  const std::string expected = "' is no section of Boundary Conditions that has a reaction force";
   throw Error(path + ": '" + wanted + expected + did_you_mean(wanted, valid) + "; there " +
               (valid.empty() ? "is none" : "are " + joined(valid)));
 }

@@ -1,4 +1,4 @@
-// What goes on beside the steps of a run: checkpoints, output, limits, progress, and how a run is ended by a signal.
+// What a run does besides its steps: checkpoints, output, limits, progress, and how a run is ended by a signal.
 #pragma once
 
 #include "checkpoint/checkpoint.hpp"
@@ -10,14 +10,14 @@
 
 namespace strut {
 
-// From now on SIGINT and SIGTERM end the run after the step in hand.
+// From now on SIGINT and SIGTERM end the run after the current step.
 void catch_signals();
 bool is_signalled();
 
 // On rank 0.
 void say(const Communicator& communicator, const std::string& text);
 
-// All that a run has beside its solver.
+// All that a run has besides its solver.
 struct RunServices {
   const deck::Deck& deck;
   const Scene& scene;

@@ -49,8 +49,8 @@ PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
 }  // namespace
 
 // Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
-Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                      std::int64_t& dropped) {
+Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
+                                        std::int64_t& dropped) {
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   for (;;) {

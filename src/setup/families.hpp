@@ -10,7 +10,7 @@ namespace strut {
 
 // Collective. Families of the partitioned cloud, less the points that the deck lets go; `dropped` counts these over all
 // ranks. Throws Error on all ranks where the deck does not let them go.
-Domain healthy_domain(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                      std::int64_t& dropped);
+Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
+                                        std::int64_t& dropped);
 
 }  // namespace strut

@@ -41,7 +41,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   }
   std::int64_t dropped = 0;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
-  Domain domain = healthy_domain(deck, std::move(cloud), communicator, dropped);
+  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
   Scene scene{
       make_body(std::move(domain), deck.discretization.influence, materials),
       {},

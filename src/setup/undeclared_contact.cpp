@@ -24,7 +24,7 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
   const Domain& domain = scene.body.domain;
   std::vector<Trajectory> all(domain.cloud.block_names.size());
   const std::vector<Vector> velocities =
-      foretold_velocities(scene.conditions, start, short_part * duration, scene.body);
+      predicted_velocities(scene.conditions, start, short_part * duration, scene.body);
   for (int i = 0; i < domain.owned; ++i) {
     all[domain.cloud.blocks[i]].places.extend(scene.body.current(i));
     all[domain.cloud.blocks[i]].velocities.extend(velocities[i]);

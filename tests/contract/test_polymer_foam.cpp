@@ -54,8 +54,8 @@ double printed_yield(const PolymerFoam& law, const PolymerFoam::State& state, co
   const double tau = law.uniaxial_yield + value_at(law.uniaxial_hardening, ea);
   const double p_c = law.hydrostatic_yield + value_at(law.hydrostatic_hardening, ev), p_t = law.tension_ratio * p_c;
   const double alpha = tau / std::sqrt(p_t * p_c - tau * (p_t - p_c) / 3 - tau * tau / 9);
-  const double p = -trace(kirchhoff) / 3, q = von_mises(kirchhoff), centre = (p_c - p_t) / 2;
-  return std::sqrt(q * q + alpha * alpha * (p - centre) * (p - centre)) / (alpha * (p_c + p_t) / 2) - 1;
+  const double p = -trace(kirchhoff) / 3, q = von_mises(kirchhoff), center = (p_c - p_t) / 2;
+  return std::sqrt(q * q + alpha * alpha * (p - center) * (p - center)) / (alpha * (p_c + p_t) / 2) - 1;
 }
 
 // A path that stretches, shears and turns its axes while it is crushed to a third, and comes back; t from 0 to 1.

@@ -196,7 +196,7 @@ Subject expressions() {
   return {"expression", "expression.txt", samples, change, read};
 }
 
-// ---- what a run leaves to go on
+// ---- checkpoints
 
 Snapshot small_snapshot() {
   Snapshot snapshot;

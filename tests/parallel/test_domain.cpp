@@ -249,7 +249,7 @@ INSTANTIATE_TEST_SUITE_P(Points, DomainOf,
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 // Points exactly at the horizon are neighbors on any number of ranks, in spite of the round-off of their places.
-TEST(Lattice, NeighboursAtExactlyTheHorizonAreIn) {
+TEST(Lattice, NeighborsAtExactlyTheHorizonAreIn) {
   const Communicator world;
   PointCloud cloud;
   cloud.block_names = {"block_1"};

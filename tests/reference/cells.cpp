@@ -69,7 +69,7 @@ std::vector<Cell> gathered(const SmallCubes& body, const std::function<Place(con
 void merge_small(std::vector<Cell>& cells, int fewest) {
   std::unordered_map<std::int64_t, int> by_number;
   for (std::size_t n = 0; n < cells.size(); ++n) by_number[number_of(cells[n].place)] = static_cast<int>(n);
-  const auto largest_neighbour = [&](const Cell& cell) {
+  const auto largest_neighbor = [&](const Cell& cell) {
     Cell* largest = nullptr;
     for (const Place& face : faces) {
       const auto found = by_number.find(number_of(cell.place + face));
@@ -83,7 +83,7 @@ void merge_small(std::vector<Cell>& cells, int fewest) {
   for (int size = 1; size < fewest; ++size) {
     for (Cell& cell : cells) {
       if (cell.cubes != size) continue;
-      Cell* neighbor = largest_neighbour(cell);
+      Cell* neighbor = largest_neighbor(cell);
       if (!neighbor) continue;
       neighbor->take(cell);
       cell.cubes = 0;

@@ -82,7 +82,7 @@ int joints_shared(const PointCloud& cloud, int i, int j) {
   return static_cast<int>(shared.size());
 }
 
-TEST(SquarePrism, NeighboursHaveJointsInCommon) {
+TEST(SquarePrism, NeighborsHaveJointsInCommon) {
   const PointCloud elements = square_prism(2, PointsAt::elements), nodes = square_prism(2, PointsAt::nodes);
   EXPECT_EQ(joints_shared(elements, 0, 0), 8);
   EXPECT_EQ(joints_shared(elements, 0, 1), 4);
@@ -126,7 +126,7 @@ TEST(RoundCylinder, NoCellIsBelowThirtyPercent) {
   }
 }
 
-TEST(Merging, GivesSmallCellsToTheLargestNeighbourAndKeepsTheirSums) {
+TEST(Merging, GivesSmallCellsToTheLargestNeighborAndKeepsTheirSums) {
   // Four cells of 2³ along x with 8, 1, 6 and 1 small cubes, and one of 1 apart from them.
   const auto is_filled = [](const Place& p) {
     if ((p[1] < 0) || (p[2] < 0) || (p[1] > 1) || (p[2] > 1)) return false;
@@ -269,7 +269,7 @@ TEST(Thickness, IsThatOfPrisms) {
 
 // A uniform stress along a round strut leaves its surface free: there should be no force away from the ends. Without
 // the correction, which needs to know the surface, there is; with it 0.64 of that at its ridge
-// (src/mechanics/quadratic.md).
+// (src/mechanics/formulation/quadratic.md).
 TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
   const auto force_of = [](bool with_surface) {
     double sum = 0;

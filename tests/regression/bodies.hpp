@@ -19,7 +19,7 @@
 
 namespace strut::regression {
 
-// Hexahedra of edge `spacing`: those of an nx × ny × nz lattice at the origin whose centre is `inside`. They are the
+// Hexahedra of edge `spacing`: those of an nx × ny × nz lattice at the origin whose center is `inside`. They are the
 // block "bar", but for the `plate_layers` at the top, which are the block "plate".
 // Node sets: "foot" at z = 0, "top" at the other end.
 struct Lattice {

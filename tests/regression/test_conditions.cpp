@@ -373,8 +373,8 @@ Lattice taylor_lattice() {
   lattice.spacing = 0.0324 / 30;
   lattice.nx = lattice.ny = 6;
   lattice.nz = 30;
-  const double centre = 3 * lattice.spacing;
-  lattice.inside = [centre](double x, double y) { return std::hypot(x - centre, y - centre) <= 0.0032; };
+  const double center = 3 * lattice.spacing;
+  lattice.inside = [center](double x, double y) { return std::hypot(x - center, y - center) <= 0.0032; };
   return lattice;
 }
 

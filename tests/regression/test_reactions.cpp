@@ -85,7 +85,7 @@ TEST(Reaction, OfTwoEndsIsEqualAndOpposite) {
   }
 }
 
-// Points of the crushed foot are stepped alone, and the step shrinks with the deformation by some percent at a time: an
+// Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time: an
 // impulse between two kicks counts with the step before, by so much too little or too much.
 TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
   Lattice lattice;

@@ -33,7 +33,7 @@ Parts scene(const RunFolder& folder, const std::string& third) {
 
 const std::string correspondence = key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
                                    key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35");
-// So stiff that its points are stepped alone.
+// So stiff that its points are subcycled.
 const std::string stiff = key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
                           key("Young's Modulus", "4.8e14") + key("Poisson's Ratio", "0.35");
 const std::string ordinary = key("Material Model", "Elastic") + key("Density", "8930") +

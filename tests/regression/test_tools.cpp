@@ -121,7 +121,7 @@ TEST(RigidTool, NothingEntersABox) {
   EXPECT_LT(run.worst_balance, energy_of_rates);
 }
 
-// A plastic bar whose foot is stepped alone: what counts is how fast wall and bar come together, at 227 m/s. Places
+// A plastic bar whose foot is subcycled: what counts is how fast wall and bar come together, at 227 m/s. Places
 // differ by the round-off of velocities, 1e-16, which yielding does not let grow beyond some 1e-10 of the way.
 TEST(RigidTool, WallThatComesIsABarThatFlies) {
   Lattice lattice;

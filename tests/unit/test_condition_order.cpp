@@ -16,6 +16,11 @@ PrescribedMotion motion(int component) { return {{0, 1, 2}, component, Function(
 const SymmetryPlane cut{{1, 2}, Vector::UnitX(), 3};
 const RigidTool floor{{0, 4}, HalfSpace{Vector::Zero(), Vector::UnitZ()}, {}};
 
+// A letter for each type that is used here; others need none.
+template <class Type>
+std::string letter(const Type&) {
+  return "?";
+}
 std::string letter(const BodyForce&) { return "f"; }
 std::string letter(const NonReflectingEnd& end) { return "e" + std::to_string(end.drags.size()); }
 std::string letter(const PrescribedMotion& motion) {

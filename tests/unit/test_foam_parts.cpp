@@ -80,7 +80,7 @@ TEST(Skeleton, LengthWithinTheBox) {
   EXPECT_EQ(length_within({{-1, 0.5, 1}, {0.5, -1, 1}}, size), 0);
 }
 
-// Centres at the surface fall on one side or the other like coins: of S h² surface voxels (S: area), sqrt(S) / 2 is the
+// Centers at the surface fall on one side or the other like coins: of S h² surface voxels (S: area), sqrt(S) / 2 is the
 // expected error of the number, and that divided by S of the radius, in spacings. Three times that.
 double uncertainty(double area) { return 3 * 0.5 / std::sqrt(area); }
 

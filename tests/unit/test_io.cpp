@@ -75,11 +75,11 @@ TEST(Mesh, RoundTripKeepsBlocksSetsAndVolumes) {
   EXPECT_EQ(whole.blocks, (std::vector<int>{0, 0, 1, 2, 2}));
   EXPECT_EQ(whole.sets, (std::vector<std::uint64_t>{1, 2, 1, 0, 2}));
   const double volumes[] = {1, 1, 1.0 / 6, 0.5, 0.25};
-  const Vector centres[] = {{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.25, 0.25, 1.25}, {5, 5, 5}, {6, 5, 5}};
+  const Vector centers[] = {{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.25, 0.25, 1.25}, {5, 5, 5}, {6, 5, 5}};
   for (int i = 0; i < 5; ++i) {
     EXPECT_NEAR(whole.volumes[i], volumes[i], 1e-15);
     EXPECT_NEAR(whole.spacings[i], std::cbrt(volumes[i]), 1e-15);
-    EXPECT_LT((whole.positions[i] - centres[i]).norm(), 1e-14);
+    EXPECT_LT((whole.positions[i] - centers[i]).norm(), 1e-14);
   }
 }
 

@@ -42,7 +42,7 @@ std::map<std::string, int> set_sizes(const PointCloud& cloud) {
   return sizes;
 }
 
-Vector centre_of_mass(const PointCloud& cloud) {
+Vector center_of_mass(const PointCloud& cloud) {
   Vector sum = Vector::Zero();
   for (std::size_t i = 0; i < cloud.size(); ++i) sum += cloud.volumes[i] * cloud.positions[i];
   return sum / volume(cloud);
@@ -89,7 +89,7 @@ TEST_F(MeshTool, FittedCylindersHaveTheVolumeOfTheirPolygon) {
   }
 }
 
-// A frustum of a regular polygon, up or down, layers alike or graded; volume and centre of mass are exact.
+// A frustum of a regular polygon, up or down, layers alike or graded; volume and center of mass are exact.
 TEST_F(MeshTool, ConesAreFrustumsOfTheirPolygon) {
   for (const auto& [low, high] : {std::pair(0.5, 1.0), std::pair(1.0, 0.25)}) {
     for (const std::string more : {"", "grading = 1.2\n", "elements = sphere\n"}) {
@@ -100,17 +100,17 @@ TEST_F(MeshTool, ConesAreFrustumsOfTheirPolygon) {
       const double exact = sides / 2 * std::sin(2 * pi / sides) * 3 * squares / 3;
       EXPECT_NEAR(volume(cloud), exact, 1e-9 * exact);
       const double height = 3 * (low * low + 2 * low * high + 3 * high * high) / (4 * squares);
-      EXPECT_NEAR((centre_of_mass(cloud) - Vector(0, 0, height)).norm(), 0, 1e-9);
+      EXPECT_NEAR((center_of_mass(cloud) - Vector(0, 0, height)).norm(), 0, 1e-9);
       expect_fourfold(cloud);
     }
   }
 }
 
 TEST_F(MeshTool, AxisThroughAPoint) {
-  // Squares whose centres lie within 1.5 spacings of one: it and its eight neighbors.
+  // Squares whose centers lie within 1.5 spacings of one: it and its eight neighbors.
   const PointCloud cloud = made("shape = cylinder\ncentred = point\nlength = 3\nradius = 1.5\nspacing = 1\n");
   EXPECT_EQ(cloud.size(), 27);
-  EXPECT_NEAR((centre_of_mass(cloud) - Vector(0, 0, 1.5)).norm(), 0, 1e-12);
+  EXPECT_NEAR((center_of_mass(cloud) - Vector(0, 0, 1.5)).norm(), 0, 1e-12);
   EXPECT_EQ(made("shape = cylinder\nlength = 3\nradius = 1.5\nspacing = 1\n").size(), 12);  // 4 about the corner
 }
 
@@ -119,7 +119,7 @@ TEST_F(MeshTool, BoxFillsItsSizeAndHasSixFaces) {
       made("shape = box\nname = plate\nsize = 1 2 3.1\nspacing = 0.5\norigin = -1 10 0 # corner\n");
   EXPECT_EQ(cloud.size(), 2 * 4 * 6);
   EXPECT_NEAR(volume(cloud), 6.2, 1e-12);
-  EXPECT_NEAR((centre_of_mass(cloud) - Vector(-0.5, 11, 1.55)).norm(), 0, 1e-12);
+  EXPECT_NEAR((center_of_mass(cloud) - Vector(-0.5, 11, 1.55)).norm(), 0, 1e-12);
   const std::map<std::string, int> expected = {{"plate_xmin", 24}, {"plate_xmax", 24}, {"plate_ymin", 12},
                                                {"plate_ymax", 12}, {"plate_zmin", 8},  {"plate_zmax", 8},
                                                {"foot", 8},        {"top", 8}};

@@ -210,7 +210,7 @@ TEST(MeshCells, OfABoxAreWholeAndHaveItsFaces) {
   for (const io::Mesh::NodeSet& set : mesh.node_sets) EXPECT_EQ(set.nodes.size(), sizes.at(set.name)) << set.name;
 }
 
-TEST(MeshCells, AreAsLargeAsAskedForWhereTheyHaveNeighbours) {
+TEST(MeshCells, AreAsLargeAsAskedForWhereTheyHaveNeighbors) {
   for (const double smallest : {0.3, 0.6}) {
     const Body body = foam(5);
     const Cells cells = gathered(body.voxels, {}, body.grid, {5, smallest});
@@ -321,7 +321,7 @@ double part_that_is_flat(const Cells& cells) {
 
 // The walls cut some struts along their length: slivers a cell thick and less. In seven foams 0.05 to 0.21 % of the
 // volume were left in thin tips of them, of 0.2 to 0.75 % in cells that are not mended.
-TEST(MeshCells, OfAFoamHaveNeighboursThatSpanSpace) {
+TEST(MeshCells, OfAFoamHaveNeighborsThatSpanSpace) {
   const Body body = foam(4, 0.0225);
   const Cells cells = gathered(body.voxels, {}, body.grid, {4, 0.3});
   EXPECT_GT(cells.cut, 0u);

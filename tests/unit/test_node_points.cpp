@@ -87,8 +87,8 @@ TEST_F(NodePoints, OfGradedBricksHaveHalfTheGapsOnEitherSide) {
   }
 }
 
-// Volume and centre of mass of the mesh are kept whatever its shape: shape functions add up to 1, and to x.
-TEST_F(NodePoints, KeepVolumeAndCentreOfMassOfDistortedElements) {
+// Volume and center of mass of the mesh are kept whatever its shape: shape functions add up to 1, and to x.
+TEST_F(NodePoints, KeepVolumeAndCenterOfMassOfDistortedElements) {
   const Mesh hexahedra = shaken(bricks(graded_x, graded_y, graded_z));
   for (const Mesh& mesh : {hexahedra, as_tetrahedra(hexahedra)}) {
     const PointCloud nodes = read(mesh), elements = read(mesh, PointsAt::elements);

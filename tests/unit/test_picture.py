@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """tools/picture, run as a user runs it, on small results that are written here: is what is seen where it should be, in the
-colour that the scale gives to its value?"""
+color that the scale gives to its value?"""
 import os
 import pathlib
 import subprocess
@@ -27,7 +27,7 @@ H = 1e-3  # m, the spacing
 
 
 def box(nx, ny, nz, origin=(0, 0, 0)):
-    """Centres of cubes."""
+    """Centers of cubes."""
     return (np.stack(np.meshgrid(range(nx), range(ny), range(nz), indexing="ij"), -1).reshape(-1, 3) + 0.5) * H + origin
 
 
@@ -61,10 +61,10 @@ def write_result(path, blocks, displacement, elemental, times=(0, 1e-3), names="
     file.close()
 
 
-def hue(colour):
+def hue(color):
     """What light, which only multiplies, leaves as it is."""
-    colour = np.asarray(colour, float)[:3]
-    return colour / np.linalg.norm(colour)
+    color = np.asarray(color, float)[:3]
+    return color / np.linalg.norm(color)
 
 
 class Pictures(unittest.TestCase):
@@ -109,7 +109,7 @@ class Pictures(unittest.TestCase):
     def scene(self, name, **wanted):
         return view.Scene(Result(str(self.folder / name)), view.Wanted(**wanted))
 
-    def test_a_known_point_has_the_colour_of_its_value_where_it_moved_to(self):
+    def test_a_known_point_has_the_color_of_its_value_where_it_moved_to(self):
         places, after, values = self.bar()
         self.made("bar.e", "bar.png", "--view", 0, -1, 0)
         image, scene = self.image("bar.png"), self.scene("bar.e", view=(0, -1, 0))
@@ -120,7 +120,7 @@ class Pictures(unittest.TestCase):
                 point = np.flatnonzero(np.all(np.abs(places - (np.array([x, 0, z]) + 0.5) * H) < 0.1 * H, axis=1))[0]
                 right, down = scene.camera.position(places[point] + column * after[point])
                 found = image[int(top + down), int(left + right)]
-                # 8 bits a channel, and the scale has 256 colours: 0.01. Other quarters' colours are 0.2 and more away.
+                # 8 bits a channel, and the scale has 256 colors: 0.01. Other quarters' colors are 0.2 and more away.
                 expected = hue(view.SCALE(value[point] / np.max(list(values.values())[row])))
                 np.testing.assert_allclose(hue(found), expected, atol=0.02, err_msg=f"{row} {column} {x} {z}")
                 self.assertGreater(found.max(), 0.3)  # lit

@@ -148,7 +148,7 @@ class KnownAnswers(ToolTest):
             axis = np.array(axis) / np.linalg.norm(axis)
             radial = (place**2).sum(0) - np.tensordot(axis, place, 1)**2
             said, _ = self.voxels(radial < (diameter / 2)**2)
-            # A distance between centres of voxels is known to a voxel, here at both sides of the ridge.
+            # A distance between centers of voxels is known to a voxel, here at both sides of the ridge.
             self.assertLess(abs(first_number(said["thickness"].split("mean")[1]) - diameter), 1)
 
     def test_the_largest_of_two_pieces_is_kept_or_both(self):
@@ -276,11 +276,11 @@ class Cells(ToolTest):
         edge = np.array([1e-3, 2e-3, 3e-3])
         said, mesh, cells = self.cells(image, "--cells", 3, "--voxel-size", *edge, "--origin", 1, 2, 3)
         places = (np.stack(np.nonzero(image)[::-1], axis=1) + 0.5) * edge + (1, 2, 3)
-        volume, centre = cells[:, 0], cells[:, 1:4]
+        volume, center = cells[:, 0], cells[:, 1:4]
         self.assertGreaterEqual(volume.min(), 0.3 * 27 * 6e-9)
         np.testing.assert_allclose(volume.sum(), 100 * 6e-9, rtol=1e-12)
-        np.testing.assert_allclose(volume @ centre / volume.sum(), places.mean(axis=0), rtol=1e-12)
-        second = volume @ (cells[:, 4:7] + (centre - places.mean(axis=0))**2) / volume.sum()
+        np.testing.assert_allclose(volume @ center / volume.sum(), places.mean(axis=0), rtol=1e-12)
+        second = volume @ (cells[:, 4:7] + (center - places.mean(axis=0))**2) / volume.sum()
         np.testing.assert_allclose(second, (np.array([5, 4, 5]) * edge)**2 / 12, rtol=1e-9)  # of a box
         np.testing.assert_allclose(cells[:, 10:13].sum(axis=0), 0, atol=1e-15)
         np.testing.assert_allclose(hexahedra_volumes(mesh), 27 * 6e-9, rtol=1e-9)
@@ -510,7 +510,7 @@ class Damaged(ToolTest):
         tifffile.imwrite(self.path("s/2.tif"), self.image[0][:5])
         self.refused("voxels", "2.tif has 14 x 5 x 1", self.path("s"), "--size", 1)
         tifffile.imwrite(self.path("c.tif"), np.zeros((5, 6, 3), "u1"), photometric="rgb")
-        self.refused("voxels", "colours", self.path("c.tif"), "--size", 1)
+        self.refused("voxels", "colors", self.path("c.tif"), "--size", 1)
 
     def test_points_that_are_none(self):
         for expected, text in {"not a list": "0 0 0\n1 1 x\n", "not finite": "0 0 0\n0 nan 1\n",

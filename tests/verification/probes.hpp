@@ -1,4 +1,4 @@
-// What several tests ask of a body: does it stay bounded at a step, and what does the linearised operator make of a
+// What several tests ask of a body: does it stay bounded at a step, and what does the linearized operator make of a
 // wave?
 #pragma once
 
@@ -38,7 +38,7 @@ inline bool stays_bounded(Body body, double factor) {
   return largest_over(body, [&](int i) { return body.velocity[i].norm(); }) < 1;
 }
 
-// Kv/ρ of the linearised operator for the field v(i), owned points.
+// Kv/ρ of the linearized operator for the field v(i), owned points.
 template <class OfPoint>
 std::vector<Vector> operator_on(Body& body, OfPoint&& field) {
   advance_stress_and_force(body, 0, false);

@@ -1,4 +1,4 @@
-// Points that are stepped alone: a run with them is stable, keeps what is to be kept, and comes to the same result.
+// Multi-time-stepping: a run with subcycled points is stable, keeps what is to be kept, and comes to the same result.
 #include <gtest/gtest.h>
 
 #include "probes.hpp"

@@ -308,7 +308,8 @@ TEST_P(Bodies, StableStepDoesNotTurn) {
   deform(turned, [&](const Vector& X) -> Vector { return R * X; });
   const double one = CentralDifference(straight, {}, {}, {0, 1}, 0).critical_time_step();
   const double other = CentralDifference(turned, {}, {}, {0, 1}, 0).critical_time_step();
-  EXPECT_NEAR(one / other, 1, 0.02);  // the accuracy of two estimates (StableStep::accuracy, half of it in the step)
+  // The accuracy of two estimates: CriticalTimeStep::accuracy, of which the step has half.
+  EXPECT_NEAR(one / other, 1, 0.02);
 }
 
 TEST(Failures, AStepFarTooLargeIsReported) {
@@ -357,7 +358,7 @@ TEST(OrdinaryWaves, DispersionOfTheOperator) {
 // A pulse along a plate whose edges do not matter yet: d'Alembert, with the speed √((K + 4/3 q μ)/ρ) of long waves
 // along an axis of the lattice, where q is its quadrature. Root mean square error in the middle over the pulse's own.
 double pulse_error(int cells, const Communicator& world) {
-  const double length = 1, width = 0.2, amplitude = 1e-6, centre = 0.5 * length;
+  const double length = 1, width = 0.2, amplitude = 1e-6, center = 0.5 * length;
   const int sides = cells / 2;
   const LatticeSpec spec{{cells, sides, sides}, length / cells, 2.515, 0, Influence::linear_decay, ordinary(0.25)};
   Body body = lattice_body(spec, world);
@@ -373,7 +374,7 @@ double pulse_error(int cells, const Communicator& world) {
   });
   const auto [K, mu] = moduli_of(spec);
   const double speed = std::sqrt((K + 4 * q * mu / 3) / spec.material.density), way = 0.2 * length;
-  const auto start = [&](double x) { return amplitude * pulse((x - centre) / width); };
+  const auto start = [&](double x) { return amplitude * pulse((x - center) / width); };
   deform(body, [&](const Vector& X) -> Vector { return X + Vector(start(X[0]), 0, 0); });
   CentralDifference solver(body, {}, {}, {0, 0.5}, 0);
   run_until(solver, way / speed);

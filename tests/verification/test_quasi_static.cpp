@@ -58,7 +58,7 @@ TEST_P(Tangent, IsTheDerivativeOfTheForces) {
   const double h = 1e-5 * spacing;
   const Field above = forces_at(h), below = forces_at(-h);
   forces_at(0);
-  equilibrium.linearise();
+  equilibrium.linearize();
   Field product(body.owned());
   equilibrium.apply(direction, product);
   const double scale = largest_over(body, [&](int i) { return product[i].norm(); });
@@ -337,13 +337,13 @@ TEST(QuasiStatic, BeyondTheLimitLoadThereIsAnErrorAndTheLastEquilibrium) {
 
 TEST(QuasiStatic, IsLeftAtItsLastEquilibrium) {
   Bar bar(lattice_of({3, 3, 6}, elastic(young, poisson)), 0.01);
-  bool leaves = false;
+  bool stop = false;
   Observer observer = nobody();
-  observer.leaves = [&] { return leaves; };
+  observer.stop_requested = [&] { return stop; };
   QuasiStatic solver(bar.body, bar.conditions, {}, {.load_steps = 2}, 0, 1, observer);
   EXPECT_TRUE(solver.advance());
   const std::vector<Vector> before = displacements(bar.body);
-  leaves = bar.world.rank() == bar.world.size() - 1;  // one rank is enough
+  stop = bar.world.rank() == bar.world.size() - 1;  // one rank is enough
   EXPECT_FALSE(solver.advance());
   EXPECT_EQ(solver.time(), 0.5);
   EXPECT_EQ(largest_over(bar.body, [&](int i) { return (bar.body.displacement(i) - before[i]).norm(); }), 0);

@@ -242,7 +242,7 @@ TEST(Stability, APointTurnedInsideOutIsNamed) {
   EXPECT_NE(said.find("reference position"), std::string::npos);
 }
 
-TEST(Stability, APointWithoutNeighboursIsNamed) {
+TEST(Stability, APointWithoutNeighborsIsNamed) {
   const char* said = degeneracy(0, Tensor::Zero());
   ASSERT_TRUE(said);
   row("a point with no neighbors", text("refused: %s", said));

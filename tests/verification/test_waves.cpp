@@ -61,15 +61,15 @@ TEST(Waves, DispersionOfTheOperator) {
 
 // ---- A pulse along a bar with ν = 0: d'Alembert, c = √(E/ρ) --------------------------------------------------------
 
-// The root mean square error of the displacement over the pulse's own, after it has split and travelled half a bar.
+// The root mean square error of the displacement over the pulse's own, after it has split and traveled half a bar.
 double pulse_error(int cells, const Communicator& world) {
   const double young = 1e9, density = 1000, speed = std::sqrt(young / density), length = 1, width = 0.2;
   LatticeSpec spec{{cells, 3, 3},  length / cells,
                    2.015,          0,
                    Influence::one, {density, elastic(young, 0.0), SillingStabilization{0.02}}};
   Body body = lattice_body(spec, world);
-  const double amplitude = 1e-6, centre = 0.5 * length;
-  const auto start = [&](double x) { return amplitude * pulse((x - centre) / width); };
+  const double amplitude = 1e-6, center = 0.5 * length;
+  const auto start = [&](double x) { return amplitude * pulse((x - center) / width); };
   deform(body, [&](const Vector& X) -> Vector { return X + Vector(start(X[0]), 0, 0); });
   advance_stress_and_force(body, 1e-9, false);  // a hypoelastic law must be told the way to the initial state
   CentralDifference solver(body, {}, {}, {0, 0.5}, 0);

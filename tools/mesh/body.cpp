@@ -51,7 +51,7 @@ Section section_of(const Body& body, double layer) {
   if (body.shape == Body::Shape::box) return rectangle(body.size.x(), body.size.y(), body.spacing);
   // The cells of a cone are as wide as wanted halfway up.
   if (body.method == Body::Method::fitted) return fitted_disc(body.radius, layer / (0.5 + 0.5 * taper_of(body)));
-  return lattice_disc(body.radius, layer, body.centred);  // cubes: the fitted spacing in the plane, too
+  return lattice_disc(body.radius, layer, body.centered);  // cubes: the fitted spacing in the plane, too
 }
 
 // A body in the making: a section, the heights of its layers' faces, in the body's own coordinates, and how much wider
@@ -180,10 +180,10 @@ std::string summary_of(const Body& body, const Section& section, const std::vect
                 "  spacing along z %s, root of the mean area of a cell %.6g m, of the smallest %.6g m (asked for %g)\n"
                 "  volume %.6g m^3, exact %.6g m^3 (%+.3f %%)\n",
                 body.name.c_str(), shape_name(body),
-                body.method == Body::Method::fitted     ? "fitted"
-                : body.shape == Body::Shape::box        ? "lattice"
-                : body.centred == Body::Centred::corner ? "lattice, axis through a corner"
-                                                        : "lattice, axis through a point",
+                body.method == Body::Method::fitted       ? "fitted"
+                : body.shape == Body::Shape::box          ? "lattice"
+                : body.centered == Body::Centered::corner ? "lattice, axis through a corner"
+                                                          : "lattice, axis through a point",
                 cells * layers, cells, layers, thickness_of(levels).c_str(), std::sqrt(area / cells),
                 std::sqrt(smallest), body.spacing, volume, exact, 100 * (volume / exact - 1));
   return text;
@@ -215,7 +215,7 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
 }
 
-// The voxels whose centre lies in the body: all of a box, or those of a cylinder about the middle of the grid.
+// The voxels whose center lies in the body: all of a box, or those of a cylinder about the middle of the grid.
 std::vector<int> voxels_in(const Body& body, const VoxelGrid& grid) {
   std::vector<int> voxels;
   const Vector h = grid.spacing();
@@ -226,12 +226,12 @@ std::vector<int> voxels_in(const Body& body, const VoxelGrid& grid) {
   return voxels;
 }
 
-// Of a cylinder: cubes, with a corner or a centre of them on the axis.
+// Of a cylinder: cubes, with a corner or a center of them on the axis.
 VoxelGrid grid_around(const Body& body) {
   if (body.shape == Body::Shape::box) return grid_of(body.size, body.spacing, body.cells);
   const int layers = std::max(1, static_cast<int>(std::lround(body.length / body.spacing)));
   const double h = body.length / layers;
-  const bool corner = body.centred == Body::Centred::corner;
+  const bool corner = body.centered == Body::Centered::corner;
   const int across = corner ? 2 * static_cast<int>(std::ceil(body.radius / h))
                             : 2 * static_cast<int>(std::ceil(body.radius / h - 0.5)) + 1;
   return {{across * h, across * h, body.length}, body.cells * Eigen::Array3i(across, across, layers)};

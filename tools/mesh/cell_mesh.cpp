@@ -44,25 +44,25 @@ void add_hexahedra(io::Mesh& mesh, const Cells& cells) {
 
 }  // namespace
 
-std::vector<std::vector<int>> neighbours_of(const Cells& cells) {
+std::vector<std::vector<int>> neighbors_of(const Cells& cells) {
   Groups corners = joined_corners(cells);
   std::vector<std::vector<int>> users(8 * cells.places.size());
   for (int corner = 0; corner < static_cast<int>(users.size()); ++corner) {
     users[corners.first(corner)].push_back(corner / 8);
   }
-  std::vector<std::vector<int>> neighbours(cells.places.size());
+  std::vector<std::vector<int>> neighbors(cells.places.size());
   for (const std::vector<int>& around : users) {
     for (const int a : around) {
       for (const int b : around) {
-        if (a != b) neighbours[a].push_back(b);
+        if (a != b) neighbors[a].push_back(b);
       }
     }
   }
-  for (std::vector<int>& near : neighbours) {
+  for (std::vector<int>& near : neighbors) {
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
   }
-  return neighbours;
+  return neighbors;
 }
 
 io::Mesh cell_mesh(const Cells& cells) {

@@ -43,7 +43,7 @@ Cells gathered(const std::vector<int>& voxels, const std::vector<double>& fills,
                const Gathering& gathering);
 
 // Of each cell those that share a node with it in the mesh of them, ascending.
-std::vector<std::vector<int>> neighbours_of(const Cells& cells);
+std::vector<std::vector<int>> neighbors_of(const Cells& cells);
 
 // A whole hexahedron for each cell, with what it holds; node sets as voxel_mesh. Around each corner of the grid, cells
 // share a node if contacts lead from one to the other.

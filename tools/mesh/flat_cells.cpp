@@ -11,8 +11,8 @@ namespace strut::mesh {
 namespace {
 
 // What a run asks for: neighbors, and their mean square distance in any direction, in spacings²
-// (src/mechanics/quadratic_fit.cpp).
-constexpr std::size_t least_neighbours = 4;
+// (src/mechanics/formulation/quadratic_fit_solver.cpp).
+constexpr std::size_t least_neighbors = 4;
 constexpr double least_spread = 0.02;
 
 // In spacings. The longer a merged cell, the smaller the critical time step (of a recipe foam: 1 % smaller at 3, 8 % at
@@ -42,7 +42,7 @@ void FlatCells::update() {
       if (n < other) cells_.contacts.push_back({n, other});
     }
   }
-  near_ = neighbours_of(cells_);
+  near_ = neighbors_of(cells_);
   alive_.assign(cells_.parts.size(), 1);
   find();
 }
@@ -52,10 +52,10 @@ void FlatCells::find() {
   normal_.assign(cells_.parts.size(), -1);
   for (int n = 0; n < static_cast<int>(cells_.parts.size()); ++n) {
     if (!alive_[n]) continue;
-    const auto neighbours = std::count_if(near_[n].begin(), near_[n].end(), [&](int j) { return alive_[j] != 0; });
+    const auto neighbors = std::count_if(near_[n].begin(), near_[n].end(), [&](int j) { return alive_[j] != 0; });
     const Eigen::SelfAdjointEigenSolver<Tensor> eigen(spread(n));
     const Vector squares = eigen.eigenvalues();  // ascending
-    if (neighbours >= static_cast<std::ptrdiff_t>(least_neighbours) && squares[0] >= least_spread) continue;
+    if (neighbors >= static_cast<std::ptrdiff_t>(least_neighbors) && squares[0] >= least_spread) continue;
     flat_.push_back(n);
     if (squares[0] < least_spread && squares[1] >= least_spread) {
       eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&normal_[n]);

@@ -12,7 +12,7 @@ namespace {
 using Triple = Eigen::Array3i;
 
 // Both the voxels and their neighbors ascend, so that one walk along the list finds all; no array of the grid's size.
-std::vector<Upper> upper_neighbours(const std::vector<int>& voxels, const VoxelGrid& grid) {
+std::vector<Upper> upper_neighbors(const std::vector<int>& voxels, const VoxelGrid& grid) {
   std::vector<Upper> upper(voxels.size(), {-1, -1, -1});
   const Upper stride = {1, grid.cells[0], grid.cells[0] * grid.cells[1]};
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ std::vector<Upper> upper_neighbours(const std::vector<int>& voxels, const VoxelG
 }
 
 // For each voxel the fullest one that it has a face in common with, -1: none is fuller than it is.
-std::vector<int> fullest_neighbours(const std::vector<double>& fills, const std::vector<Upper>& upper) {
+std::vector<int> fullest_neighbors(const std::vector<double>& fills, const std::vector<Upper>& upper) {
   std::vector<int> fullest(upper.size(), -1);
   const auto offer = [&](int to, int other) {
     if (fills[other] > (fullest[to] < 0 ? fills[to] : fills[fullest[to]])) fullest[to] = other;
@@ -45,9 +45,9 @@ std::vector<int> fullest_neighbours(const std::vector<double>& fills, const std:
 
 // Grey voxels that are less than half full are the rims of struts, and hang on their fullest neighbor alone: two
 // struts whose rims meet are still two.
-std::vector<Upper> joined_neighbours(const std::vector<double>& fills, std::vector<Upper> upper) {
+std::vector<Upper> joined_neighbors(const std::vector<double>& fills, std::vector<Upper> upper) {
   if (fills.empty()) return upper;
-  const std::vector<int> fullest = fullest_neighbours(fills, upper);
+  const std::vector<int> fullest = fullest_neighbors(fills, upper);
   for (int v = 0; v < static_cast<int>(upper.size()); ++v) {
     for (int& w : upper[v]) {
       if (w < 0 || (fills[v] >= 0.5 && fills[w] >= 0.5) || fullest[v] == w || fullest[w] == v) continue;
@@ -137,8 +137,8 @@ void add_surfaces(const Material& material, Pieces& pieces) {
 }  // namespace
 
 Material material_of(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid) {
-  const std::vector<Upper> upper = upper_neighbours(voxels, grid);
-  return {voxels, fills, grid, upper, joined_neighbours(fills, upper)};
+  const std::vector<Upper> upper = upper_neighbors(voxels, grid);
+  return {voxels, fills, grid, upper, joined_neighbors(fills, upper)};
 }
 
 Pieces connected_within(const Material& material, const VoxelGrid& coarse, int factor) {

@@ -150,7 +150,7 @@ class Converter {
   void convert_cylinder(Body& body) {
     body.length = length("length");
     body.radius = length("radius");
-    body.centred = choice<Body::Centred>("centred", {"point", "corner"}, "corner");
+    body.centered = choice<Body::Centered>("centred", {"point", "corner"}, "corner");
     refuse({"size", "file", "top_radius"}, "cylinder");
     refuse(foam_keys, "cylinder");
     if (body.method == Body::Method::fitted) {

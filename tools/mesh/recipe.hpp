@@ -13,14 +13,14 @@ namespace strut::mesh {
 struct Body {
   enum class Shape { cylinder, cone, box, foam, file };
   enum class Method { lattice, fitted };
-  enum class Centred { point, corner };  // what of the lattice lies on a cylinder's axis
+  enum class Centered { point, corner };  // what of the lattice lies on a cylinder's axis
   enum class Elements { hexahedra, spheres };
 
   std::string name = "body";
   bool named = false;  // by the recipe
   Shape shape = Shape::cylinder;
   Method method = Method::lattice;
-  Centred centred = Centred::corner;
+  Centered centered = Centered::corner;
   Elements elements = Elements::hexahedra;
   double spacing = 0;              // m, wanted
   int cells = 0;                   // voxels along an edge of a cell, which gathers them; 0: a cell is a voxel
@@ -32,7 +32,7 @@ struct Body {
   double radius = 0;               // m
   double top_radius = 0;           // m, of a cone, at zmax
   Vector size = Vector::Zero();    // m, of a box
-  Vector origin = Vector::Zero();  // m, centre of a round body's lower face, lower corner of a box, shift of a file
+  Vector origin = Vector::Zero();  // m, center of a round body's lower face, lower corner of a box, shift of a file
   double cell = 0;                 // m, mean diameter of a foam's cells
   double relative_density = 0;     // volume of a foam's struts in that of its box
   double irregularity = 0.5;       // 0: all cells alike, 1: as random as they get

@@ -70,8 +70,8 @@ Section::Shape Section::shape(std::size_t cell) const {
   return shape;
 }
 
-Section lattice_disc(double radius, double spacing, Body::Centred centred) {
-  const bool corner = centred == Body::Centred::corner;
+Section lattice_disc(double radius, double spacing, Body::Centered centered) {
+  const bool corner = centered == Body::Centered::corner;
   const int half = static_cast<int>(std::ceil(radius / spacing)) + 1;
   const int n = corner ? 2 * half : 2 * half + 1;
   // In units of half a spacing, these are exact integers: the section is symmetric to the last bit.
@@ -83,7 +83,7 @@ Section lattice_disc(double radius, double spacing, Body::Centred centred) {
   };
   const auto position = [&](int i, int j) { return Point((2 * i - n) * spacing / 2, (2 * j - n) * spacing / 2); };
   Section section = grid(n, n, keep, position);
-  if (section.cells.empty()) throw Error("no cell's centre lies within the radius: the spacing is too large");
+  if (section.cells.empty()) throw Error("no cell's center lies within the radius: the spacing is too large");
   return section;
 }
 

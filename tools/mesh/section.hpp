@@ -25,8 +25,8 @@ struct Section {
   Shape shape(std::size_t cell) const;
 };
 
-// Squares of the spacing whose centres lie within the radius; the axis meets a centre or a corner of four.
-Section lattice_disc(double radius, double spacing, Body::Centred centred);
+// Squares of the spacing whose centers lie within the radius; the axis meets a center or a corner of four.
+Section lattice_disc(double radius, double spacing, Body::Centered centered);
 
 // An even number of cells across, all of nearly the same area, the outer nodes on the circle.
 Section fitted_disc(double radius, double spacing);

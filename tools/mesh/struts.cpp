@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double same = 1e-9;  // spacings: distances that differ by rounding only
 
 struct Candidate {
-  double distance;  // m, of the centre from the nearest edge
+  double distance;  // m, of the center from the nearest edge
   int voxel;
 };
 
@@ -41,9 +41,9 @@ void lower_distances(const Edge& edge, const VoxelGrid& grid, double reach, std:
   for (int k = low[2]; k <= high[2]; ++k) {
     for (int j = low[1]; j <= high[1]; ++j) {
       for (int i = low[0]; i <= high[0]; ++i) {
-        const Vector centre((i + 0.5) * h[0], (j + 0.5) * h[1], (k + 0.5) * h[2]);
+        const Vector center((i + 0.5) * h[0], (j + 0.5) * h[1], (k + 0.5) * h[2]);
         double& least = squared[grid.index(i, j, k)];
-        least = std::min(least, squared_distance(edge, along, inverse_square, centre));
+        least = std::min(least, squared_distance(edge, along, inverse_square, center));
       }
     }
   }

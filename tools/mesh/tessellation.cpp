@@ -103,8 +103,8 @@ class Seeds {
 // One cell as voro++ returns it.
 struct Cell {
   std::vector<double> vertices;
-  std::vector<int> faces;       // for each: number of vertices, then these in order
-  std::vector<int> neighbours;  // of each face; negative: a wall of the container
+  std::vector<int> faces;      // for each: number of vertices, then these in order
+  std::vector<int> neighbors;  // of each face; negative: a wall of the container
 
   Vector vertex(int n) const { return {vertices[3 * n], vertices[3 * n + 1], vertices[3 * n + 2]}; }
 };
@@ -113,12 +113,12 @@ struct Cell {
 void add_edges(const Cell& cell, int number, std::vector<Edge>& edges) {
   std::map<std::pair<int, int>, int> open;  // edges of one face so far, and the neighbor behind that
   std::size_t begin = 0;
-  for (const int neighbour : cell.neighbours) {
+  for (const int neighbor : cell.neighbors) {
     const int count = cell.faces[begin++];
     for (int n = 0; n < count; ++n) {
       const int a = cell.faces[begin + n], b = cell.faces[begin + (n + 1) % count];
-      const auto [place, first] = open.insert({std::minmax(a, b), neighbour});
-      if (first || number > std::min(neighbour, place->second)) continue;
+      const auto [place, first] = open.insert({std::minmax(a, b), neighbor});
+      if (first || number > std::min(neighbor, place->second)) continue;
       edges.push_back({cell.vertex(place->first.first), cell.vertex(place->first.second)});
     }
     begin += count;
@@ -140,7 +140,7 @@ std::vector<Edge> tessellation_edges(const std::vector<Vector>& seeds, const Vec
       if (!container.compute_cell(raw, loop)) continue;
       raw.vertices(loop.x(), loop.y(), loop.z(), cell.vertices);
       raw.face_vertices(cell.faces);
-      raw.neighbors(cell.neighbours);
+      raw.neighbors(cell.neighbors);
       add_edges(cell, loop.pid(), edges);
     } while (loop.inc());
   return edges;

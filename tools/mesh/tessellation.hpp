@@ -17,7 +17,7 @@ struct Skeleton {
   std::size_t cells = 0;    // whose seed lies in the box
 };
 
-// Seeds on a body-centred cubic lattice, one of them in the middle of the box, each moved by a random vector within a
+// Seeds on a body-centered cubic lattice, one of them in the middle of the box, each moved by a random vector within a
 // ball of `irregularity` (0 to 1) times half the distance of neighbors, so that no two come closer than
 // (1 - irregularity / 2) of that distance. The lattice goes on around the box: nothing in the box knows of its walls.
 // `cell`: diameter (m) of the sphere that has the mean volume of a cell.

@@ -34,7 +34,7 @@ struct Struts {
   std::size_t dropped_voxels = 0;
 };
 
-// The voxels whose centre lies within a radius of an edge, the radius such that the largest piece has at least `wanted`
+// The voxels whose center lies within a radius of an edge, the radius such that the largest piece has at least `wanted`
 // voxels. Voxels at the same distance are kept or left out together, so that symmetry is kept, too.
 Struts struts_around(const std::vector<Edge>& edges, const VoxelGrid& grid, std::size_t wanted);
 

@@ -25,12 +25,12 @@ def stretched(reference, now, edge):
     return maps
 
 
-def cells(axes, reference, now, edge, colours, limits):
+def cells(axes, reference, now, edge, colors, limits):
     """A square of the spacing for each point, deformed with its surroundings."""
     corners = 0.52 * edge * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
     outlines = now.T[:, None, :] + np.einsum("pij,cj->pci", stretched(reference, now, edge), corners)
     collection = PolyCollection(outlines, cmap="turbo", edgecolors="face", linewidths=0.2)
-    collection.set_array(colours)
+    collection.set_array(colors)
     collection.set_clim(*limits)
     axes.add_collection(collection)
     return collection
@@ -57,9 +57,9 @@ def picture(path, out, variable, axis):
     height = 5.6
     width = height * 0.82 * 2 * half / (high - low)
     figure, both = plt.subplots(1, 2, sharey=True, figsize=(max(4.2, 2 * width + 2.4), height), layout="constrained")
-    for axes, (place, colours, text) in zip(both, frames):
+    for axes, (place, colors, text) in zip(both, frames):
         plane = [scale * p[[across, 2]][:, cut] for p in (reference, place)]
-        drawn = cells(axes, *plane, scale * edge, colours, limits)
+        drawn = cells(axes, *plane, scale * edge, colors, limits)
         axes.set_xlim(middle - half, middle + half)
         axes.set_ylim(low, high)
         axes.set_aspect("equal")

@@ -1,7 +1,7 @@
 """Quads -> shaded picture, in numpy alone: no screen, no graphics library, the same image on every machine.
 
 Each quad is sampled more densely than the pixels are, and the sample nearest to the eye wins its pixel. Light only
-multiplies a colour, so that its hue can be looked up in the scale.
+multiplies a color, so that its hue can be looked up in the scale.
 """
 import numpy as np
 

@@ -72,7 +72,7 @@ def surface_of_blocks(result, blocks, wanted):
     return joined(parts) if parts else None
 
 
-# Colours
+# Colors
 
 
 class Row:
@@ -100,18 +100,18 @@ class Row:
         self.factor, self.label = (1e-6, title(self.name)[:-2] + "MPa") if mega else (1, title(self.name))
 
     def _usual_limits(self, found):
-        """All but the last 0.2 % of the points at each end, which would take the colours from the others."""
+        """All but the last 0.2 % of the points at each end, which would take the colors from the others."""
         low = min([np.quantile(v, 0.002) for v in found] or [0])
         high = max([np.quantile(v, 0.998) for v in found] or [0])
         low = 0 if 0 <= self.least and low < 0.3 * high else low
         return (self.least, self.most) if high - low > 0.85 * (self.most - self.least) else (low, high)
 
-    def colours(self, column, points):
+    def colors(self, column, points):
         value = self.values[column][points]
         span = self.high - self.low
-        colour = SCALE((value - self.low) / (span if span > 0 else 1))[:, :3]
-        colour[self.grey[points] | ~np.isfinite(value)] = GREY
-        return colour
+        color = SCALE((value - self.low) / (span if span > 0 else 1))[:, :3]
+        color[self.grey[points] | ~np.isfinite(value)] = GREY
+        return color
 
     def extend(self):
         below, above = self.least < self.low - 1e-9 * abs(self.low), self.most > self.high * (1 + 1e-9)
@@ -119,7 +119,7 @@ class Row:
 
 
 class Drawn:
-    """One surface in one frame, as the camera sees it: everything but its colours."""
+    """One surface in one frame, as the camera sees it: everything but its colors."""
 
     def __init__(self, surface, corners, camera):
         self.canvas = painter.canvas_of(corners, surface.quads, camera)
@@ -129,9 +129,9 @@ class Drawn:
         self.point = surface.point[self.canvas.quad].reshape(self.canvas.shape)
 
     def image(self, row, column):
-        """Red, green, blue, alpha of the fine pixels; alpha has multiplied the colours."""
+        """Red, green, blue, alpha of the fine pixels; alpha has multiplied the colors."""
         image = np.zeros((*self.canvas.shape, 4))
-        image[self.seen, :3] = row.colours(column, self.point[self.seen]) * self.light[self.seen, None]
+        image[self.seen, :3] = row.colors(column, self.point[self.seen]) * self.light[self.seen, None]
         image[self.seen, 3] = 1
         return image
 

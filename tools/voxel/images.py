@@ -80,8 +80,8 @@ def tiff(path):
     with captured() as said:
         try:
             with tifffile.TiffFile(path) as file:
-                colour = any(page.samplesperpixel > 1 for page in file.pages)
-                values = None if colour or len(file.series) != 1 else file.asarray()
+                color = any(page.samplesperpixel > 1 for page in file.pages)
+                values = None if color or len(file.series) != 1 else file.asarray()
                 series = len(file.series)
         except Exception as error:  # damaged files raise whatever the parser stumbles over
             wrong = error
@@ -91,8 +91,8 @@ def tiff(path):
         return tiff_by_vtk(path)
     if wrong is not None or (values is None and series == 0):
         fail(f"{path} is not a TIFF image, or is damaged: {one_line(wrong or said.text) or 'it has no pages'}")
-    if colour:
-        fail(f"{path} has several numbers a voxel (colours?), expected one")
+    if color:
+        fail(f"{path} has several numbers a voxel (colors?), expected one")
     if values is None or (values.ndim not in (2, 3)):
         fail(f"{path} holds images of different sizes or of more than three dimensions, expected pages of one size")
     return values.reshape((-1, *values.shape[-2:]))
@@ -105,7 +105,7 @@ def one_line(what):
 def tiff_by_vtk(path):
     values, _ = by_vtk(path, "vtkIOImage", "vtkTIFFReader", None)
     if values.ndim != 3:
-        fail(f"{path} has several numbers a voxel (colours?), expected one")
+        fail(f"{path} has several numbers a voxel (colors?), expected one")
     return values  # rows in the order of tifffile's
 
 
@@ -210,7 +210,7 @@ def array_of(path, image, name):
     if found is None:
         fail(f"{path}: the array is not one of numbers")
     if found.GetNumberOfComponents() != 1:
-        fail(f"{path} has {found.GetNumberOfComponents()} numbers a voxel (colours?), expected one")
+        fail(f"{path} has {found.GetNumberOfComponents()} numbers a voxel (colors?), expected one")
     # Voxels are the points of VTK's image, or its cells: one less along each axis.
     shape = [max(1, n - (data is in_cells)) for n in image.GetDimensions()]
     if found.GetNumberOfTuples() != np.prod(shape):

@@ -1,4 +1,4 @@
-"""Lists of points that are the centres of voxels: the lattice is found again from the coordinates."""
+"""Lists of points that are the centers of voxels: the lattice is found again from the coordinates."""
 import gzip
 import warnings
 

@@ -4,7 +4,7 @@ from scipy import ndimage
 
 from strut_tools import fail
 
-NEIGHBOURS = [(z, y, x) for z in (-1, 0, 1) for y in (-1, 0, 1) for x in (-1, 0, 1) if (z, y, x) != (0, 0, 0)]
+NEIGHBORS = [(z, y, x) for z in (-1, 0, 1) for y in (-1, 0, 1) for x in (-1, 0, 1) if (z, y, x) != (0, 0, 0)]
 
 
 # Grey -> solid
@@ -121,7 +121,7 @@ def refined(solid, n):
 
 
 def resampled(solid, cell, edge):
-    """Cubes of that edge; each takes the voxel in which its centre lies. The box becomes a whole number of cubes."""
+    """Cubes of that edge; each takes the voxel in which its center lies. The box becomes a whole number of cubes."""
     out = solid
     for axis, length in enumerate(cell):
         size = solid.shape[2 - axis]
@@ -155,11 +155,11 @@ def without_spurs(solid, least):
     flat = padded.reshape(-1)
     counts = np.zeros(padded.shape, np.uint8)
     inner = (slice(1, -1),) * 3
-    for shift in NEIGHBOURS:
+    for shift in NEIGHBORS:
         counts[inner] += padded[tuple(slice(1 + s, n - 1 + s) for s, n in zip(shift, padded.shape))]
     counts = counts.reshape(-1)
     steps = [np.ravel_multi_index([1 + s for s in shift], padded.shape) -
-             np.ravel_multi_index([1, 1, 1], padded.shape) for shift in NEIGHBOURS]
+             np.ravel_multi_index([1, 1, 1], padded.shape) for shift in NEIGHBORS]
     few = np.flatnonzero(flat & (counts < least))
     at_first = len(few)
     while len(few):
@@ -210,7 +210,7 @@ def faces_touched(solid):
 
 
 def thickness(solid, cell):
-    """Mean and largest local thickness, m, or None without void: twice the distance to the centre of the nearest void
+    """Mean and largest local thickness, m, or None without void: twice the distance to the center of the nearest void
     voxel, at those voxels where none of the 26 neighbors has a larger one (the ridge). The mean is weighted by the
     section, thickness squared: else the steps of a surface, which are small ridges too, decide it. So it comes close to
     the mean over the volume: for the CT foam 192 um where spheres fitted into the solid at every voxel give 180 um, and

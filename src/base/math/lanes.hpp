@@ -1,4 +1,5 @@
-// One number of each of some points, side by side, and its way there from the records of the points.
+// SIMD: a number of several points, one per lane, and how it gets there from the records of the points. Points so taken
+// are said to stand side by side.
 #pragma once
 
 #ifdef __AVX__

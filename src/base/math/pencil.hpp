@@ -1,4 +1,4 @@
-// Eight numbers side by side, of eight cells in a row along x. GCC and Clang make of the type what the machine has: one
+// SIMD: eight numbers, those of eight cells in a row along x. GCC and Clang make of the type what the machine has: one
 // register with AVX-512, two with AVX, four with SSE2.
 #pragma once
 

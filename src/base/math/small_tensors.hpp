@@ -1,6 +1,6 @@
-// 3×3 tensors over any scalar: double for one point, Lanes for some points side by side. The arithmetic of a point's
-// update and of its bonds is written once and runs a register's width of points at a time (mechanics), where Eigen's
-// matrices of doubles would leave most of each register empty.
+// 3×3 tensors over any scalar: double for one point, Lanes (SIMD) for several points, one per lane. The arithmetic of a
+// point's update and of its bonds is written once and runs a register's width of points at a time (mechanics), where
+// Eigen's matrices of doubles would leave most of each register empty.
 #pragma once
 
 #include "base/math/lanes.hpp"

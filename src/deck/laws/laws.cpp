@@ -15,7 +15,7 @@ Section elastic_ordinary() {
               "The ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`: "
               "forces along the bonds, no deformation gradient, no stabilization, for bodies that stay elastic. "
               "On a lattice its shear moduli depend on direction, more or less with Influence Function and "
-              "Horizon (table in src/mechanics/README.md). No further keys."};
+              "Horizon (table in docs/theory.md, Ordinary solid). No further keys."};
 }
 
 Section elastic() { return {.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."}; }

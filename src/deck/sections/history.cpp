@@ -15,8 +15,8 @@ const WhenKeys when("", 1000);
 
 const AnyKey<bool> variable(
     "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block; "
-    "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body: "
-    "prescribed motion, a symmetry plane or a rigid tool.");
+    "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body, "
+    "e.g. of prescribed motion, a symmetry plane or a rigid tool.");
 const Section variables = {.name = "Variables", .meaning = "The columns.", .any_key = variable};
 
 }  // namespace

@@ -16,7 +16,7 @@ struct History {
   std::filesystem::path file;
   std::optional<int> frequency;
   std::optional<double> interval;
-  std::vector<std::string> variables;  // e.g. "Max_Displacement": checked by simulation
+  std::vector<std::string> variables;  // e.g. "Max_Displacement"; checked by output_variables_of (output/variables.cpp)
 };
 
 Section history_section();

@@ -32,8 +32,8 @@ std::vector<std::pair<std::string, Stabilization>> stabilizations() {
 const ChoiceKey<Stabilization> stabilization(
     {.name = "Stabilization",
      .fallback = "Mean Gradient",
-     .meaning = "What holds zero-energy modes down: a spring in each bond on what the mean deformation "
-                "gradient of both ends, or (Silling) each end's own, does not see of it."},
+     .meaning = "Resists zero-energy modes: a spring in each bond on the part of its deformation that the mean "
+                "deformation gradient of both ends, or (Silling) each end's own, does not represent."},
     stabilizations());
 
 const RealKey stabilization_coefficient(

@@ -21,7 +21,7 @@ const TextKey file({.name = "Output Filename",
 
 const WhenKeys when("Output ", 20);
 
-const AnyKey<bool> variable("A field, e.g. `Displacement`.");
+const AnyKey<bool> variable("A field, e.g. `Displacement`. All of them: inputs/VARIABLES.md.");
 const Section variables = {.name = "Output Variables", .meaning = "The fields to write.", .any_key = variable};
 
 }  // namespace

@@ -16,7 +16,7 @@ struct Output {
   std::filesystem::path file;          // relative to the working folder in the deck, ".e" appended if it has no suffix
   std::optional<int> frequency;        // every so many steps
   std::optional<double> interval;      // or every so many seconds of the simulation
-  std::vector<std::string> variables;  // checked against the table of observables by simulation
+  std::vector<std::string> variables;  // checked by output_variables_of (output/variables.cpp)
 };
 
 Section output_section();

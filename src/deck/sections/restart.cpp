@@ -29,15 +29,14 @@ const RealKey minutes({.name = "Minutes",
 Section restart_section() {
   return {.name = name,
           .meaning =
-              "What a run leaves so that `strut --continue deck.xml` can go on, on any number of ranks. It is "
-              "written at these times and when a signal ends the run. With this section it is written at the "
-              "end, too, so that the final time can be put off; without, every " +
-              *minutes.fallback +
-              " minutes, and removed at the "
-              "end.",
+              "Checkpoints, from which `strut --continue deck.xml` resumes a run on any number of ranks. One is "
+              "written at these times and when a signal ends the run. With this section one is also written at "
+              "the end, so that the final time can be put off; without it, every " +
+              *minutes.fallback + " minutes, and removed at the end.",
           .keys = {enabled, file, when.frequency, when.interval, minutes,
-                   without_effect({.name = "Restart", .kind = Kind::boolean, .fallback = "true"},
-                                  "what it takes to go on is kept in any case, and `strut --continue deck.xml` does")}};
+                   without_effect(
+                       {.name = "Restart", .kind = Kind::boolean, .fallback = "true"},
+                       "checkpoints are written in any case, and `strut --continue deck.xml` resumes from the last")}};
 }
 
 Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, Problems& problems) {

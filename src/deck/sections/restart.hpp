@@ -1,4 +1,4 @@
-// The section Restart: what a run leaves so that it can go on.
+// The section Restart: checkpoints, from which a run can be resumed.
 #pragma once
 
 #include <filesystem>

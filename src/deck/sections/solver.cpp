@@ -60,15 +60,17 @@ QuasiStatic read_quasi_static(const Values& values) {
 const OptionalKey<double> fixed_dt(
     {.name = "Fixed dt", .unit = "s", .range = positive, .meaning = "The same step always."});
 
-const RealKey safety_factor({.name = "Safety Factor",
-                             .range = {.low = 0, .high = 1, .with_low = false},
-                             .fallback = "0.8",
-                             .meaning = "The step as a part of the stable one, which follows the deformation."});
+const RealKey safety_factor(
+    {.name = "Safety Factor",
+     .range = {.low = 0, .high = 1, .with_low = false},
+     .fallback = "0.8",
+     .meaning = "Time step as a fraction of the critical time step, which follows the deformation."});
 
-const BooleanKey subcycling({.name = "Subcycling",
-                             .fallback = "true",
-                             .meaning = "Few points that would limit the step of all are stepped alone, more often. "
-                                        "None are with a fixed step."});
+const BooleanKey subcycling(
+    {.name = "Subcycling",
+     .fallback = "true",
+     .meaning = "Points that limit the time step are subcycled: they take smaller steps of their own. "
+                "None do with a fixed step."});
 
 const Section verlet = {.name = "Verlet",
                         .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",

@@ -1,4 +1,4 @@
-// What a run must know to go on, in a file of its own. Calls are collective.
+// A checkpoint as a file. Calls are collective.
 #pragma once
 
 #include <filesystem>

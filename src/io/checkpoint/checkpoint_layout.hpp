@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace strut::io::restart {
+namespace strut::io::checkpoint_layout {
 
 // Of the layout below: raise it with every change of what the file holds.
 constexpr int version = 3;
@@ -50,4 +50,4 @@ inline std::vector<std::size_t> order_by_id(const std::vector<std::int64_t>& ids
 // What is written, until it is whole and takes the place of the file.
 inline std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }
 
-}  // namespace strut::io::restart
+}  // namespace strut::io::checkpoint_layout

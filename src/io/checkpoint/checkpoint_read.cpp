@@ -14,7 +14,7 @@
 namespace strut::io {
 
 namespace fs = std::filesystem;
-using namespace restart;
+using namespace checkpoint_layout;
 
 namespace {
 
@@ -24,11 +24,11 @@ NetcdfLists opened(const fs::path& path) {
   std::error_code failure;
   if (!fs::exists(path, failure)) throw Error(path.string() + ": there is no such file");
   if (const std::string problem = classic_netcdf_problem(path); !problem.empty()) {
-    throw Error(path.string() + ": not a restart file, or damaged: " + problem);
+    throw Error(path.string() + ": not a checkpoint, or damaged: " + problem);
   }
-  if (is_hdf5(path)) throw Error(path.string() + ": is no restart file of strut");  // which HDF5 might not survive
+  if (is_hdf5(path)) throw Error(path.string() + ": is no checkpoint of strut");  // which HDF5 might not survive
   NetcdfLists file = NetcdfLists::open(path);
-  if (!file.has_number(mark)) throw Error(path.string() + ": is no restart file of strut");
+  if (!file.has_number(mark)) throw Error(path.string() + ": is no checkpoint of strut");
   if (const double found = file.number(mark); found != version) {
     throw Error(path.string() + ": has version " + std::to_string(static_cast<int>(found)) + "; this strut reads " +
                 std::to_string(version) + " (" + build_facts() + ", the file is by " + file.text("written_by") + ")");
@@ -189,7 +189,7 @@ void remove_checkpoint(const fs::path& path, const Communicator& communicator) {
     const bool ours = fs::is_regular_file(path) && classic_netcdf_problem(path).empty() && !is_hdf5(path) &&
                       NetcdfLists::open(path).has_number(mark);
     if (!ours) {
-      throw Error(path.string() + ": is no restart file of strut, and a run would replace it: expected another " +
+      throw Error(path.string() + ": is no checkpoint of strut, and a run would replace it: expected another " +
                   "name in Restart > Filename");
     }
     fs::remove(path, failure);

@@ -17,7 +17,7 @@
 namespace strut::io {
 
 namespace fs = std::filesystem;
-using namespace restart;
+using namespace checkpoint_layout;
 
 namespace {
 

@@ -1,4 +1,5 @@
-// Exodus II in and out: the one door behind which exodusII.h is used. Calls with a Communicator are collective.
+// Public header of io for Exodus II files: points in, results out. No other room sees exodusII.h. Calls
+// with a Communicator are collective.
 #pragma once
 
 #include <array>

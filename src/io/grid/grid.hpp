@@ -1,4 +1,4 @@
-// Points without a file: the centres of the equal cells of a block.
+// Points without a file: the centers of the equal cells of a block.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 
 namespace strut::io {
 
-// Of the classic model with 64-bit sizes: plain, and whole or recognisably not. Every call throws Error with the file,
+// Of the classic model with 64-bit sizes: plain, and whole or recognizably not. Every call throws Error with the file,
 // what was being done and the cause. A list of no values is not in the file, and comes back as one.
 class NetcdfLists {
  public:

@@ -1,5 +1,5 @@
-// Cells side by side, one a lane: from the sums over their families to the deformation gradients at their places, and
-// from the stresses there to the states of their bonds.
+// SIMD: several cells, one per lane: from the sums over their families to the deformation gradients at their places,
+// and from the stresses there to the states of their bonds.
 #pragma once
 
 #include "mechanics/kernels/quadratic_bonds.hpp"

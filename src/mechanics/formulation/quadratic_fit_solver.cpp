@@ -25,7 +25,7 @@ constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 
 constexpr double least_for_stress = 0.02;
 
 // Of the consistency correction: what is asked for is met as far as it does not cost more than this, in units of the
-// operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularisation.
+// operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularization.
 constexpr double regularization = 0.5, inner_diagonal = 23;
 constexpr int iterations = 16;
 
@@ -224,7 +224,7 @@ class ConsistencyCorrection {
   std::vector<int> points_;               // owned, by quadratic correspondence
   std::vector<Vector> missing_;           // −r, of owned points, m²
   std::vector<Eigen::Matrix4d> moments_;  // of (ξ, 1) over the family and the point, of owned points; its inverse
-  std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularisation, m⁹
+  std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularization, m⁹
   std::vector<Share> shares_;             // of owned points and ghosts
   std::vector<Vector> image_;             // K μ, of owned points
 };

@@ -1,4 +1,4 @@
-// Law points side by side, one a lane: from deformation gradients to rotations, stretches and stresses. A point by
+// SIMD: several law points, one per lane: from deformation gradients to rotations, stretches and stresses. A point by
 // correspondence is its own law point; the cell of a point with a linear strain has four.
 #pragma once
 

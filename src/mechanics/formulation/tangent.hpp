@@ -42,7 +42,8 @@ struct PointTangent {
 };
 
 // Of every owned point, at the end of a step over dt (s, > 0) from `start`: consistent with the law's own step. With
-// F = R U, P = J R σ U⁻¹ (mechanics' README) and σ of U alone, where σ is unrotated; δF = R (δΩ U + δU) gives
+// F = R U, P = J R σ U⁻¹ (docs/theory.md, Correspondence peridynamics) and the unrotated stress σ a function of U
+// alone, δF = R (δΩ U + δU) gives
 //   [(tr U) I − U] δω = axial(Rᵀ δF − (Rᵀ δF)ᵀ),  δΩ = [δω×],
 //   δP = R [ δΩ Q + tr(U⁻¹ δU) Q + J (∂σ/∂U : δU) U⁻¹ − Q δU U⁻¹ ],  Q = J σ U⁻¹.
 // Of ordinary points and failed ones: zero. By quadratic correspondence the mean over the cell; after the points follow

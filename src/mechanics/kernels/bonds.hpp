@@ -1,13 +1,15 @@
 // The sums over a family that correspondence peridynamics needs, and the choice of ω outside of them. The formula of a
 // bond stands here, for neighbor lists of whole steps and of substeps alike; on lattices the same sums are convolutions
 // (lattice_sums.hpp).
+// clang-format off
 //   gather:    N = Σ ω V_j (y_j − y_i) ⊗ ξ,  ξ = X_j − X_i                            (F = N K⁻¹)
 //              and Σ ω V_j (y_j − y_i), by which the springs of a point on its own gradient pull at it
 //   far force: Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]
+//   residual:  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ, with the force t of a stabilization on
+//              z = (y_j − y_i) − ½ (F_i + F_j) ξ
+// clang-format on
 // The force of a bond is (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i). What a point's own state gives, A_i Σ ω V_j ξ and C_i
 // Σ ω V_j (y_j − y_i), takes no loop over bonds (own_force).
-//   residual:  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ, with the force t of a stabilization on z = (y_j − y_i) − ½ (F_i + F_j)
-//   ξ
 // Each is written once for any kind of family: that of one point (OfPoint), or those of the points of a cluster side by
 // side (OfCluster, SIMD), where a far end is read once for all of them and 0 stands for those who do not have it in
 // their family. Terms are added in the order of the family, so that a sum does not depend on who else is in a cluster.

@@ -1,4 +1,4 @@
-// Points of a block that are taken side by side, one a lane, and the sums over their families: by the list of their
+// SIMD: several points of a block, one per lane (side by side), and the sums over their families: by the list of their
 // cluster, or by the sums over their lattice.
 #pragma once
 

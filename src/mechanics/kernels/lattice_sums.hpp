@@ -1,10 +1,12 @@
-// The sums over the families of points on a lattice (points/lattice.hpp), eight points at a time, without a list of
-// bonds:
-//   shapes     K = Σ ω V_j ξ ⊗ ξ                                                (once)
-//   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                                      (F = I + H K⁻¹)
-//              Σ ω V_j (y_j − y_i), the pull on a point of its own springs, less C_i
-//   residuals  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ                                   (both ends' gradients, as in
-//   bonds.hpp) forces     Σ ω V_j [A_j ξ + C_j (y_j − y_i)], what the far ends give
+// The sums over the families of points on a lattice (points/neighbors/lattice.hpp), eight points at a time, without a
+// list of bonds:
+// clang-format off
+//   shapes     K = Σ ω V_j ξ ⊗ ξ                                 (once)
+//   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                       (F = I + H K⁻¹)
+//              Σ ω V_j (y_j − y_i), the pull of its own springs on a point, without the factor C_i
+//   residuals  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ                   (both ends' gradients, as in bonds.hpp)
+//   forces     Σ ω V_j [A_j ξ + C_j (y_j − y_i)], what the far ends give
+// clang-format on
 // They are those of bonds.hpp in another order of additions.
 //
 // Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis

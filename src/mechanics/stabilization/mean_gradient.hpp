@@ -1,5 +1,6 @@
-// A spring on the residual of the mean deformation gradient of both ends, z = η − ½ (F_i + F_j) ξ, which is zero for
-// any quadratic motion inside the body: the same noise is held down at a fraction of the false stiffness of Silling's.
+// A spring on the residual of the mean deformation gradient of both ends, z = η − ½ (F_i + F_j) ξ. It vanishes for any
+// quadratic motion inside the body, so it suppresses the same noise with a fraction of the artificial stiffness that
+// Silling's has.
 #pragma once
 
 #include "mechanics/stabilization/residual.hpp"

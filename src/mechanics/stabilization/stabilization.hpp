@@ -32,13 +32,13 @@ void for_each_stabilization(const Visit& visit) {
   [&]<class... S>(std::type_identity<std::variant<S...>>) { (visit(S()), ...); }(std::type_identity<Stabilization>());
 }
 
-// The same for those that are sums over bonds, with their place in the variant.
+// The same for those that are sums over bonds, with their index in the variant.
 template <class Visit>
 void for_each_bond_stabilization(const Visit& visit) {
-  std::size_t place = 0;
+  std::size_t index = 0;
   for_each_stabilization([&]<class S>(const S& one) {
-    if constexpr (BondStabilization<S>) visit(one, place);
-    ++place;
+    if constexpr (BondStabilization<S>) visit(one, index);
+    ++index;
   });
 }
 

@@ -80,7 +80,7 @@ class Directions {
 
 // The tridiagonal matrix of Lanczos and its basis.
 struct Lanczos {
-  std::vector<double> diagonal, beside;
+  std::vector<double> diagonal, off_diagonal;
   std::vector<StoredField> basis;
 };
 
@@ -108,7 +108,7 @@ Lanczos iterate(Body& body, Field& image, int iterations) {
       for (int i = 0; i < body.owned(); ++i) image[i] -= overlap * earlier[i].cast<double>();
     }
     length = std::sqrt(inner(body, image, image));
-    lanczos.beside.push_back(length);
+    lanczos.off_diagonal.push_back(length);
     if (!(length > smallest_rest * std::abs(lanczos.diagonal.front()))) break;  // the basis is invariant
   }
   return lanczos;
@@ -151,11 +151,12 @@ double CriticalTimeStep::estimate(Body& body) {
     const Lanczos lanczos = iterate(body, image, basis_size);
     const int n = static_cast<int>(lanczos.diagonal.size());
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    const Eigen::Map<const Eigen::VectorXd> diagonal(lanczos.diagonal.data(), n), beside(lanczos.beside.data(), n - 1);
-    ritz.computeFromTridiagonal(diagonal, beside, Eigen::ComputeEigenvectors);
+    const Eigen::Map<const Eigen::VectorXd> diagonal(lanczos.diagonal.data(), n),
+        off_diagonal(lanczos.off_diagonal.data(), n - 1);
+    ritz.computeFromTridiagonal(diagonal, off_diagonal, Eigen::ComputeEigenvectors);
     const Eigen::VectorXd weights = ritz.eigenvectors().col(n - 1);
     const double value = ritz.eigenvalues()[n - 1];
-    const double residual = std::abs(lanczos.beside[n - 1] * weights[n - 1]);
+    const double residual = std::abs(lanczos.off_diagonal[n - 1] * weights[n - 1]);
     mode_ = combine(lanczos.basis, weights);
     found_ = true;
     bound = value + residual;

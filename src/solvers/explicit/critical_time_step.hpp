@@ -1,4 +1,4 @@
-// The largest critical time step of central differences, 2/ω_max, in the current state.
+// The critical time step of central differences in the current state, 2/ω_max: the largest stable one.
 #pragma once
 
 #include "base/archive.hpp"
@@ -6,7 +6,7 @@
 
 namespace strut {
 
-// Restarted Lanczos iteration on the linearised operator M⁻¹K (mechanics: apply_tangent). Ritz values approach ω²_max
+// Restarted Lanczos iteration on the linearized operator M⁻¹K (mechanics: apply_tangent). Ritz values approach ω²_max
 // from below; the residual of the last one is added, so that the estimate errs on the safe side.
 class CriticalTimeStep {
  public:

@@ -14,13 +14,13 @@ namespace {
 constexpr int max_level = 6;
 
 // The fastest motion of a point whose stress is stepped by Δt/2^h turns by no more than twice this angle in its step,
-// and by four times in the step of the level below: less than half a period (README).
+// and by four times in the step of the level below: less than half a period (docs/theory.md, Multi-time-stepping).
 constexpr double most_turn = 0.6;
 
 // A substep of a point, with its share of the points that it moves, beside a whole step of a point.
 constexpr double cost_of_substep = 1.5;
 
-// Families between points of level h and those of level h − 2 or less (README).
+// Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
 constexpr int families_between_levels = 2;
 
 constexpr double worth_while = 0.75;  // of the cost of a run without
@@ -74,7 +74,8 @@ double FrequencyHistogram::cost(int c) const {
   return points * bound(c);
 }
 
-// Whether the points of a block may be stepped alone: not in a body with ordinary points, whose forces act once a step.
+// Whether the points of a block may have smaller steps: not in a body with ordinary points, whose forces act once a
+// step.
 bool may_be_subcycled(const Body& body, std::size_t block) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (body.domain.blocks[b].body == body.domain.blocks[block].body && body.blocks[b].is_ordinary()) return false;

@@ -1,4 +1,4 @@
-// The points whose stress limits the step, stepped alone more often.
+// Multi-time-stepping: points whose stress limits the time step take smaller steps of their own.
 //
 // The stress of a point moves its family by impulses: of most points one a step Δt, of a stiff one one every Δt/2^h, to
 // which its stress follows the motion (impulse multiple time stepping, r-RESPA: Tuckerman, Berne & Martyna 1992). So
@@ -23,7 +23,7 @@ class MultiTimeStepping {
   // the step will be such a part of the stable one.
   double choose(Body& body, double safety_factor);
 
-  // A step has 2^orders() substeps. Of the times between them, those of order m come every Δt/2^m.
+  // A step has 2^level_count() substeps. Times of level m come every Δt/2^m.
   int level_count() const { return static_cast<int>(levels_.size()); }
 
   // In a step, the mean of all points of all ranks.
@@ -33,18 +33,18 @@ class MultiTimeStepping {
   // Empty: of none.
   const std::vector<std::uint8_t>& motion_levels() const { return motion_levels_; }
 
-  // Owned points that move at times of this order (1 … orders()), in ascending order.
+  // Owned points that move at times of this level (1 … level_count()), in ascending order.
   const std::vector<int>& moved(int level) const { return levels_[level - 1].moved; }
 
   // Collective. The choice, after serialize() of the body: it leaves the archive at the group of all owned points.
   void serialize(Archive& archive, Body& body);
 
-  // Collective. At a time of this order, `dt` after the last: the stresses of the points that are due, and in
+  // Collective. At a time of this level, `dt` after the last: the stresses of the points that are due, and in
   // body.force_density of the moved points the force of these stresses, for an impulse of length dt.
   StepReport forces(Body& body, int level, double dt);
 
  private:
-  // What happens at times of one order.
+  // What happens at times of one level.
   struct Level {
     std::vector<SelectedPoints> stressed;  // of each block: those that are due
     std::vector<int> moved;

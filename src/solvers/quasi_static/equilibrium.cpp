@@ -111,7 +111,7 @@ bool Equilibrium::needs_round() const {
 
 bool Equilibrium::contact_has_changed() { return body_.domain.communicator.max(tools_.has_changed() ? 1.0 : 0.0) > 0; }
 
-void Equilibrium::linearise() {
+void Equilibrium::linearize() {
   static Teuchos::Time& timer = phase("Tangents");
   const Timed timed(timer);
   tangents_ = point_tangents(body_, committed_, dt_);

@@ -36,7 +36,7 @@ class Equilibrium {
   std::string weakest_point() const;
 
   // Collective. The tangent at the last trial, for apply(): result = K field, N; held parts included.
-  void linearise();
+  void linearize();
   void apply(const Field& field, Field& result);
   const std::vector<PointTangent>& tangents() const { return tangents_; }
 

@@ -1,4 +1,4 @@
-// How far to go along a step towards less energy.
+// How far to go along a step, by the power of the residual forces.
 #pragma once
 
 #include "solvers/quasi_static/equilibrium.hpp"

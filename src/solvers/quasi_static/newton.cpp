@@ -93,7 +93,7 @@ void Newton::renew_preconditioner() {
 
 // The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
 int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
-  equilibrium_.linearise();
+  equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
   const bool worn = damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
   if (preconditioner_due_ || changed || worn) renew_preconditioner();
@@ -181,7 +181,7 @@ Search Newton::solve(const Tolerance& tolerance) {
     search.evaluations += products;
     search.left = advance(search.left, step, moves);
     tell(search, products);
-    search.interrupted = equilibrium_.body().domain.communicator.max(observer_.leaves() ? 1.0 : 0.0) > 0;
+    search.interrupted = equilibrium_.body().domain.communicator.max(observer_.stop_requested() ? 1.0 : 0.0) > 0;
     if (search.interrupted) return search;
     std::fill(way.begin(), way.end(), Vector::Zero());
     moves = false;

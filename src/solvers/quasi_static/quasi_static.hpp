@@ -28,7 +28,7 @@ class QuasiStatic {
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
 
-  // Collective. One load step; false if the observer wanted to leave before it was made. Throws Error on all ranks
+  // Collective. One load step; false if the observer requested a stop before it was made. Throws Error on all ranks
   // where none is found, however short. In both cases the body is at its last equilibrium.
   bool advance();
 

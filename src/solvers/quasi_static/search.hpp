@@ -1,4 +1,4 @@
-// What the methods of finding an equilibrium are asked for, and how it went.
+// What the methods that find an equilibrium are asked for, and what they answer.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,11 @@ struct Tolerance {
   int most_iterations = 20;  // Newton's
 };
 
-// Who waits for a search.
+// Callbacks of an equilibrium search.
 struct Observer {
-  std::function<void(const std::string&)> load_steps;  // a line each; on rank 0
-  std::function<void(const std::string&)> iterations;  // a line each, where somebody wants it; else empty
-  std::function<bool()> leaves;                        // wants the run to end: on any rank, at any time
+  std::function<void(const std::string&)> load_steps;  // gets a line for each; on rank 0
+  std::function<void(const std::string&)> iterations;  // gets a line for each; may be empty
+  std::function<bool()> stop_requested;                // whether the run is to end: on any rank, at any time
 };
 
 struct Search {

@@ -90,11 +90,11 @@ class Wave(Case):
     name, unit, title = "wave", "mm", "elastic wave in a bar"
     spacings, scale = (0.04, 0.02, 0.01), 1e3
     methods = PLAIN + [Method("Elements", "ordinary", 3.015, "Linear Decay")]
-    length, speed, density, width, centre = 1.0, 1000.0, 1000.0, 0.3, 0.45
+    length, speed, density, width, center = 1.0, 1000.0, 1000.0, 0.3, 0.45
 
     def run(self, runner, method, spacing):
         mesh = runner.mesh("wave", recipe(shape="box", size="0.12 0.12 1", spacing=spacing, origin="-0.06 -0.06 0"))
-        half = f"fabs(z-{self.centre})/{self.width}"
+        half = f"fabs(z-{self.center})/{self.width}"
         pulse = f"({half} &lt; 1) * cos({math.pi / 2}*{half})^4"
         material = elastic(self.density * self.speed**2, 0, self.density)
         final_time = 2.3 * self.length / self.speed
@@ -103,7 +103,7 @@ class Wave(Case):
     def pulse(self, z):
         """Even about both ends: period 2 L."""
         z = np.abs((z + self.length) % (2 * self.length) - self.length)
-        x = np.abs(z - self.centre) / self.width
+        x = np.abs(z - self.center) / self.width
         return np.where(x < 1, np.cos(np.pi / 2 * x) ** 4, 0)
 
     def error(self, result, method, spacing):

@@ -4,7 +4,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-COLOURS = {"none": "tab:gray", "Silling": "tab:blue", "Mean": "tab:red", "ordinary": "tab:green", "quadratic": "tab:purple",
+COLORS = {"none": "tab:gray", "Silling": "tab:blue", "Mean": "tab:red", "ordinary": "tab:green", "quadratic": "tab:purple",
            "finite": "tab:orange"}
 NAMES = {"Mean": "mean gradient", "finite": "voxel finite elements"}
 
@@ -14,7 +14,7 @@ def panel(axes, case, rows):
     for row in rows:
         nodes = row["points"] == "nodes"
         axes.plot(row["seconds"], abs(row["error"]), "o" if nodes else "s", mfc="none" if row["horizon"] == "3.015" else None,
-                  color=COLOURS[row["stabilization"].split()[0]], ms=7)
+                  color=COLORS[row["stabilization"].split()[0]], ms=7)
     front = sorted((row["seconds"], abs(row["error"])) for row in rows if row["front"])
     axes.plot(*zip(*front), "k-", lw=1, zorder=0)
     axes.set(xscale="log", yscale="log", title=case.title, xlabel="core-seconds", ylabel="relative error")
@@ -29,8 +29,8 @@ def front(cases, path):
         panel(one, case, rows)
     for one in axes.flat[len(cases):]:
         one.axis("off")
-    marks = [plt.Line2D([], [], ls="", marker="o", color=colour, label=NAMES.get(name, name))
-             for name, colour in COLOURS.items()]
+    marks = [plt.Line2D([], [], ls="", marker="o", color=color, label=NAMES.get(name, name))
+             for name, color in COLORS.items()]
     marks += [plt.Line2D([], [], ls="", marker=m, color="k", mfc=face, label=label) for m, face, label in
               (("o", "k", "points at nodes"), ("s", "k", "points at elements"), ("o", "none", "horizon 3 spacings"))]
     marks.append(plt.Line2D([], [], color="k", lw=1, label="Pareto front"))
