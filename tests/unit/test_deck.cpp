@@ -141,12 +141,12 @@ TEST(Deck, ReadsConditions) {
   EXPECT_EQ(trajectory.name, "flight");
   EXPECT_EQ(trajectory.node_set, "all");
   const InitialVelocity& velocity = std::get<InitialVelocity>(trajectory.kind);
-  EXPECT_EQ(velocity.component, 2);
+  EXPECT_EQ(velocity.components, std::vector{2});
   EXPECT_EQ(velocity.value(1, 2, 3, 4), -50);
   EXPECT_EQ(pull.node_set, "low");
   const PrescribedMotion& displacement = std::get<PrescribedMotion>(pull.kind);
   EXPECT_FALSE(displacement.is_velocity);
-  EXPECT_EQ(displacement.component, 1);
+  EXPECT_EQ(displacement.components, std::vector{1});
   EXPECT_DOUBLE_EQ(displacement.value(0, 2, 0, 3), 6e-3);
   const HalfSpace& half = std::get<HalfSpace>(std::get<RigidTool>(wall.kind).shape);
   EXPECT_EQ(half.point, Vector(0, 0, -1e-3));
@@ -158,13 +158,32 @@ TEST(Deck, ReadsEveryTypeOfCondition) {
   const auto first = [&](const std::string& type) {
     return folder.read(changed(full_deck, "Initial Velocity", type)).conditions[0].kind;
   };
-  EXPECT_EQ(std::get<InitialVelocity>(first("Initial Velocity")).component, 2);
+  EXPECT_EQ(std::get<InitialVelocity>(first("Initial Velocity")).components, std::vector{2});
   EXPECT_FALSE(std::get<PrescribedMotion>(first("Prescribed Displacement")).is_velocity);
   EXPECT_TRUE(std::get<PrescribedMotion>(first("Prescribed Velocity")).is_velocity);
-  EXPECT_EQ(std::get<BodyForce>(first("Body Force")).component, 2);
+  EXPECT_EQ(std::get<BodyForce>(first("Body Force")).components, std::vector{2});
   EXPECT_EQ(std::get<BodyForce>(first("Body Force")).value(1, 2, 3, 4), -50);
   const Deck deck = folder.read(changed(full_deck, "Rigid Plane", "Symmetry Plane"));
   EXPECT_EQ(std::get<SymmetryPlane>(deck.conditions[2].kind).normal, Vector(0, 0, 1));
+}
+
+// In any order; each once.
+TEST(Deck, ReadsSeveralCoordinates) {
+  const DeckFolder folder;
+  const auto first = [&](const std::string& coordinates) {
+    const std::string text = changed(full_deck, R"(value="z")", "value=\"" + coordinates + "\"");
+    return std::get<InitialVelocity>(folder.read(text).conditions[0].kind).components;
+  };
+  EXPECT_EQ(first("x"), std::vector{0});
+  EXPECT_EQ(first("yz"), (std::vector{1, 2}));
+  EXPECT_EQ(first("zx"), (std::vector{0, 2}));
+  EXPECT_EQ(first("xyz"), (std::vector{0, 1, 2}));
+  EXPECT_EQ(first("zyx"), (std::vector{0, 1, 2}));
+  const Deck deck = folder.read(changed(full_deck, R"(value="y")", R"(value="xyz")"));
+  EXPECT_EQ(std::get<PrescribedMotion>(deck.conditions[1].kind).components, (std::vector{0, 1, 2}));
+  const std::string loads =
+      changed(changed(full_deck, "Initial Velocity", "Body Force"), R"(value="z")", R"(value="xy")");
+  EXPECT_EQ(std::get<BodyForce>(folder.read(loads).conditions[0].kind).components, (std::vector{0, 1}));
 }
 
 TEST(Deck, ReadsTools) {

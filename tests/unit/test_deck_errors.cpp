@@ -80,6 +80,13 @@ const std::vector<Case> values = {
     {"UnknownChoice", "Cubic Decay", "Qubic Decay",
      "Discretization > Influence Function: 'Qubic Decay' (did you mean 'Cubic Decay'?); expected one of One, Linear "
      "Decay, Cubic Decay"},
+    {"CoordinateTwice", R"(value="z")", R"(value="xzx")",
+     "Boundary Conditions > flight > Coordinate: 'xzx' has x more than once; expected one or several of x, y, z, such "
+     "as xy"},
+    {"NoCoordinate", R"(value="z")", R"(value="x y")",
+     "Boundary Conditions > flight > Coordinate: 'x y'; expected one or several of x, y, z, such as xy"},
+    {"CoordinateAsNumber", R"(type="string" value="z")", R"(type="int" value="3")",
+     "Boundary Conditions > flight > Coordinate: '3' of type int; expected one or several of x, y, z, such as xy"},
     {"OtherFormat", "ExodusII", "VTK", "Output > Output File Type: 'VTK'; expected one of ExodusII"},
     {"EmptyText", R"(value="bar.csv")", R"(value=" ")",
      "History > Filename: ' ' is empty; expected a text (type string)"},
@@ -396,7 +403,7 @@ TEST(DeckErrors, AllAtOnce) {
             "  Materials > copper > Density: '-1'; expected a real number > 0, in kg/m³\n"
             "  Materials > copper > Yeild Stress: unknown key (did you mean 'Yield Stress'?)\n"
             "  Blocks > foam > Horizon: 'wide'; expected a real number > 0, in m\n"
-            "  Boundary Conditions > flight > Coordinate: 'height'; expected one of x, y, z\n"
+            "  Boundary Conditions > flight > Coordinate: 'height'; expected one or several of x, y, z, such as xy\n"
             "  Materials > copper > Yield Stress: missing; expected a real number > 0, in Pa\n"
             "  Solver > Final Time: '0'; expected > Initial Time (1e-04), in s\n"
             "  Discretization > Input Mesh File: 'rod.txt' does not exist; expected a mesh, its path relative to the "

@@ -111,7 +111,7 @@ TEST(DeckOfPeridigm, SetsOfPointsByNumber) {
   ASSERT_EQ(deck.node_sets.size(), 2u);
   EXPECT_EQ(deck.node_sets[0].numbers, (std::vector<int>{1, 4, 7}));
   EXPECT_EQ(deck.node_sets[1].numbers, (std::vector<int>{2, 3}));
-  EXPECT_EQ(std::get<InitialVelocity>(deck.conditions[0].kind).component, 0);
+  EXPECT_EQ(std::get<InitialVelocity>(deck.conditions[0].kind).components, std::vector{0});
   EXPECT_EQ(deck.conditions[1].node_set, "all");
 }
 

@@ -30,6 +30,8 @@ std::string sample_of(const Key& key) {
       return "0 0 1";
     case Kind::choice:
       return key.choices.front();
+    case Kind::axes:
+      return "zx";
     case Kind::text:
     case Kind::names:
       return "some";

@@ -212,8 +212,8 @@ double error_of_smooth_field(int n) {
   loaded.move(edges, 2, "0");
   const auto moduli = std::get<materials::Elastic>(elastic(young, poisson));
   const double mu = moduli.shear, lambda = moduli.bulk - 2 * mu / 3;
-  loaded.conditions.add(BodyForce{everywhere, 0, Function::parse(waves(A * k * k * (lambda + 3 * mu), "sin"))});
-  loaded.conditions.add(BodyForce{everywhere, 2, Function::parse(waves(-A * k * k * (lambda + mu), "cos"))});
+  loaded.conditions.add(BodyForce{everywhere, {0}, Function::parse(waves(A * k * k * (lambda + 3 * mu), "sin"))});
+  loaded.conditions.add(BodyForce{everywhere, {2}, Function::parse(waves(-A * k * k * (lambda + mu), "cos"))});
   QuasiStatic solver = loaded.solver({.load_steps = 1});
   load(solver);
   return largest_over(body, [&](int i) {
@@ -310,7 +310,7 @@ TEST(QuasiStatic, BeyondTheLimitLoadThereIsAnErrorAndTheLastEquilibrium) {
   Body& body = loaded.body;
   for (int axis = 0; axis < 3; ++axis) loaded.move(layer(body, loaded.spec, 2, true), axis, "0");
   const auto everywhere = points_where(body, [](const Vector&) { return true; });
-  loaded.conditions.add(BodyForce{everywhere, 2, Function::parse(ramp(-4 * yield / (5 * spacing)))});
+  loaded.conditions.add(BodyForce{everywhere, {2}, Function::parse(ramp(-4 * yield / (5 * spacing)))});
   // Few iterations, so that relaxation gives up early, too.
   QuasiStatic solver = loaded.solver({.load_steps = 4, .tolerance = {.most_iterations = 5}});
   std::vector<Vector> before;
