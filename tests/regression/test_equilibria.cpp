@@ -78,6 +78,24 @@ TEST(SlowLoading, WritesFramesAndReactions) {
   EXPECT_EQ(files.history.at("External_Work").back(), 0);
 }
 
+// One condition along three axes holds what three conditions hold, to the last bit.
+TEST(SlowLoading, HoldsAllAxesByOneCondition) {
+  const std::string press = along("press", "Prescribed Displacement", "top", "z", "-2e-6*t*(1 + 100*x)");
+  Parts three, one;
+  three.conditions = all_of_foot() + press;
+  one.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") + press;
+  const std::string steps = key("Number of Load Steps", "2");
+  const Files expected = files_of(three, steps, {"Reaction_X(x)", "Reaction_Y(y)", "Reaction_Z(low)"});
+  const Files found = files_of(one, steps, {"Reaction_X(foot)", "Reaction_Y(foot)", "Reaction_Z(foot)"});
+  EXPECT_EQ(found.error, "");
+  EXPECT_EQ(found.history.at("Reaction_X(foot)"), expected.history.at("Reaction_X(x)"));
+  EXPECT_EQ(found.history.at("Reaction_Y(foot)"), expected.history.at("Reaction_Y(y)"));
+  EXPECT_EQ(found.history.at("Reaction_Z(foot)"), expected.history.at("Reaction_Z(low)"));
+  EXPECT_EQ(found.history.at("Elastic_Energy"), expected.history.at("Elastic_Energy"));
+  EXPECT_TRUE(found.result.nodal == expected.result.nodal && found.result.element == expected.result.element);
+  EXPECT_GT(found.history.at("Reaction_Z(foot)").back(), 0);
+}
+
 // A bar that hangs without hardening from its foot, under twice what it can carry.
 TEST(SlowLoading, LeavesTheLastEquilibriumWhereThereIsNoOther) {
   Parts parts;

@@ -85,6 +85,38 @@ TEST(Reaction, OfTwoEndsIsEqualAndOpposite) {
   }
 }
 
+// One condition along three axes is three conditions, to the last bit: so is each component of its reaction.
+TEST(Reaction, OfOneConditionIsThatOfOneForEachAxis) {
+  const std::string moved = "1e-6*sin(2e5*t)*(1 + 100*x)", load = "-1e9*(1 + 50*y)", start = "5*z/6e-3";
+  const auto each = [](const std::string& type, const std::string& set, const std::string& axes,
+                       const std::string& value) {
+    std::string all;
+    for (const char axis : axes) all += along(type + " " + axis, type, set, std::string(1, axis), value);
+    return all;
+  };
+  Parts many, one;
+  many.conditions = each("Initial Velocity", "all", "xy", start) + each("Body Force", "all", "yz", load) +
+                    each("Prescribed Displacement", "foot", "xyz", moved) +
+                    each("Prescribed Velocity", "top", "xz", "-3");
+  one.conditions = along("start", "Initial Velocity", "all", "xy", start) +
+                   along("load", "Body Force", "all", "yz", load) +
+                   along("hold", "Prescribed Displacement", "foot", "zyx", moved) +
+                   along("pull", "Prescribed Velocity", "top", "xz", "-3");
+  std::vector<std::string> of_many = {"Reaction_X(Prescribed Displacement x)", "Reaction_Y(Prescribed Displacement y)",
+                                      "Reaction_Z(Prescribed Displacement z)", "Reaction_X(Prescribed Velocity x)",
+                                      "Reaction_Z(Prescribed Velocity z)"};
+  std::vector<std::string> of_one = {"Reaction_X(hold)", "Reaction_Y(hold)", "Reaction_Z(hold)", "Reaction_X(pull)",
+                                     "Reaction_Z(pull)"};
+  const Table expected = history_of(many, of_many), found = history_of(one, of_one);
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [name, column] : expected) {
+    const auto place = std::find(of_many.begin(), of_many.end(), name);
+    const std::string& same = place == of_many.end() ? name : of_one[place - of_many.begin()];
+    EXPECT_EQ(found.at(same), column) << name;
+    EXPECT_TRUE(place == of_many.end() || column.back() != 0) << name << " is nothing";
+  }
+}
+
 // Points of the crushed foot are stepped alone, and the step shrinks with the deformation by some percent at a time: an
 // impulse between two kicks counts with the step before, by so much too little or too much.
 TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
