@@ -9,10 +9,10 @@
 
 namespace strut {
 
-// Along one axis of coordinates.
+// Along some axes of coordinates, the same along each.
 struct BodyForce {
   std::vector<int> points = {};
-  int component = 0;
+  std::vector<int> components = {0};
   Function value = Function();  // of the reference position and time: N/m³ of reference volume
 
   static constexpr Stage stage = Stage::forces;
@@ -21,7 +21,7 @@ struct BodyForce {
   static constexpr InEquilibria in_equilibria = InEquilibria::load;
 
   std::vector<Function> values_at_points() const { return {value}; }
-  BodyForce on(std::vector<int> all, int, const Body&) const { return {std::move(all), component, value}; }
+  BodyForce on(std::vector<int> all, int, const Body&) const { return {std::move(all), components, value}; }
 
   void add_forces(double t, Body& body) const;
   void add_work(double t, double impulse_time, const Body& body, ImpulseWork& work) const;

@@ -5,7 +5,9 @@
 namespace strut {
 
 void InitialVelocity::set_initial_state(const std::vector<int>& points, double t, Body& body) const {
-  for (const int i : points) body.velocity[i][component] = value_at_point(value, body, i, t);
+  for (const int c : components) {
+    for (const int i : points) body.velocity[i][c] = value_at_point(value, body, i, t);
+  }
 }
 
 }  // namespace strut

@@ -9,9 +9,9 @@
 
 namespace strut {
 
-// One component.
+// Some components, all of the same value.
 struct InitialVelocity {
-  int component = 0;
+  std::vector<int> components = {0};
   Function value = Function();  // of the reference position and time: m/s
 
   static constexpr InEquilibria in_equilibria = InEquilibria::impossible;

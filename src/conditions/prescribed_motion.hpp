@@ -10,10 +10,10 @@
 
 namespace strut {
 
-// One component of the motion of some points.
+// Some components of the motion of some points, each by the same value.
 struct PrescribedMotion {
   std::vector<int> points = {};
-  int component = 0;
+  std::vector<int> components = {0};
   Function value = Function();  // of the reference position and time: m, or m/s
   bool is_velocity = false;
   int reaction_place = no_reaction;
@@ -24,7 +24,7 @@ struct PrescribedMotion {
 
   std::vector<Function> values_at_points() const { return {value}; }
   PrescribedMotion on(std::vector<int> all, int place, const Body&) const {
-    return {std::move(all), component, value, is_velocity, place};
+    return {std::move(all), components, value, is_velocity, place};
   }
 
   void change_velocities(VelocityUpdate& update) const;

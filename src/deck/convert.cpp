@@ -47,6 +47,7 @@ bool suits(const std::string& type, Kind kind) {
       return is_integer_type(type) || is_real_type(type) || is_array_of_numbers(type);
     case Kind::text:
     case Kind::choice:
+    case Kind::axes:
     case Kind::names:
       return false;
   }
@@ -87,6 +88,20 @@ std::string convert_choice(const Parameter& parameter, const Key& key) {
     if (hint.name == choice) refuse(parameter, key, " (" + hint.text + ")");
   }
   refuse(parameter, key, did_you_mean(choice, key.choices));
+}
+
+// "zx": 0 and 2, whatever their order.
+std::vector<int> convert_axes(const Parameter& parameter, const Key& key) {
+  const std::string& text = parameter.value;
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const char letter = "xyz"[axis];
+    const auto times = std::count(text.begin(), text.end(), letter);
+    if (times > 1) refuse(parameter, key, std::string(" has ") + letter + " more than once");
+    if (times == 1) axes.push_back(axis);
+  }
+  if (axes.empty() || axes.size() != text.size()) refuse(parameter, key);
+  return axes;
 }
 
 Value convert_text(const Parameter& parameter, const Key& key) {
@@ -132,6 +147,8 @@ Value convert(const Parameter& parameter, const Key& key) {
       return convert_expression(parameter, key);
     case Kind::choice:
       return convert_choice(parameter, key);
+    case Kind::axes:
+      return convert_axes(parameter, key);
     case Kind::text:
     case Kind::names:
       return convert_text(parameter, key);

@@ -29,6 +29,8 @@ struct KindOf<std::vector<double>> : Is<Kind::reals> {};
 template <>
 struct KindOf<Vector> : Is<Kind::vector> {};
 template <>
+struct KindOf<std::vector<int>> : Is<Kind::axes> {};
+template <>
 struct KindOf<std::string> : Is<Kind::text> {};
 template <>
 struct KindOf<std::vector<std::string>> : Is<Kind::names> {};
@@ -49,6 +51,7 @@ using IntegerKey = TypedKey<int>;
 using BooleanKey = TypedKey<bool>;
 using RealsKey = TypedKey<std::vector<double>>;
 using VectorKey = TypedKey<Vector>;
+using AxesKey = TypedKey<std::vector<int>>;  // 0, 1, 2, each once, in this order
 using TextKey = TypedKey<std::string>;
 using NamesKey = TypedKey<std::vector<std::string>>;
 using ExpressionKey = TypedKey<Function>;

@@ -33,6 +33,8 @@ std::string type_text(const Key& key) {
       return "text";
     case Kind::choice:
       return "choice";
+    case Kind::axes:
+      return "axes";
     case Kind::names:
       return "names";
     case Kind::expression:
@@ -97,6 +99,7 @@ their range; all problems of a deck are reported at once.
 | 3 reals | the same, three of them |
 | text | type `string` |
 | choice | type `string`: one of the choices in the column range, letter by letter |
+| axes | type `string`: one or several of `x`, `y`, `z`, e.g. `z`, `xy`, `xyz` |
 | names | type `string`, separated by blanks |
 | expression | a number, or type `string`: C-like, in x, y, z, t, e.g. `-50`, `1e-3*t`, `sin(x)` |
 )";

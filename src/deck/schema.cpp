@@ -25,6 +25,8 @@ std::string describe(Kind kind) {
       return "a text (type string)";
     case Kind::choice:
       return "one of ";
+    case Kind::axes:
+      return "one or several of x, y, z, such as xy";
     case Kind::names:
       return "names separated by blanks (type string)";
     case Kind::expression:

@@ -17,6 +17,7 @@ enum class Kind {
   vector,  // three reals: "0 0 1"
   text,
   choice,     // one of Key::choices
+  axes,       // one or several of x, y, z: "z", "xyz"
   names,      // separated by blanks
   expression  // a number, or an expression in x, y, z, t
 };

@@ -12,8 +12,8 @@
 namespace strut::deck {
 
 // Nothing where the deck has a value that is among the problems.
-using Value = std::variant<std::monostate, bool, int, double, std::vector<double>, Vector, std::string,
-                           std::vector<std::string>, Function>;
+using Value = std::variant<std::monostate, bool, int, double, std::vector<double>, Vector, std::vector<int>,
+                           std::string, std::vector<std::string>, Function>;
 
 // To ask for a key or section that the section does not declare is an error of the program, std::logic_error. A
 // section that is missing, what is among the problems, has nothing of what it is asked for.

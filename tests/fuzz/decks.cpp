@@ -13,7 +13,7 @@
 #include "output/variables.hpp"
 #include "setup/setup.hpp"
 #include "subjects.hpp"
-#include "unit/deck_under_test.hpp"
+#include "unit/deck/deck_under_test.hpp"
 
 namespace strut::fuzz {
 

@@ -35,7 +35,7 @@ Conditions clamped_and_guided(const Body& body, double deflection) {
   Conditions conditions;
   const std::vector<int> foot = end_layer(body, -0.5 * length), top = end_layer(body, 0.5 * length);
   const auto move = [&](const std::vector<int>& points, int component, double end, int condition) {
-    conditions.add(PrescribedMotion{points, component, Function::parse(ramp(end)), false, condition});
+    conditions.add(PrescribedMotion{points, {component}, Function::parse(ramp(end)), false, condition});
   };
   move(top, 0, deflection, 0);
   move(top, 1, 0, 1), move(top, 2, 0, 2);

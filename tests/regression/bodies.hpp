@@ -15,7 +15,7 @@
 #include "deck/deck.hpp"
 #include "io/exodus/exodus.hpp"
 #include "setup/setup.hpp"
-#include "temporary_folder.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace strut::regression {
 

@@ -52,7 +52,7 @@ struct Loaded {
   explicit Loaded(const LatticeSpec& lattice, Make make = lattice_body) : spec(lattice), body(make(spec, world)) {}
 
   int move(std::vector<int> points, int component, const std::string& value) {
-    conditions.add(PrescribedMotion{std::move(points), component, Function::parse(value), false, count});
+    conditions.add(PrescribedMotion{std::move(points), {component}, Function::parse(value), false, count});
     return count++;
   }
   int hold(std::vector<int> points, const Vector& normal) {

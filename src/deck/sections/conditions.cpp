@@ -13,28 +13,28 @@ const TextKey node_set({.name = "Node Set",
                         .fallback = "all",
                         .meaning = "A node set of the mesh or of Node Sets, a block's name, or `all`."});
 
-const ChoiceKey<int> component({.name = "Coordinate", .meaning = "The axis it acts along."},
-                               {{"x", 0}, {"y", 1}, {"z", 2}});
+const AxesKey components({.name = "Coordinate",
+                          .meaning = "The axes it acts along, in any order: each with the same value."});
 // Its unit is the case's.
 const ExpressionKey value({.name = "Value", .meaning = "At the reference position x, y, z (m) and the time t (s)."});
 
-Section along_axis(const std::string& type, const std::string& unit, const std::string& meaning) {
+Section along_axes(const std::string& type, const std::string& unit, const std::string& meaning) {
   Key of_unit = value;
   of_unit.unit = unit;
-  return {.name = type, .meaning = meaning, .keys = {component, of_unit}};
+  return {.name = type, .meaning = meaning, .keys = {components, of_unit}};
 }
 
 ConditionPrototype read_initial_velocity(const Values& values, Problems&) {
-  return InitialVelocity{.component = values[component], .value = values[value]};
+  return InitialVelocity{.components = values[components], .value = values[value]};
 }
 
 template <bool is_velocity>
 ConditionPrototype read_prescribed_motion(const Values& values, Problems&) {
-  return PrescribedMotion{.component = values[component], .value = values[value], .is_velocity = is_velocity};
+  return PrescribedMotion{.components = values[components], .value = values[value], .is_velocity = is_velocity};
 }
 
 ConditionPrototype read_body_force(const Values& values, Problems&) {
-  return BodyForce{.component = values[component], .value = values[value]};
+  return BodyForce{.components = values[components], .value = values[value]};
 }
 
 const VectorKey end_normal({.name = "Normal", .meaning = "Of the end's surface, of any length but zero."});
@@ -58,10 +58,10 @@ struct ConditionEntry {
 
 const std::vector<ConditionEntry>& entries() {
   static const std::vector<ConditionEntry> all = {
-      {along_axis("Initial Velocity", "m/s", "The velocity at the initial time."), read_initial_velocity},
-      {along_axis("Prescribed Displacement", "m", "The displacement at every time."), read_prescribed_motion<false>},
-      {along_axis("Prescribed Velocity", "m/s", "The velocity at every time."), read_prescribed_motion<true>},
-      {along_axis("Body Force", "N/m³", "A force per reference volume."), read_body_force},
+      {along_axes("Initial Velocity", "m/s", "The velocity at the initial time."), read_initial_velocity},
+      {along_axes("Prescribed Displacement", "m", "The displacement at every time."), read_prescribed_motion<false>},
+      {along_axes("Prescribed Velocity", "m/s", "The velocity at every time."), read_prescribed_motion<true>},
+      {along_axes("Body Force", "N/m³", "A force per reference volume."), read_body_force},
       {symmetry_plane_section(), read_symmetry_plane},
       {rigid_plane_section(), read_rigid_plane},
       {rigid_cylinder_section(), read_rigid_cylinder},

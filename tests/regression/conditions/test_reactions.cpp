@@ -1,0 +1,138 @@
+// The forces of conditions in the history: what a body weighs, and what it does with its momentum.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+constexpr double step = 1e-7;                        // s
+constexpr double weight = 1e9 * 4e-3 * 4e-3 * 6e-3;  // N, of the block under a force of 1e9 N/m³
+const std::string pull = along("weight", "Body Force", "all", "z", "-1e9");
+
+// The history, of every step, of a run with these variables.
+Table history_of(Parts parts, const std::vector<std::string>& variables, const Lattice& lattice = {}) {
+  const RunFolder folder(lattice);
+  std::string names;
+  for (const std::string& name : variables) names += key(name, "true");
+  parts.history =
+      key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") + section("Variables", names);
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  return read_history(folder / "history.csv");
+}
+
+// With the trapezoidal rule, which for steps of one length has the impulses of central differences.
+double integral(const std::vector<double>& force, const std::vector<double>& time, std::size_t until) {
+  double sum = 0;
+  for (std::size_t n = 1; n <= until; ++n) sum += 0.5 * (force[n - 1] + force[n]) * (time[n] - time[n - 1]);
+  return sum;
+}
+
+class HeldBody : public testing::TestWithParam<std::string> {};
+
+// Whatever holds the block, its reaction and the weight make its momentum, at each step to round-off: a sum over 1000
+// steps. It falls and bounces with periods of some 10 µs, so that in 100 µs the mean of the reaction is the weight but
+// for its last momentum, some hundredths.
+TEST_P(HeldBody, WeighsWhatItWeighs) {
+  Parts parts;
+  parts.node_sets = key("first", "z &lt; 1e-3");
+  parts.conditions = pull + GetParam();
+  parts.times = key("Final Time", "100e-6");
+  parts.verlet = key("Fixed dt", "1e-7");
+  const Table table = history_of(parts, {"Reaction_X(hold)", "Reaction_Y(hold)", "Reaction_Z(hold)"});
+  const std::vector<double>&force = table.at("Reaction_Z(hold)"), &time = table.at("Time");
+  ASSERT_EQ(time.size(), 1001u);
+  for (std::size_t n = 1; n < time.size(); ++n) {
+    ASSERT_NEAR(integral(force, time, n) - weight * time[n], table.at("Momentum_Z")[n], 1e-11 * weight * 100e-6) << n;
+    ASSERT_NEAR(table.at("Reaction_X(hold)")[n], 0, 1e-9 * weight);  // a block's own forces cancel but for round-off
+    ASSERT_NEAR(table.at("Reaction_Y(hold)")[n], 0, 1e-9 * weight);
+  }
+  EXPECT_NEAR(integral(force, time, time.size() - 1) / 100e-6, weight, 0.05 * weight);
+  EXPECT_NEAR(force[0], weight / 6, 1e-9 * weight);  // at first of the held points alone, a layer of six
+}
+
+INSTANTIATE_TEST_SUITE_P(By, HeldBody,
+                         testing::Values(along("hold", "Prescribed Displacement", "first", "z", "0"),
+                                         along("hold", "Prescribed Velocity", "first", "z", "0"),
+                                         plane("hold", "Symmetry Plane", "first", "0 0 0", "0 0 1"),
+                                         plane("hold", "Rigid Plane", "all", "0 0 0.5e-3", "0 0 1")));
+
+// Pulled so slowly, over 15 of its periods, that all of it is nearly at rest.
+TEST(Reaction, OfTwoEndsIsEqualAndOpposite) {
+  Parts parts;
+  parts.node_sets = key("first", "z &lt; 1e-3") + key("last", "z &gt; 5e-3");
+  parts.conditions = along("low", "Prescribed Displacement", "first", "z", "0") +
+                     along("high", "Prescribed Displacement", "last", "z", "6e-6*(t/100e-6)^2*(3 - 2*t/100e-6)");
+  parts.times = key("Final Time", "100e-6");
+  parts.verlet = key("Fixed dt", "1e-7");
+  const Table table = history_of(parts, {"Reaction_Z(low)", "Reaction_Z(high)", "Max_Displacement"});
+  const std::vector<double>&low = table.at("Reaction_Z(low)"), &high = table.at("Reaction_Z(high)");
+  const double largest = high.back();
+  // E A ε with the points' distance of 5 mm and a block that is free to contract; its surfaces are softer.
+  const double force = 117e9 * 16e-6 * 6e-6 / 5e-3;
+  EXPECT_NEAR(largest, force, 0.2 * force);
+  for (std::size_t n = 0; n < low.size(); ++n) EXPECT_NEAR(low[n] + high[n], 0, 0.01 * largest) << n;
+  // The run starts with the velocity that the first step needs: with the momentum of the first row.
+  const std::vector<double>&time = table.at("Time"), &momentum = table.at("Momentum_Z");
+  const auto unexplained = [&](std::size_t n) {
+    return momentum[n] - integral(low, time, n) - integral(high, time, n);
+  };
+  for (std::size_t n = 2; n < low.size(); ++n) {
+    ASSERT_NEAR(unexplained(n), unexplained(1), 1e-11 * largest * 100e-6) << n;  // round-off of a sum
+  }
+}
+
+// One condition along three axes is three conditions, to the last bit: so is each component of its reaction.
+TEST(Reaction, OfOneConditionIsThatOfOneForEachAxis) {
+  const std::string moved = "1e-6*sin(2e5*t)*(1 + 100*x)", load = "-1e9*(1 + 50*y)", start = "5*z/6e-3";
+  const auto each = [](const std::string& type, const std::string& set, const std::string& axes,
+                       const std::string& value) {
+    std::string all;
+    for (const char axis : axes) all += along(type + " " + axis, type, set, std::string(1, axis), value);
+    return all;
+  };
+  Parts many, one;
+  many.conditions = each("Initial Velocity", "all", "xy", start) + each("Body Force", "all", "yz", load) +
+                    each("Prescribed Displacement", "foot", "xyz", moved) +
+                    each("Prescribed Velocity", "top", "xz", "-3");
+  one.conditions = along("start", "Initial Velocity", "all", "xy", start) +
+                   along("load", "Body Force", "all", "yz", load) +
+                   along("hold", "Prescribed Displacement", "foot", "zyx", moved) +
+                   along("pull", "Prescribed Velocity", "top", "xz", "-3");
+  std::vector<std::string> of_many = {"Reaction_X(Prescribed Displacement x)", "Reaction_Y(Prescribed Displacement y)",
+                                      "Reaction_Z(Prescribed Displacement z)", "Reaction_X(Prescribed Velocity x)",
+                                      "Reaction_Z(Prescribed Velocity z)"};
+  std::vector<std::string> of_one = {"Reaction_X(hold)", "Reaction_Y(hold)", "Reaction_Z(hold)", "Reaction_X(pull)",
+                                     "Reaction_Z(pull)"};
+  const Table expected = history_of(many, of_many), found = history_of(one, of_one);
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [name, column] : expected) {
+    const auto place = std::find(of_many.begin(), of_many.end(), name);
+    const std::string& same = place == of_many.end() ? name : of_one[place - of_many.begin()];
+    EXPECT_EQ(found.at(same), column) << name;
+    EXPECT_TRUE(place == of_many.end() || column.back() != 0) << name << " is nothing";
+  }
+}
+
+// Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time: an
+// impulse between two kicks counts with the step before, by so much too little or too much.
+TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
+  Lattice lattice;
+  lattice.nz = 60;
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "100e6"));
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-227") +
+                     plane("wall", "Rigid Plane", "all", "0 0 0.3e-3", "0 0 1");
+  parts.times = key("Final Time", "20e-6");
+  const Table table = history_of(parts, {"Reaction_Z(wall)"}, lattice);
+  const std::vector<double>& momentum = table.at("Momentum_Z");
+  const double stopped = momentum.back() - momentum.front();
+  EXPECT_GT(stopped, -0.05 * momentum.front());
+  EXPECT_NEAR(integral(table.at("Reaction_Z(wall)"), table.at("Time"), momentum.size() - 1), stopped, 0.01 * stopped);
+}
+
+}  // namespace
+}  // namespace strut::regression

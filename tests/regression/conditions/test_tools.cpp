@@ -1,0 +1,200 @@
+// Rigid tools that stand and move: nothing enters them, friction is Coulomb's, and the ledger sees their work.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+
+namespace strut::regression {
+namespace {
+
+std::string tool(const std::string& name, const std::string& type, const std::string& keys) {
+  return section(name, key("Type", type) + keys);
+}
+std::string rigid_plane(const std::string& name, const std::string& point, const std::string& normal,
+                        const std::string& keys = "") {
+  return tool(name, "Rigid Plane", key("Point", point) + key("Normal", normal) + keys);
+}
+
+// The smallest gap between a tool and a point of any rank.
+double smallest_gap(const Simulation& run, const RigidTool& tool) {
+  double smallest = 1;
+  const Vector offset = tool.offset(run.solver.time());
+  for (const int i : tool.points) {
+    smallest = std::min(smallest, surface(tool.shape, run.scene.body.current(i) - offset).gap);
+  }
+  return run.scene.body.domain.communicator.min(smallest);
+}
+
+// Displacements by the number of the element, of this rank.
+std::map<int, Vector> displacements(Simulation& run) {
+  std::map<int, Vector> all;
+  for (int i = 0; i < run.body().owned(); ++i) {
+    all[static_cast<int>(run.body().domain.cloud.element_ids[i])] = run.body().displacement(i);
+  }
+  return all;
+}
+
+// The end rows are pressed at all times, so that a wall that they may leave is the same as one that they may not: what
+// differs is the round-off of some 100 steps in places of 6 mm, and what that does to strains, 1e-16 times some 10.
+TEST(RigidTool, MovingPlaneIsPrescribedMotionOfWhatItPresses) {
+  const RunFolder folder;
+  Parts parts;
+  parts.times = key("Final Time", "4e-6");
+  const std::string travel = "value = -1e6*t*t";
+  parts.conditions =
+      rigid_plane("low", "0 0 0.5e-3", "0 0 1") + rigid_plane("high", "0 0 5.5e-3", "0 0 -2", key("Travel Z", travel));
+  Simulation walls(folder, parts);
+  double worst_balance = 0;
+  const Ledger pressed = walls.go([&](const Ledger& now) {
+    if (now.time > 2e-6) worst_balance = std::max(worst_balance, now.balance_error);  // before, hardly an energy
+  });
+  parts.node_sets = key("first", "z &lt; 1e-3") + key("last", "z &gt; 5e-3");
+  parts.conditions = along("low", "Prescribed Displacement", "first", "z", "0") +
+                     along("high", "Prescribed Displacement", "last", "z", travel);
+  Simulation ends(folder, parts);
+  const Ledger moved = ends.go();
+  const std::map<int, Vector> expected = displacements(ends);
+  for (const auto& [id, u] : displacements(walls)) EXPECT_LT((u - expected.at(id)).norm(), 1e-12 * 6e-3) << id;
+  EXPECT_EQ(pressed.external, 0);
+  EXPECT_GT(pressed.contact, 0);
+  // Prescribed motion starts with the velocity of the first step, of 2.5 % of the time: that much of the work, squared.
+  EXPECT_NEAR(pressed.contact, moved.external, 1e-3 * moved.external);
+  EXPECT_LT(worst_balance, 1e-2);
+}
+
+struct Indented {
+  double smallest_gap, worst_balance, depth;
+  Ledger end;
+};
+
+// A block on a fixed plane, and a tool from above that goes down by 0.1 mm in 8 µs, then to the side by four times as
+// much.
+Indented indent(const std::string& type, const std::string& shape, const std::string& material = copper()) {
+  const RunFolder folder;
+  Parts parts;
+  parts.materials = material;
+  parts.times = key("Final Time", "16e-6");
+  parts.conditions = rigid_plane("floor", "0 0 0.5e-3", "0 0 1", key("Friction Coefficient", "0.5")) +
+                     tool("press", type,
+                          shape + key("Friction Coefficient", "0.3") +
+                              key("Travel Z", "value = -12.5*t; if (t &gt; 8e-6) { value = -1e-4; }") +
+                              key("Travel X", "value = 0; if (t &gt; 8e-6) { value = 50*(t - 8e-6); }"));
+  Simulation run(folder, parts);
+  Indented result{1, 0, 0, {}};
+  const double top = 5.5e-3;
+  result.end = run.go([&](const Ledger& now) {
+    for (const RigidTool& tool : tools_of(run.scene.conditions)) {
+      result.smallest_gap = std::min(result.smallest_gap, smallest_gap(run, tool));
+    }
+    if (now.time > 4e-6) result.worst_balance = std::max(result.worst_balance, now.balance_error);
+  });
+  for (int i = 0; i < run.body().owned(); ++i) {
+    if (run.reference(i)[2] > 5e-3) result.depth = std::max(result.depth, top - run.body().current(i)[2]);
+  }
+  result.depth = run.world().max(result.depth);
+  return result;
+}
+
+// Tangent planes of convex tools never promise too much (unit/conditions/test_tool): a point ends a step outside, up to the
+// round-off of its place and of the gap, some 1e-15 of 10 mm.
+constexpr double deepest = 1e-14 * 1e-2;
+// The elastic energy is that of a law in rates, to the first order in strains of some 4 %.
+constexpr double energy_of_rates = 1e-2;
+
+TEST(RigidTool, NothingEntersACylinder) {
+  const std::string roll = key("Point", "2.5e-3 0 7.5e-3") + key("Axis", "0 3 0") + key("Radius", "2e-3");
+  const Indented elastic = indent("Rigid Cylinder", roll);
+  EXPECT_GE(elastic.smallest_gap, -deepest);
+  EXPECT_GT(elastic.depth, 0.9e-4);
+  EXPECT_LT(elastic.worst_balance, energy_of_rates);
+  const std::string yields = copper(key("Yield Stress", "400e6"));
+  const Indented plastic = indent("Rigid Cylinder", roll, yields);
+  EXPECT_GE(plastic.smallest_gap, -deepest);
+  EXPECT_GT(plastic.end.dissipated, plastic.end.elastic);
+  EXPECT_LT(plastic.worst_balance, energy_of_rates);
+}
+
+TEST(RigidTool, NothingEntersABox) {
+  const Indented run =
+      indent("Rigid Box", key("Lower Corner", "1e-3 -1e-3 5.5e-3") + key("Upper Corner", "2.2e-3 9e-3 7e-3"));
+  EXPECT_GE(run.smallest_gap, -deepest);
+  EXPECT_GT(run.depth, 0.9e-4);
+  EXPECT_LT(run.worst_balance, energy_of_rates);
+}
+
+// A plastic bar whose foot is subcycled: what counts is how fast wall and bar come together, at 227 m/s. Places
+// differ by the round-off of velocities, 1e-16, which yielding does not let grow beyond some 1e-10 of the way.
+TEST(RigidTool, WallThatComesIsABarThatFlies) {
+  Lattice lattice;
+  lattice.nz = 60;
+  const RunFolder folder(lattice);
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "100e6"));
+  parts.times = key("Final Time", "20e-6");
+  parts.conditions =
+      rigid_plane("wall", "0 0 0.3e-3", "0 0 1", key("Friction Coefficient", "0.1") + key("Travel Z", "227*t"));
+  Simulation comes(folder, parts);
+  const Ledger pushed = comes.go();
+  parts.conditions = rigid_plane("wall", "0 0 0.3e-3", "0 0 1", key("Friction Coefficient", "0.1")) +
+                     along("flight", "Initial Velocity", "all", "z", "-227");
+  Simulation flies(folder, parts);
+  const Ledger stopped = flies.go();
+  EXPECT_GT(flies.solver.most_substeps(), 1);
+  const std::map<int, Vector> expected = displacements(flies);
+  const double way = 227 * 20e-6;
+  for (const auto& [id, u] : displacements(comes)) {
+    EXPECT_LT((u - expected.at(id) - way * Vector::UnitZ()).norm(), 1e-10 * way) << id;
+  }
+  EXPECT_NEAR(pushed.dissipated, stopped.dissipated, 1e-9 * stopped.dissipated);
+  EXPECT_LT(pushed.balance_error, 1e-2);
+  EXPECT_LT(stopped.balance_error, 1e-2);
+}
+
+// A block on a belt that runs under it at 10 m/s. Its weight is so large that it reaches 0.6 m/s. As long as all of its
+// points slide, the belt's impulse along is μ times that across, whatever vibrations do; what points move
+// sideways, some 0.1 m/s, turns their friction by the hundredth part, and takes half the square of that from it.
+TEST(RigidTool, BeltAcceleratesWhatSlidesOnIt) {
+  const RunFolder folder;
+  const double weight = 1e9, friction = 0.3, speed = 10;  // N/m³, -, m/s
+  Parts parts;
+  parts.conditions =
+      along("weight", "Body Force", "all", "z", "-1e9") +
+      rigid_plane("belt", "0 0 0.5e-3", "0 0 1", key("Friction Coefficient", "0.3") + key("Travel X", "10*t"));
+  parts.times = key("Final Time", "20e-6");
+  parts.verlet = key("Fixed dt", "1e-7");
+  Simulation run(folder, parts);
+  double worst_balance = 0, fastest = 0;
+  const Ledger end = run.go([&](const Ledger& now) {
+    if (now.time > 5e-6) worst_balance = std::max(worst_balance, now.balance_error);
+    for (int i = 0; i < run.body().owned(); ++i) fastest = std::max(fastest, run.body().velocity[i][0]);
+  });
+  ASSERT_LT(run.world().max(fastest), speed);
+  const double across = end.momentum[2] + weight * run.volume() * end.time;
+  EXPECT_GT(end.momentum[0], 0.5 * friction * weight * run.volume() * end.time);
+  EXPECT_NEAR(end.momentum[0], friction * across, 1e-3 * friction * across);
+  EXPECT_NEAR(end.momentum[1], 0, 1e-3 * friction * across);
+  EXPECT_GT(end.contact, 0);  // of the belt on the block
+  EXPECT_LT(worst_balance, 1e-3);
+}
+
+// Slower than the belt the block is pushed, as fast as it no more: it sticks.
+TEST(RigidTool, BeltCarriesWhatSticksToIt) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions =
+      along("weight", "Body Force", "all", "z", "-1e9") +
+      rigid_plane("belt", "0 0 0.5e-3", "0 0 1", key("Friction Coefficient", "0.3") + key("Travel X", "0.1*t"));
+  parts.times = key("Final Time", "100e-6");
+  Simulation run(folder, parts);
+  double last_third = 0;
+  int count = 0;
+  run.go([&](const Ledger& now) {
+    if (now.time < 60e-6) return;
+    last_third += now.momentum[0];
+    ++count;
+  });
+  // It shakes about the belt's speed: some periods of some 7 µs leave a tenth part of that.
+  EXPECT_NEAR(last_third / count, 0.1 * run.mass(), 0.02 * 0.1 * run.mass());
+}
+
+}  // namespace
+}  // namespace strut::regression

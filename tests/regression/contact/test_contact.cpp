@@ -1,0 +1,307 @@
+// Whole runs in which bodies meet.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "regression/bodies.hpp"
+#include "run/report.hpp"
+
+namespace strut::regression {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double h = 1e-3;  // spacing, m
+
+// Blocks of copper that are bodies of their own, horizon 2.01 spacings.
+std::string bodies(int count) {
+  std::string blocks;
+  for (int b = 1; b <= count; ++b) {
+    const std::string name = "block_" + std::to_string(b);
+    blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                key("Separate Body", "true"));
+  }
+  return blocks;
+}
+
+Parts parts_with(const RunFolder& folder, const std::string& points) {
+  folder.write("points.txt", points);
+  Parts parts;
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  parts.blocks = bodies(2);
+  return parts;
+}
+
+// Mass times velocity of a block over all ranks, at the time of the last look.
+Vector momentum(Simulation& run, int block) {
+  Vector sum = Vector::Zero();
+  const Body& body = run.body();
+  for (int i = 0; i < body.owned(); ++i) {
+    if (body.domain.cloud.blocks[i] == block)
+      sum += body.mass(i) * 0.5 * (body.previous_velocity[i] + body.velocity[i]);
+  }
+  body.domain.communicator.sum(std::span(sum.data(), 3));
+  return sum;
+}
+
+// The longest cut of the two would be between them, and all of the contact with one rank.
+TEST(Contact, EveryRankHasAShareOfBodiesThatMeet) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 8, 8, 8, h) + cubes(2, {0, 0, 8.5 * h}, 8, 8, 6, h));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e12");
+  parts.times = key("Final Time", "1e-7");
+  Simulation run(folder, parts);
+  const std::vector<int>& blocks = run.body().domain.cloud.blocks;
+  EXPECT_GT(std::ranges::count(blocks, 0), 50);
+  EXPECT_GT(std::ranges::count(blocks, 1), 50);
+}
+
+// Two bars with a common face, of different spacings: at rest nothing moves, as there is no pressure; a blow on the one
+// reaches the other as soon as the wave has crossed the first.
+TEST(Contact, BodiesWithACommonFaceStartWithoutPressureOrGap) {
+  const RunFolder folder;
+  const auto run_with = [&](const std::string& conditions, const auto& look) {
+    Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 10, h) + cubes(2, {0, 0, 10 * h}, 8, 8, 8, h / 2));
+    parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e12");
+    parts.conditions = conditions;
+    parts.times = key("Final Time", "6e-6");
+    Simulation run(folder, parts);
+    run.go([&](const Ledger& now) { look(run, now); });
+  };
+  run_with("", [](Simulation&, const Ledger& now) { EXPECT_EQ(now.kinetic + std::abs(now.contact), 0); });
+  double arrival = 0;
+  run_with(along("blow", "Initial Velocity", "block_1", "z", "1"), [&](Simulation& run, const Ledger& now) {
+    if (arrival == 0 && momentum(run, 1)[2] > 0) arrival = now.time;
+  });
+  EXPECT_GT(arrival, 0);
+  EXPECT_LT(arrival, 0.3e-6) << "there was a gap";  // some three steps
+}
+
+// Two equal cubes, one at rest, meet along a lattice axis. The law is so soft that a wave crosses a cube some thirty
+// times while they touch: hardly anything is left in vibrations, and the velocities are exchanged. Measured with the
+// penalty: 3e-4 of the velocity.
+void expect_exchange(const std::string& contact) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 5.05 * h}, 4, 4, 4, h));
+  parts.contact = contact;
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20");
+  parts.times = key("Final Time", "150e-6");
+  Simulation run(folder, parts);
+  double start = 0, drift = 0, largest_balance = 0, touched = 0;
+  const Ledger end = run.go([&](const Ledger& now) {
+    if (now.time == 0) start = now.momentum[2];
+    drift = std::max(drift, std::abs(now.momentum[2] - start));
+    largest_balance = std::max(largest_balance, now.balance_error);
+    touched = std::max(touched, -now.contact);
+  });
+  const double kinetic = 0.5 * 20 * std::abs(start);
+  EXPECT_GT(touched, 0.2 * kinetic) << "they did not meet";
+  EXPECT_LT(drift, 1e3 * epsilon * std::abs(start)) << "momentum is kept but for round-off of some thousand steps";
+  const double m = run.mass() / 2;
+  EXPECT_NEAR(momentum(run, 0)[2] / m, -20, 20e-3);
+  EXPECT_NEAR(momentum(run, 1)[2] / m, 0, 20e-3);
+  EXPECT_LT(std::abs(end.contact), 1e-12 * kinetic) << "what the law stored is given back whole";
+  EXPECT_LT(largest_balance, 1e-4) << "the step changes as they touch and part";
+}
+
+TEST(Contact, CubesExchangeTheirVelocities) { expect_exchange(contact_of({{"block_1", "block_2"}}, "1e-3", "1e9")); }
+
+TEST(Contact, CubesExchangeTheirVelocitiesByHertz) {
+  const std::string law = key("Contact Model", "Hertz") + key("Effective Modulus", "2e8");
+  expect_exchange(contact_by(law, {{"block_1", "block_2"}}, "1e-3"));
+}
+
+// The same with a penalty as stiff as the metal: much goes into vibrations. A touch lasts a few steps only and begins
+// within one, so that the energy is off by a part of (ω dt)²: 4 % measured with the whole step, 0.2 % with a quarter.
+TEST(Contact, StiffBounceKeepsItsEnergyAsTheStepFalls) {
+  const RunFolder folder;
+  Parts parts =
+      parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0.3 * h, 0.2 * h, 5.05 * h}, 4, 4, 4, h));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e12");
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20");
+  parts.times = key("Final Time", "100e-6");
+  const auto worst_balance = [&](const std::string& safety_factor) {
+    parts.verlet = key("Safety Factor", safety_factor);
+    Simulation run(folder, parts);
+    double worst = 0, kinetic = 0;
+    const Ledger end = run.go([&](const Ledger& now) {
+      if (now.time == 0) kinetic = now.kinetic;
+      worst = std::max(worst, now.balance_error);
+    });
+    EXPECT_LT(end.kinetic, 0.95 * kinetic) << "they have met";
+    return worst;
+  };
+  const double whole = worst_balance("0.8"), quarter = worst_balance("0.2");
+  EXPECT_LT(whole, 0.05);
+  EXPECT_LT(quarter, whole / 8) << "between first and second order, as the moment of touch falls within a step";
+}
+
+// v²/(2 μ g): a block thrown along a rigid floor, pressed on by a body force. Exact but for the first steps, in which
+// the load comes on and the block rings: 1 %.
+TEST(Contact, BlockSlidesToRestOnARigidFloor) {
+  const RunFolder folder(Lattice{.nx = 6, .ny = 6, .nz = 2});
+  const double v = 5, acceleration = 1e6, mu = 0.25;
+  Parts parts;
+  parts.conditions = along("throw", "Initial Velocity", "all", "x", "5") +
+                     along("weight", "Body Force", "all", "z", "-8.93e9") +
+                     section("floor", key("Type", "Rigid Plane") + key("Node Set", "all") + key("Point", "0 0 0.5e-3") +
+                                          key("Normal", "0 0 1") + key("Friction Coefficient", "0.25"));
+  parts.times = key("Final Time", "40e-6");  // it stops after 20 µs
+  Simulation run(folder, parts);
+  const Ledger end = run.go();
+  const double way = v * v / (2 * mu * acceleration);
+  double sum = 0, count = 0;
+  for (int i = 0; i < run.body().owned(); ++i) sum += run.body().displacement(i)[0], count += 1;
+  EXPECT_NEAR(run.world().sum(sum) / run.world().sum(count), way, 0.01 * way);
+  EXPECT_LT(std::abs(end.momentum[0]), 0.01 * v * run.mass());
+  EXPECT_LT(end.balance_error, 1e-3);
+  EXPECT_LT(end.contact, -0.9 * 0.5 * run.mass() * v * v) << "friction has taken the kinetic energy";
+}
+
+// A block thrown along a plate of points, by the friction of contact. While it slides, the momentum that friction takes
+// is μ times the one that the plate gives upwards, whatever the history of the load. Measured: within 1 %; a plate of
+// points is not quite plane. (It has half the block's spacing: two equal lattices would interlock.)
+TEST(Contact, FrictionTakesItsShareOfTheLoadOfAPlate) {
+  const RunFolder folder;
+  Parts parts = parts_with(
+      folder, cubes(1, {0, 0, 1.5 * h}, 40, 14, 2, h / 2) + cubes(2, {1.5 * h, 1.5 * h, 3.77 * h}, 4, 4, 2, h));
+  parts.conditions = along("throw", "Initial Velocity", "block_2", "x", "20") +
+                     along("weight", "Body Force", "block_2", "z", "-1.786e9");
+  for (const std::string axis : {"x", "y", "z"}) {
+    parts.conditions += along("hold " + axis, "Prescribed Displacement", "block_1", axis, "0");
+  }
+  const double t = 300e-6;
+  parts.times = key("Final Time", "300e-6");
+  for (const double mu : {0.0, 0.1, 0.25}) {
+    parts.contact = contact_of({{"block_1", "block_2"}}, "2e-3", "1e10", std::to_string(mu));
+    Simulation run(folder, parts);
+    Vector start = Vector::Zero();
+    const Ledger end = run.go([&](const Ledger& now) {
+      if (now.time == 0) start = momentum(run, 1);
+    });
+    const Vector change = momentum(run, 1) - start;
+    const double mass = start[0] / 20;
+    const double load = change[2] + mass * 2e5 * t;
+    EXPECT_GT(load, 0.5 * mass * 2e5 * t) << "the plate has carried the block";
+    EXPECT_GT(momentum(run, 1)[0], 0.1 * start[0]) << "it slides still";
+    EXPECT_NEAR(-change[0] / load, mu, 0.015);
+    EXPECT_LT(end.balance_error, 1e-4);
+  }
+}
+
+// A hairpin whose legs are driven together. `contact`: whether the deck declares it. The smallest distance of the
+// legs' points at the end.
+double gap_of_hairpin(const std::string& contact) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 12, 3, 3, h) + cubes(1, {0, 0, 7 * h}, 12, 3, 3, h) +
+                                       cubes(1, {0, 0, 3 * h}, 3, 3, 4, h));
+  parts.blocks = section("pin", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+  parts.node_sets =
+      key("lower", "(z &lt; 3.0e-3) * (x &gt; 8.0e-3)") + key("upper", "(z &gt; 7.0e-3) * (x &gt; 8.0e-3)");
+  parts.contact = contact;
+  parts.conditions =
+      along("up", "Initial Velocity", "lower", "z", "400") + along("down", "Initial Velocity", "upper", "z", "-400");
+  parts.times = key("Final Time", "30e-6");
+  Simulation run(folder, parts);
+  double low = -1, high = 1;
+  run.go([&](const Ledger&) {
+    for (int i = 0; i < run.body().owned(); ++i) {
+      const double z = run.body().current(i)[2];
+      if (run.in_set(i, "lower")) low = std::max(low, z);
+      if (run.in_set(i, "upper")) high = std::min(high, z);
+    }
+  });
+  return run.world().min(high) - run.world().max(low);
+}
+
+TEST(Contact, LegsOfAHairpinDoNotPassThroughEachOther) {
+  EXPECT_LT(gap_of_hairpin(""), -h) << "without contact they cross: the case means something";
+  EXPECT_GT(gap_of_hairpin(contact_of({{"block_1", "block_1"}}, "1e-3", "1e12")), 0);
+}
+
+// Nothing is searched while a body flies towards another that is far away.
+TEST(Contact, BodiesApartAreNotSearched) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 20 * h}, 4, 4, 4, h));
+  parts.contact = contact_of({{"block_1", "block_2"}, {"block_2", "block_2"}}, "1e-3", "1e12");
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20");
+  parts.times = key("Final Time", "50e-6");
+  Simulation run(folder, parts);
+  run.go();
+  EXPECT_EQ(run.solver.contact().searches(), 2) << "one for each interaction, at the start";
+}
+
+// Of the warnings, the lines about bodies that meet.
+std::string about_meeting(const std::string& warnings) {
+  std::istringstream lines(warnings);
+  std::string found;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(" meet at ") != std::string::npos) found += line + "\n";
+  }
+  return found;
+}
+
+TEST(Contact, CrossingPathsWithoutContactAreWarnedOf) {
+  const RunFolder folder;
+  Parts parts = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 6 * h}, 4, 4, 4, h));
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20");
+  parts.times = key("Final Time", "200e-6");
+  const std::string warned = Simulation(folder, parts).scene.warnings;
+  EXPECT_NE(warned.find("block_1 and block_2 meet at about t = 0.00015 s"), std::string::npos) << warned;
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e12");
+  EXPECT_EQ(about_meeting(Simulation(folder, parts).scene.warnings), "");
+  parts.contact = "";
+  parts.times = key("Final Time", "100e-6");  // over before they meet
+  EXPECT_EQ(about_meeting(Simulation(folder, parts).scene.warnings), "");
+  parts.times = key("Final Time", "200e-6");
+  parts.conditions = along("past", "Initial Velocity", "block_2", "x", "-20");  // they pass each other by
+  EXPECT_EQ(about_meeting(Simulation(folder, parts).scene.warnings), "");
+  parts.conditions = along("press", "Prescribed Displacement", "block_2", "z", "-20*t");
+  EXPECT_NE(about_meeting(Simulation(folder, parts).scene.warnings), "");
+}
+
+// Two pairs far apart, which two ranks share: the bound of the stiffness is the sum of both interactions' on any
+// number.
+TEST(Contact, StiffnessOfInteractionsAddsUpOverRanks) {
+  const RunFolder folder;
+  const auto pair = [](int block, double x) {
+    return cubes(block, {x, 0, 0}, 4, 4, 4, h) + cubes(block + 1, {x, 0, 4.5 * h}, 4, 4, 4, h);
+  };
+  const auto largest = [&](Parts parts) {
+    parts.times = key("Final Time", "1e-6");
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-10") + parts.conditions;
+    Simulation run(folder, parts);
+    double most = 0;
+    run.go([&](const Ledger&) { most = std::max(most, run.solver.contact().stiffness()); });
+    return most;
+  };
+  Parts parts = parts_with(folder, pair(1, 0));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1.5e-3", "1e10");
+  const double one = largest(parts);
+  parts = parts_with(folder, pair(1, 0) + pair(3, 50 * h));
+  parts.blocks = bodies(4);
+  parts.contact = contact_of({{"block_1", "block_2"}, {"block_3", "block_4"}}, "1.5e-3", "1e10");
+  parts.conditions = along("flight too", "Initial Velocity", "block_4", "z", "-10");
+  EXPECT_GT(one, 0);
+  EXPECT_NEAR(largest(parts), 2 * one, 1e-6 * one);  // steps are smaller with both, so a touch is a little shorter
+}
+
+// Bodies of their own are not bonded: cubes face to face share no bond, and fall apart.
+TEST(Contact, SeparateBodiesAreNotBonded) {
+  const RunFolder folder;
+  const std::string points = cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 4 * h}, 4, 4, 4, h);
+  Parts parts = parts_with(folder, points);
+  Simulation apart(folder, parts);
+  parts.blocks = changed(changed(parts.blocks, key("Separate Body", "true"), ""), key("Separate Body", "true"), "");
+  Simulation joined(folder, parts);
+  const auto bonds = [](const Simulation& run) { return run.scene.bonds; };
+  EXPECT_LT(bonds(apart), bonds(joined));
+  Parts alone = parts_with(folder, cubes(1, {0, 0, 0}, 4, 4, 4, h));
+  alone.blocks = section("b", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+  EXPECT_EQ(bonds(apart), 2 * bonds(Simulation(folder, alone)));
+}
+
+}  // namespace
+}  // namespace strut::regression

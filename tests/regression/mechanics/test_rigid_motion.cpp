@@ -1,0 +1,113 @@
+// Bodies that fly or rest as a whole are skipped until something reaches them, with the result of the full computation.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+
+namespace strut::regression {
+namespace {
+
+constexpr double h = 1e-3;  // spacing, m
+
+// A cube flies, at 20 m/s through a gap of half a spacing, against another at rest; a third stands far below, held at
+// its foot. `third`: its material.
+Parts scene(const RunFolder& folder, const std::string& third) {
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0, 0, 4.5 * h}, 4, 4, 4, h) +
+                                 cubes(3, {0, 0, -9 * h}, 4, 4, 4, h));
+  Parts parts;
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  parts.materials += section("other", third);
+  parts.blocks = "";
+  for (const std::string block : {"block_1", "block_2", "block_3"}) {
+    parts.blocks +=
+        section(block, key("Block Names", block) + key("Material", block == "block_3" ? "other" : "copper") +
+                           key("Horizon", "2.01e-3") + key("Separate Body", "true"));
+  }
+  parts.contact = contact_of({{"block_1", "block_2"}, {"block_1", "block_3"}}, "1e-3", "1e11");
+  parts.node_sets = key("ground", "z &lt; -8.4e-3");
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20") +
+                     along("foot", "Prescribed Displacement", "ground", "z", "0");
+  parts.times = key("Final Time", "50e-6");
+  return parts;
+}
+
+const std::string correspondence = key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
+                                   key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35");
+// So stiff that its points are subcycled.
+const std::string stiff = key("Material Model", "Elastic Correspondence") + key("Density", "8930") +
+                          key("Young's Modulus", "4.8e14") + key("Poisson's Ratio", "0.35");
+const std::string ordinary = key("Material Model", "Elastic") + key("Density", "8930") +
+                             key("Young's Modulus", "117e9") + key("Poisson's Ratio", "0.35");
+
+struct Outcome {
+  std::vector<double> places;            // of all points, in the order of their ids, m
+  std::vector<double> reached{0, 0, 0};  // when each body was reached, s
+  double balance = 0;
+};
+
+// `nudged`: a point of each body starts with a velocity that differs from the others' in its last digit, so that all is
+// computed from the first step on.
+Outcome outcome_of(Simulation& run, bool nudged) {
+  Body& body = run.body();
+  for (int i = 0; nudged && i < body.owned(); ++i) {
+    if (body.domain.cloud.ids[i] % 64 == 0) body.velocity[i][0] += 1e-15;
+  }
+  Outcome outcome;
+  const Ledger end = run.go([&](const Ledger& now) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      if (body.blocks[b].in_rigid_motion) outcome.reached[b] = now.time;
+    }
+  });
+  outcome.balance = end.balance_error;
+  outcome.places.assign(3 * 192, 0);
+  for (int i = 0; i < body.owned(); ++i) {
+    const Vector u = body.displacement(i);
+    for (int c = 0; c < 3; ++c) outcome.places[3 * body.domain.cloud.ids[i] + c] = u[c];
+  }
+  body.domain.communicator.sum(outcome.places);
+  return outcome;
+}
+
+class Undisturbed : public testing::TestWithParam<std::string> {};
+
+TEST_P(Undisturbed, BodiesAreSkippedUntilTheyAreReached) {
+  const RunFolder folder;
+  Simulation skipping(folder, scene(folder, GetParam())), full(folder, scene(folder, GetParam()));
+  const Outcome some = outcome_of(skipping, false), all = outcome_of(full, true);
+  // The gap between the contact radii, half a spacing, is crossed in 25 µs: until the step in which it closes.
+  const double closed = 0.5 * h / 20, step = skipping.solver.dt();
+  EXPECT_NEAR(some.reached[0], closed, 2 * step);
+  EXPECT_EQ(some.reached[0], some.reached[1]);
+  EXPECT_EQ(skipping.solver.most_substeps() > 1, GetParam() == stiff);
+  EXPECT_GT(some.reached[2], 49e-6) << "the third is never reached";
+  for (const double time : all.reached) EXPECT_EQ(time, 0);
+  double off = 0, largest = 0;
+  for (std::size_t k = 0; k < all.places.size(); ++k) {
+    off = std::max(off, std::abs(some.places[k] - all.places[k]));
+    largest = std::max(largest, std::abs(all.places[k]));
+  }
+  EXPECT_LT(off, 1e-12 * largest);
+  EXPECT_NEAR(some.balance, all.balance, 1e-9);
+}
+
+const std::vector<std::string> names{"Correspondence", "Stiff", "Ordinary"};
+INSTANTIATE_TEST_SUITE_P(Third, Undisturbed, testing::Values(correspondence, stiff, ordinary),
+                         [](const auto& info) { return names[info.index]; });
+
+// A motion that begins later: at rest until then.
+TEST(Undisturbed, AMotionBeginsWhenItBegins) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions =
+      along("pull", "Prescribed Velocity", "top", "z", "if (t &gt; 2e-6) { value = 1; } else { value = 0; }");
+  Simulation run(folder, parts);
+  double rest = 0;
+  run.go([&](const Ledger& now) {
+    if (run.body().blocks[0].in_rigid_motion) rest = now.time;
+  });
+  EXPECT_NEAR(rest, 2e-6, 2 * run.solver.dt());
+  EXPECT_GT(run.solver.ledger().elastic, 0);
+}
+
+}  // namespace
+}  // namespace strut::regression

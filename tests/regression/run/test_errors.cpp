@@ -1,0 +1,379 @@
+// The likeliest mistakes of a deck, and a run that fails: every rank throws the same text, and the text tells the user
+// where the mistake is, what stands there, what was expected and which name was meant.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <iterator>
+#include <optional>
+
+#include "regression/bodies.hpp"
+#include "run/report.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A deck without mistakes; results go into the folder of the test, whose path stands for "@".
+Parts right_parts() {
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "400e6"));
+  parts.blocks =
+      section("metal", key("Block Names", "bar plate") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20") +
+                     along("wall", "Prescribed Displacement", "foot", "z", "0");
+  parts.times = key("Initial Time", "0") + key("Final Time", "5e-6");
+  parts.output = key("Output Filename", "@/result.e") + key("Output Frequency", "5") +
+                 section("Output Variables", key("Displacement", "true") + key("Von_Mises_Stress", "true"));
+  parts.history =
+      key("Filename", "@/history.csv") + key("Frequency", "1") + section("Variables", key("Max_Displacement", "true"));
+  return parts;
+}
+
+class Mistake : public testing::Test {
+ protected:
+  const RunFolder folder{[] {
+    Lattice lattice;
+    lattice.plate_layers = 2;
+    return lattice;
+  }()};
+  const Communicator& world = folder.world;
+
+  fs::path write_deck(std::string text) const {
+    const std::string here = folder.operator/("").parent_path().string();
+    for (std::size_t at; (at = text.find('@')) != std::string::npos;) text.replace(at, 1, here);
+    return folder.write("deck.xml", text);
+  }
+
+  // What this rank throws; nothing where it does not throw.
+  std::optional<std::string> outcome(const std::string& text) const {
+    const fs::path deck = write_deck(text);
+    testing::internal::CaptureStdout();
+    std::optional<std::string> error;
+    try {
+      run(deck, world);
+    } catch (const Error& thrown) {
+      error = thrown.what();
+    }
+    testing::internal::GetCapturedStdout();
+    return error;
+  }
+
+  // The text of the Error that every rank throws, without the folder's path.
+  std::string error(const std::string& text) const {
+    const std::optional<std::string> mine = outcome(text);
+    std::string first = mine.value_or("");
+    world.broadcast(first);
+    // Sums, so that rank 0, which speaks, fails for the others, too.
+    EXPECT_EQ(world.sum(mine ? 0.0 : 1.0), 0) << "ranks that throw nothing";
+    EXPECT_EQ(world.sum(mine.value_or("") == first ? 0.0 : 1.0), 0) << "ranks that throw another text than rank 0";
+    const std::string prefix = (folder / "").string();
+    for (std::size_t at; (at = first.find(prefix)) != std::string::npos;) first.erase(at, prefix.size());
+    return first;
+  }
+
+  void expect_error(const std::string& text, const std::vector<std::string>& fragments) const {
+    const std::string shown = error(text);
+    for (const std::string& fragment : fragments) {
+      EXPECT_NE(shown.find(fragment), std::string::npos) << "expected \"" << fragment << "\" in:\n" << shown;
+    }
+  }
+};
+
+// Without this none of the others would prove that it is the mistake that is refused.
+TEST_F(Mistake, NoneRuns) {
+  EXPECT_EQ(outcome(right_parts().text()).value_or("no error"), "no error");
+  if (world.rank() != 0) return;
+  EXPECT_GE(io::read_result(folder / "result.e").times.size(), 3u);
+  EXPECT_DOUBLE_EQ(read_history(folder / "history.csv").at("Time").back(), 5e-6);
+}
+
+TEST_F(Mistake, MisspeltKey) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"Horizon\"", "\"Horizn\""),
+               {"deck.xml", "Blocks > metal > Horizn: unknown key (did you mean 'Horizon'?)",
+                "Blocks > metal > Horizon: missing", "in m"});
+  expect_error(changed(deck, "\"Boundary Conditions\"", "\"Boundary Condition\""),
+               {"Boundary Condition: unknown section (did you mean 'Boundary Conditions'?)"});
+  expect_error(changed(deck, "\"Output Frequency\"", "\"Output Frequenzy\""),
+               {"Output > Output Frequenzy: unknown key (did you mean 'Output Frequency'?)"});
+}
+
+TEST_F(Mistake, HorizonInAnotherUnit) {
+  const std::string deck = right_parts().text();
+  const std::vector<std::string> both = {"Blocks > metal > Horizon", "mean spacing is 0.001 m", "between 1 and 20"};
+  for (const auto& [written, shown] :
+       {std::pair("2.01e-6", "2.01e-06 m"), {"2.01", "2.01 m"}, {"0.9e-3", "0.0009 m"}}) {
+    const std::string wrong = changed(deck, "2.01e-3", written);
+    expect_error(wrong, both);
+    expect_error(wrong, {shown, "block bar", "block plate"});
+  }
+}
+
+TEST_F(Mistake, BlocksOfDeckAndMeshDiffer) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "bar plate", "bar plat"),
+               {"Blocks > metal > Block Names", "no block 'plat' (did you mean 'plate'?)", "bar, plate",
+                "block 'plate' of the mesh has no material"});
+  expect_error(changed(deck, "bar plate", "plate"), {"Blocks: block 'bar' of the mesh has no material", "Block Names"});
+}
+
+TEST_F(Mistake, NodeSetThatIsNotThere) {
+  Parts parts = right_parts();
+  parts.conditions += along("pull", "Body Force", "tob", "x", "1");
+  expect_error(changed(parts.text(), "\"foot\"", "\"fooot\""),
+               {"Boundary Conditions > wall > Node Set", "'fooot' (did you mean 'foot'?)", "all, foot, top, bar, plate",
+                "Boundary Conditions > pull > Node Set", "'tob' (did you mean 'top'?)"});
+}
+
+TEST_F(Mistake, NodeSetWithoutPoints) {
+  Parts parts = right_parts();
+  parts.node_sets = key("below", "z &lt; -1") + key("low", "z &lt; 1e-3");
+  parts.conditions += along("pull", "Body Force", "below", "x", "1") + along("push", "Body Force", "low", "x", "1");
+  const std::string shown = error(parts.text());
+  EXPECT_EQ(shown, "deck.xml: 1 problem\n  Boundary Conditions > pull > Node Set: 'below' holds no point");
+}
+
+TEST_F(Mistake, MeshAndDeckDisagreeInManyWays) {
+  Parts parts = right_parts();
+  parts.blocks = section("metal", key("Block Names", "bar") + key("Material", "copper") + key("Horizon", "2.01"));
+  expect_error(changed(parts.text(), "\"foot\"", "\"fooot\""),
+               {"deck.xml: 3 problems", "Blocks: block 'plate' of the mesh has no material", "Blocks > metal > Horizon",
+                "Boundary Conditions > wall > Node Set", "'fooot'"});
+}
+
+TEST_F(Mistake, ResultThatReplacesAnInput) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "@/result.e", "@/bar.g"), {"Output > Output Filename", "bar.g' is the input mesh"});
+  expect_error(changed(deck, "@/result.e", "@/nowhere/../deck.xml"),
+               {"Output > Output Filename", "deck.xml' is this deck"});
+  expect_error(changed(deck, "@/history.csv", "@/./bar.g"), {"History > Filename", "bar.g' is the input mesh"});
+  expect_error(changed(deck, "@/history.csv", "@/result.e"), {"History > Filename", "result.e' is Output's file, too"});
+  EXPECT_EQ(outcome(deck).value_or("no error"), "no error");  // mesh and deck are as they were
+}
+
+TEST_F(Mistake, UnknownMaterial) {
+  const std::string deck = right_parts().text();
+  expect_error(
+      changed(deck, "\"Material\" type=\"string\" value=\"copper\"", "\"Material\" type=\"string\" value=\"coper\""),
+      {"Blocks > metal > Material: 'coper'", "did you mean 'copper'", "Materials: copper"});
+  expect_error(changed(deck, "Elastic Plastic Corr", "Elastic Plastik Corr"),
+               {"Materials > copper > Material Model: 'Elastic Plastik Correspondence'",
+                "did you mean 'Elastic Plastic Correspondence'", "expected one of"});
+}
+
+TEST_F(Mistake, ValuesOutsideTheirRange) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"8930\"", "\"-8930\""), {"Materials > copper > Density: '-8930'", "> 0", "kg/m³"});
+  expect_error(changed(deck, "\"5e-6\"", "\"-5e-6\""),
+               {"Solver > Final Time: '-5e-06'", "expected > Initial Time (0), in s"});
+}
+
+TEST_F(Mistake, MeshThatIsNoMesh) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "bar.g", "baar.g"), {"Discretization > Input Mesh File", "'baar.g' does not exist"});
+  expect_error(changed(deck, "bar.g", "."), {"Discretization > Input Mesh File", "not a file"});
+  folder.write("text.g", "0 0 0 1 1e-9\n");
+  expect_error(changed(deck, "bar.g", "text.g"), {"text.g", "not an Exodus"});
+  run_on_root(world, [&] {
+    fs::copy_file(folder / "bar.g", folder / "cut.g");
+    fs::resize_file(folder / "cut.g", fs::file_size(folder / "bar.g") / 2);
+  });
+  expect_error(changed(deck, "bar.g", "cut.g"), {"cut.g", "truncated"});
+}
+
+TEST_F(Mistake, NoPoints) {
+  Parts parts = right_parts();
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  folder.write("points.txt", "# x y z block volume\n");
+  expect_error(parts.text(), {"points.txt", "no points"});
+  run_on_root(world, [&] {
+    io::Mesh mesh = Lattice().mesh();
+    mesh.blocks[0].nodes.clear();
+    io::write_mesh(folder / "empty.g", mesh);
+  });
+  expect_error(changed(right_parts().text(), "bar.g", "empty.g"), {"empty.g", "no elements"});
+}
+
+TEST_F(Mistake, OutputThatCannotBeWritten) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "@/result.e", "@/nowhere/result.e"), {"nowhere/result.e", "cannot create"});
+  expect_error(changed(deck, "@/history.csv", "@/nowhere/history.csv"), {"nowhere/history.csv", "cannot create"});
+  run_on_root(world, [&] {
+    fs::create_directory(folder / "taken.e");
+    fs::create_directory(folder / "taken.csv");
+  });
+  expect_error(changed(deck, "@/result.e", "@/taken.e"), {"taken.e", "is a folder or a device"});
+  expect_error(changed(deck, "@/history.csv", "@/taken.csv"), {"taken.csv", "is a folder or a device"});
+}
+
+TEST_F(Mistake, BothHorizonsOrNone) {
+  const std::string deck = right_parts().text(), horizon = key("Horizon", "2.01e-3");
+  expect_error(changed(deck, horizon, horizon + key("Horizon Factor", "2")),
+               {"1 problem\n", "Blocks > metal: 'Horizon' and 'Horizon Factor' are both given"});
+  expect_error(changed(deck, horizon, ""), {"1 problem\n", "Blocks > metal > Horizon: missing", "'Horizon Factor'"});
+}
+
+TEST_F(Mistake, NodesOfSpheresOrOfAText) {
+  const std::string mesh = key("Input Mesh File", "bar.g"), deck = right_parts().text();
+  EXPECT_EQ(outcome(changed(deck, mesh, mesh + key("Points", "Nodes"))).value_or("no error"), "no error");
+  run_on_root(world, [&] {
+    io::Mesh balls;
+    balls.nodes = {Vector(0, 0, 0), Vector(1e-3, 0, 0)};
+    balls.blocks.push_back({"bar", "SPHERE", {0, 1}, {1e-9, 1e-9}});
+    io::write_mesh(folder / "balls.g", balls);
+  });
+  expect_error(changed(deck, mesh, key("Input Mesh File", "balls.g") + key("Points", "Nodes")),
+               {"balls.g: block 'bar' has spheres", "HEX8", "TET4", "points at elements"});
+  const std::string text = changed(deck, key("Type", "Exodus"), key("Type", "Text File"));
+  expect_error(changed(text, mesh, mesh + key("Points", "Nodes")),
+               {"1 problem\n", "Discretization > Points: 'Nodes'", "expected 'Elements'"});
+}
+
+TEST_F(Mistake, FewNeighborsAtANodeAreTheNodes) {
+  const std::string mesh = key("Input Mesh File", "bar.g");
+  const std::string deck = changed(right_parts().text(), key("Horizon", "2.01e-3"), key("Horizon Factor", "1.1"));
+  // A corner has three neighbors at one spacing; the first one is node 1.
+  expect_error(changed(deck, mesh, mesh + key("Points", "Nodes")),
+               {"points have too few neighbors", "node 1 of block bar at (0, 0, 0) m has 3 neighbors"});
+}
+
+TEST_F(Mistake, UnknownVariables) {
+  const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"Displacement\"", "\"Displacment\""),
+               {"Output > Output Variables > Displacment", "did you mean 'Displacement'", "Velocity", "Cauchy_Stress",
+                "Equivalent_Plastic_Strain"});
+  expect_error(changed(deck, "\"Max_Displacement\"", "\"Max_Displacment\""),
+               {"History > Variables > Max_Displacment", "did you mean 'Max_Displacement'"});
+  expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
+               {"History > Variables > Displacement", "expected Max_ or Min_"});
+  expect_error(
+      changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(fot)\""),
+      {"History > Variables > Max_Displacement(fot): there is no node set or block 'fot' (did you mean 'foot'?)",
+       "there are foot, top, bar, plate"});
+  const std::string nowhere = "    <ParameterList name=\"Node Sets\">" + key("nowhere", "x > 1") + "</ParameterList>";
+  expect_error(changed(changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(nowhere)\""),
+                       "<ParameterList name=\"Materials\">", nowhere + "<ParameterList name=\"Materials\">"),
+               {"History > Variables > Max_Displacement(nowhere)", "holds no point"});
+  const std::string both = changed(deck, "\"Displacement\"", "\"Displacment\"");
+  expect_error(changed(both, "\"Max_Displacement\"", "\"Max_Displacment\""),
+               {"Output > Output Variables > Displacment", "History > Variables > Max_Displacment"});
+}
+
+TEST_F(Mistake, UnknownReactions) {
+  Parts parts = right_parts();
+  parts.conditions += plane("floor", "Rigid Plane", "all", "0 0 -1", "0 0 1");
+  const std::string deck = parts.text();
+  const auto with = [&](const std::string& name) { return changed(deck, "Max_Displacement", name); };
+  EXPECT_EQ(outcome(with("Reaction_Z(wall)")).value_or("no error"), "no error");
+  expect_error(with("Reaction_Z(wal)"), {"History > Variables > Reaction_Z(wal): 'wal' is no section",
+                                         "(did you mean 'wall'?); there are wall, floor"});
+  expect_error(with("Reaction_Z(flight)"),
+               {"'flight' is no section of Boundary Conditions that has a reaction force", "there are wall, floor"});
+  for (const std::string name : {"Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
+    expect_error(with(name), {"History > Variables > " + name + ": expected one of Reaction_X, Reaction_Y, Reaction_Z",
+                              "in brackets the name of a section of Boundary Conditions"});
+  }
+}
+
+// What a run has written is lost only to a run that begins.
+TEST_F(Mistake, LeavesEarlierResultsAlone) {
+  const std::string deck = right_parts().text();
+  EXPECT_FALSE(outcome(deck).has_value());
+  for (const auto& [old, replacement] :
+       {std::pair("\"Displacement\"", "\"Displacment\""), {"\"Max_Displacement\"", "\"Max_Displacment\""}}) {
+    EXPECT_TRUE(outcome(changed(deck, old, replacement)).has_value());
+    if (world.rank() != 0) continue;
+    EXPECT_GE(io::read_result(folder / "result.e").times.size(), 3u) << "gone after the mistake " << replacement;
+    EXPECT_GE(read_history(folder / "history.csv").at("Time").size(), 3u) << "gone after the mistake " << replacement;
+  }
+}
+
+// A block and, far away, three points that have only each other.
+std::string points_with_stragglers() {
+  std::ostringstream text;
+  for (int n = 0; n < 4 * 4 * 6; ++n) text << n % 4 << "e-3 " << n / 4 % 4 << "e-3 " << n / 16 << "e-3 7 1e-9\n";
+  for (int n = 0; n < 3; ++n) text << "0.5 0.25 " << n << "e-3 7 1e-9\n";
+  return text.str();
+}
+
+Parts straggling_parts(const std::string& degenerate) {
+  Parts parts = right_parts();
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  parts.degenerate = degenerate;
+  parts.blocks = changed(parts.blocks, "bar plate", "block_7");
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20");
+  return parts;
+}
+
+TEST_F(Mistake, PointsWithTooFewNeighbors) {
+  folder.write("points.txt", points_with_stragglers());
+  expect_error(straggling_parts("Error").text(),
+               {"Discretization > Degenerate Points", "3 points have too few neighbors", "of block block_7",
+                "(0.5, 0.25, ", "has 2 neighbors: fewer than four", "\"Drop\""});
+  const std::string shown = error(straggling_parts("Error").text());
+  EXPECT_TRUE(shown.find("element 97 ") != std::string::npos || shown.find("element 98 ") != std::string::npos ||
+              shown.find("element 99 ") != std::string::npos)
+      << shown;
+}
+
+TEST_F(Mistake, PointsWithTooFewNeighborsAreDroppedOnRequest) {
+  folder.write("points.txt", points_with_stragglers());
+  const fs::path deck = write_deck(straggling_parts("Drop").text());
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run(deck, world));
+  const std::string shown = testing::internal::GetCapturedStdout();
+  if (world.rank() != 0) return;
+  EXPECT_NE(shown.find("dropped 3 points"), std::string::npos) << shown;
+  EXPECT_EQ(io::read_result(folder / "result.e").element[0][0].size(), 96u);
+}
+
+TEST_F(Mistake, AllPointsDropped) {
+  folder.write("points.txt", "0 0 0 7 1e-9\n1e-3 0 0 7 1e-9\n2e-3 0 0 7 1e-9\n3e-3 0 0 7 1e-9\n");
+  expect_error(straggling_parts("Drop").text(), {"Discretization > Degenerate Points", "no point is left"});
+}
+
+TEST_F(Mistake, SeveralAreReportedAtOnce) {
+  std::string deck = right_parts().text();
+  for (const auto& [old, replacement] : {std::pair("\"Horizon\"", "\"Horizn\""),
+                                         {"\"8930\"", "\"-8930\""},
+                                         {"bar.g", "baar.g"},
+                                         {"\"5e-6\"", "\"-5e-6\""},
+                                         {"Prescribed Displ", "Prescribd Displ"}}) {
+    deck = changed(deck, old, replacement);
+  }
+  expect_error(deck, {"deck.xml", "6 problems", "Blocks > metal > Horizn", "Blocks > metal > Horizon: missing",
+                      "Materials > copper > Density: '-8930'", "'baar.g' does not exist", "Solver > Final Time",
+                      "Boundary Conditions > wall > Type: 'Prescribd Displacement'"});
+}
+
+TEST(FixedStep, AboveTheLimitIsWarnedOfAndBelowItNot) {
+  const double limit = 2e-7;
+  EXPECT_EQ(step_warning({0.99 * limit, 0}, limit, 0), "");
+  EXPECT_NE(step_warning({1.05 * limit, 0}, limit, 0).find("WARNING"), std::string::npos);
+  EXPECT_EQ(step_warning({0, 0.8}, limit, 0), "");  // its own step
+}
+
+// The step is some ten times the stable one: the bar blows up within a few steps.
+TEST_F(Mistake, StepFarAboveTheStableOne) {
+  Parts parts = right_parts();
+  parts.verlet = key("Fixed dt", "2e-6");
+  parts.times = key("Final Time", "1e-3");
+  parts.output = changed(parts.output, "\"5\"", "\"1\"");
+  expect_error(parts.text(), {"at t = ", " s, step ", " of 2e-06 s: element ", " of block ", "reference position (",
+                              "now at (", "Likely causes: ", "step above the stable one"});
+  if (world.rank() != 0) return;
+  const io::ExodusResult result = io::read_result(folder / "result.e");
+  ASSERT_GE(result.times.size(), 2u);
+  EXPECT_EQ(result.times[0], 0);
+  EXPECT_EQ(result.nodal[0].size(), result.times.size());
+  std::vector<double> lines = read_history(folder / "history.csv").at("Time");
+  lines.push_back(result.times.back());
+  EXPECT_EQ(lines, result.times) << "both were written at every step, and a frame where it failed";
+}
+
+}  // namespace
+}  // namespace strut::regression

@@ -1,0 +1,62 @@
+// A signal ends a run early; in the very last step there is nothing left to end, and the run is complete.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <iostream>
+#include <streambuf>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+// Stands for std::cout, and raises SIGTERM when the run tells its progress for the first time: between the two halves
+// of its first step.
+class SignalAtProgress : public std::streambuf {
+ public:
+  SignalAtProgress() : replaced_(std::cout.rdbuf(this)) {}
+  ~SignalAtProgress() override {
+    std::cout.rdbuf(replaced_);
+    std::signal(SIGTERM, SIG_DFL);
+  }
+
+ private:
+  int overflow(int character) override {
+    char one = static_cast<char>(character);
+    xsputn(&one, 1);
+    return 0;
+  }
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    shown_.append(text, static_cast<std::size_t>(size));
+    if (!raised_ && shown_.find("left: ") != std::string::npos) {
+      raised_ = true;
+      std::raise(SIGTERM);
+    }
+    return size;
+  }
+
+  std::streambuf* replaced_;
+  std::string shown_;
+  bool raised_ = false;
+};
+
+// What a run of so many equal steps returns when it is signalled in the first.
+bool signalled_run(const RunFolder& folder, const std::string& final_time) {
+  Parts parts;
+  parts.times = key("Final Time", final_time);
+  parts.verlet = key("Fixed dt", "1e-8");
+  const std::filesystem::path deck = folder.write("deck.xml", parts.text());
+  const SignalAtProgress signal;
+  return run(deck, folder.world);
+}
+
+// One after the other: a process keeps the memory of a signal.
+TEST(Signal, InTheLastStepLeavesTheRunComplete) {
+  const RunFolder folder;
+  EXPECT_TRUE(signalled_run(folder, "1e-8"));
+  EXPECT_FALSE(signalled_run(folder, "1e-6"));
+}
+
+}  // namespace
+}  // namespace strut::regression

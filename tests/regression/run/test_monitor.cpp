@@ -1,0 +1,126 @@
+// A run that goes wrong without a point that fails: it ends where the deck says, with the point, the place, the time
+// and a likely cause, and a last frame; or it is told of once and goes on.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+struct Outcome {
+  std::string error, said;  // said: on rank 0
+  io::ExodusResult result;  // on rank 0
+
+  int warnings() const {
+    int count = 0;
+    for (std::size_t at = 0; (at = said.find("WARNING", at)) != std::string::npos; ++at) ++count;
+    return count;
+  }
+};
+
+Outcome outcome(const RunFolder& folder, Parts parts) {
+  const std::string here = folder.operator/("").string();
+  parts.output = key("Output Filename", here + "result.e") + key("Output Frequency", "100000") +
+                 section("Output Variables", key("Displacement", "true"));
+  parts.history = key("Filename", here + "history.csv") + key("Frequency", "1") + section("Variables", "");
+  Outcome outcome;
+  testing::internal::CaptureStdout();
+  try {
+    run(folder.write("deck.xml", parts.text()), folder.world);
+  } catch (const Error& error) {
+    outcome.error = error.what();
+  }
+  outcome.said = testing::internal::GetCapturedStdout();
+  if (folder.world.rank() == 0) outcome.result = io::read_result(folder / "result.e");
+  return outcome;
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& word : words) EXPECT_NE(text.find(word), std::string::npos) << word << "\nin: " << text;
+}
+
+// A bar whose points tremble, by a step 2 % above the stable one (3.09e-7 s): it takes some tens of steps to blow
+// up, and its energy says so before any point is turned inside out.
+Parts unstable() {
+  Parts parts;
+  parts.conditions = along("noise", "Initial Velocity", "all", "z", "sin(1e7*x*y + 1e6*z)");
+  parts.times = key("Final Time", "1e-3");
+  parts.verlet = key("Fixed dt", "3.15e-7");
+  return parts;
+}
+
+TEST(Monitor, EnergyFromNowhereEndsTheRunWithAFrame) {
+  const RunFolder folder;
+  const Outcome o = outcome(folder, unstable());
+  expect_words(o.error, {"at t = ", "balance of energy", "Watch > Balance Error", "Likely causes: a Fixed dt above"});
+  if (folder.world.rank() != 0) return;
+  const std::vector<double> lines = read_history(folder / "history.csv").at("Time");
+  ASSERT_EQ(o.result.times.size(), 2u);
+  EXPECT_EQ(o.result.times[1], lines.back()) << "the last frame is of the time at which it ended";
+}
+
+TEST(Monitor, GoesOnWhereTheDeckSaysSoAndIsToldOnce) {
+  const RunFolder folder;
+  Parts parts = unstable();
+  parts.watch = key("Beyond Limits", "Continue");
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error.find("balance"), std::string::npos) << o.error;
+  expect_words(o.error, {"determinant"});  // what comes in the end
+  if (folder.world.rank() != 0) return;
+  expect_words(o.said, {"WARNING: at t = ", "balance of energy", "told once"});
+  EXPECT_EQ(o.warnings(), 2) << "of the fixed step, and of this: " << o.said;
+}
+
+TEST(Monitor, StepThatCollapsesNamesThePointThatLimitsIt) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-300") +
+                     along("foot", "Prescribed Displacement", "foot", "z", "0");
+  parts.materials = copper(key("Yield Stress", "50e6"));
+  parts.times = key("Final Time", "2e-5");
+  parts.verlet = key("Subcycling", "false");
+  parts.watch = key("Smallest Step", "0.8");
+  const Outcome o = outcome(folder, parts);
+  expect_words(o.error,
+               {"at t = ", "the critical time step has fallen to ", "Watch > Smallest Step", "the stiffest is element ",
+                " of block bar, reference position (", "now at (", "det F = 0.", "Likely causes: "});
+  if (folder.world.rank() == 0) EXPECT_EQ(o.result.times.size(), 2u);
+}
+
+// Two cubes and a penalty that cannot hold them.
+TEST(Monitor, ContactThatIsPassedThroughNamesThePoint) {
+  constexpr double h = 1e-3;
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, h) + cubes(2, {0, 0, 3.5 * h}, 3, 3, 3, h));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.blocks = section("one", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                    key("Separate Body", "true")) +
+                 section("two", key("Block Names", "block_2") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                    key("Separate Body", "true"));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e3");
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-100");
+  parts.times = key("Final Time", "4e-5");
+  parts.watch = key("Penetration", "0.7");
+  const Outcome stopped = outcome(folder, parts);
+  expect_words(stopped.error, {"at t = 1.", "contact is penetrated by 7", "Watch > Penetration", "element ",
+                               " of block block_", "now at (", "Likely causes: a Spring Constant that is too small"});
+  parts.watch += key("Beyond Limits", "Continue");
+  EXPECT_EQ(outcome(folder, parts).error, "");
+}
+
+// A layer that is drawn through the others.
+TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = along("foot", "Prescribed Displacement", "foot", "z", "5000*t");
+  expect_words(outcome(folder, parts).error, {"turned inside out"});
+  parts.watch = key("Inverted Points", "Continue") + key("Beyond Limits", "Continue");
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error, "");
+  if (folder.world.rank() == 0) EXPECT_EQ(o.result.times.back(), 5e-6);
+}
+
+}  // namespace
+}  // namespace strut::regression

@@ -1,0 +1,121 @@
+// Slow loading by a deck: what a run leaves in its files, and what one that finds no equilibrium does.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+struct Files {
+  Table history;
+  io::ExodusResult result;  // of rank 0
+  std::string error;        // what the run threw
+};
+
+std::string switched_on(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += key(name, "true");
+  return all;
+}
+
+// Loads run from t = 0 to 1, each step to both files.
+Files files_of(Parts parts, const std::string& quasi_static, const std::vector<std::string>& reactions,
+               const Lattice& lattice = {}) {
+  const RunFolder folder(lattice);
+  parts.times = key("Final Time", "1");
+  parts.verlet = quasi_static;
+  parts.output = key("Output Filename", (folder / "result.e").string()) + key("Output Frequency", "1") +
+                 section("Output Variables", switched_on({"Displacement", "Von_Mises_Stress"}));
+  parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") +
+                  section("Variables", switched_on(reactions));
+  const std::string deck = changed(parts.text(), R"(name="Verlet")", R"(name="QuasiStatic")");
+  Files files;
+  testing::internal::CaptureStdout();
+  try {
+    run(folder.write("deck.xml", deck), folder.world);
+  } catch (const Error& error) {
+    files.error = error.what();
+  }
+  testing::internal::GetCapturedStdout();
+  files.history = read_history(folder / "history.csv");
+  if (folder.world.rank() == 0) files.result = io::read_result(folder / "result.e");
+  return files;
+}
+
+std::string all_of_foot() {
+  return along("x", "Prescribed Displacement", "foot", "x", "0") +
+         along("y", "Prescribed Displacement", "foot", "y", "0") +
+         along("low", "Prescribed Displacement", "foot", "z", "0");
+}
+
+// A bar on its held foot, pressed by a plane. Forces of all conditions cancel but for what the tolerance leaves, 1e-6
+// of them at each of 96 points at the most.
+TEST(SlowLoading, WritesFramesAndReactions) {
+  Parts parts;
+  parts.conditions = all_of_foot() + section("press", key("Type", "Rigid Plane") + key("Point", "0 0 5.5e-3") +
+                                                          key("Normal", "0 0 -1") + key("Travel Z", "-2e-5*t"));
+  const Files files = files_of(parts, key("Number of Load Steps", "4"),
+                               {"Reaction_Z(low)", "Reaction_Z(press)", "Reaction_X(x)", "Reaction_Y(y)"});
+  EXPECT_EQ(files.error, "");
+  const std::vector<double>&time = files.history.at("Time"), &low = files.history.at("Reaction_Z(low)"),
+        &press = files.history.at("Reaction_Z(press)");
+  ASSERT_EQ(time.size(), 5u);
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    EXPECT_NEAR(time[n], 0.25 * static_cast<double>(n), 1e-12);
+    const double most = std::sqrt(96.0) * 1e-6 * low.back();
+    EXPECT_NEAR(low[n] + press[n], 0, most) << n;
+    EXPECT_NEAR(files.history.at("Reaction_X(x)")[n], 0, most) << n;
+    EXPECT_NEAR(files.history.at("Reaction_Y(y)")[n], 0, most) << n;
+    EXPECT_EQ(files.history.at("Kinetic_Energy")[n], 0) << n;
+    EXPECT_LT(files.history.at("Balance_Error")[n], 4e-3) << n;       // of a law in rates: the strain
+    if (n > 0) EXPECT_NEAR(low[n] / low.back(), time[n], 4e-3) << n;  // linear but for the strain
+  }
+  // E A ε with the 5 mm between the end layers; the held foot, which cannot spread, and the surfaces, which are softer.
+  const double force = 117e9 * 16e-6 * 2e-5 / 5e-3;
+  EXPECT_NEAR(low.back(), force, 0.3 * force);
+  EXPECT_GT(files.history.at("Contact_Work").back(), 0);
+  EXPECT_EQ(files.history.at("External_Work").back(), 0);
+}
+
+// One condition along three axes holds what three conditions hold, to the last bit.
+TEST(SlowLoading, HoldsAllAxesByOneCondition) {
+  const std::string press = along("press", "Prescribed Displacement", "top", "z", "-2e-6*t*(1 + 100*x)");
+  Parts three, one;
+  three.conditions = all_of_foot() + press;
+  one.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") + press;
+  const std::string steps = key("Number of Load Steps", "2");
+  const Files expected = files_of(three, steps, {"Reaction_X(x)", "Reaction_Y(y)", "Reaction_Z(low)"});
+  const Files found = files_of(one, steps, {"Reaction_X(foot)", "Reaction_Y(foot)", "Reaction_Z(foot)"});
+  EXPECT_EQ(found.error, "");
+  EXPECT_EQ(found.history.at("Reaction_X(foot)"), expected.history.at("Reaction_X(x)"));
+  EXPECT_EQ(found.history.at("Reaction_Y(foot)"), expected.history.at("Reaction_Y(y)"));
+  EXPECT_EQ(found.history.at("Reaction_Z(foot)"), expected.history.at("Reaction_Z(low)"));
+  EXPECT_EQ(found.history.at("Elastic_Energy"), expected.history.at("Elastic_Energy"));
+  EXPECT_TRUE(found.result.nodal == expected.result.nodal && found.result.element == expected.result.element);
+  EXPECT_GT(found.history.at("Reaction_Z(foot)").back(), 0);
+}
+
+// A bar that hangs without hardening from its foot, under twice what it can carry.
+TEST(SlowLoading, LeavesTheLastEquilibriumWhereThereIsNoOther) {
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "585e6"));
+  parts.blocks = section("bar", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "1.75e-3"));
+  parts.conditions = all_of_foot() + along("weight", "Body Force", "all", "z", "4*585e6/5e-3*t");
+  const Files files = files_of(parts, key("Number of Load Steps", "4") + key("Maximum Solver Iterations", "5"),
+                               {"Reaction_Z(low)"}, Lattice{.nx = 3, .ny = 3});
+  EXPECT_NE(files.error.find("no equilibrium after t = "), std::string::npos) << files.error;
+  EXPECT_NE(files.error.find("of block bar"), std::string::npos) << files.error;
+  const std::vector<double>& time = files.history.at("Time");
+  ASSERT_GT(time.size(), 1u);
+  EXPECT_GT(time.back(), 0.2);
+  EXPECT_LT(time.back(), 0.6);
+  // The last line is an equilibrium: the foot carries the weight of then.
+  const double weight = 4 * 585e6 / 5e-3 * time.back() * 54e-9;
+  EXPECT_NEAR(-files.history.at("Reaction_Z(low)").back(), weight, 1e-4 * weight);
+  if (Communicator().rank() != 0) return;
+  EXPECT_NEAR(files.result.times.back(), time.back(), 1e-12);
+}
+
+}  // namespace
+}  // namespace strut::regression

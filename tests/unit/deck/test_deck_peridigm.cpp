@@ -1,0 +1,231 @@
+// Decks in Peridigm's dialect: what is put into our spelling, what is told, and what is refused by name. That they run,
+// and give what our spelling gives: tests/regression/deck/test_peridigm.cpp.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "deck_under_test.hpp"
+
+namespace strut::deck {
+namespace {
+
+// Ours in the test's own layout; `old` and `replacement` put a part of it into the dialect.
+Deck with(const DeckFolder& folder, const std::string& old, const std::string& replacement) {
+  return folder.read(changed(small_deck, old, replacement));
+}
+
+const std::string poisson = R"(<Parameter name="Poisson's Ratio" type="double" value="0.296"/>)";
+const std::string horizon = R"(<Parameter name="Horizon" type="double" value="0.0065"/>)";
+
+std::string key(const std::string& name, const std::string& type, const std::string& value) {
+  return "<Parameter name=\"" + name + "\" type=\"" + type + "\" value=\"" + value + "\"/>\n";
+}
+
+std::string list(const std::string& name, const std::string& content) {
+  return "<ParameterList name=\"" + name + "\">\n" + content + "</ParameterList>\n";
+}
+
+bool told(const Deck& deck, const std::string& note) {
+  return std::find(deck.notes.begin(), deck.notes.end(), note) != deck.notes.end();
+}
+
+TEST(DeckOfPeridigm, HourglassCoefficients) {
+  const DeckFolder folder;
+  const Deck none = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.0"));
+  EXPECT_EQ(residual_of(none.materials[0].stabilization), ResidualKind::none);
+  EXPECT_TRUE(none.notes.empty());
+  const Deck some = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.02"));
+  EXPECT_EQ(std::get<SillingStabilization>(some.materials[0].stabilization).coefficient, 0.04);
+  EXPECT_TRUE(told(some,
+                   "Materials > copper > Hourglass Coefficient is taken as Stabilization 'Silling' with the "
+                   "coefficient 0.04, about the same in effect"));
+}
+
+TEST(DeckOfPeridigm, IsotropicHardeningWithoutAFlaw) {
+  const DeckFolder folder;
+  const std::string keys =
+      key("Hardening Modulus", "double", "2e9") + key("Enable Flaw", "bool", "false") + key("Flaw Size", "double", "1");
+  const std::string text = changed(small_deck, "Elastic Plastic Correspondence", "Isotropic Hardening Correspondence");
+  const Deck deck = folder.read(changed(text, poisson, poisson + keys));
+  const auto flow = std::get<materials::J2>(deck.materials[0].law).flow;
+  EXPECT_EQ(std::get<materials::LinearHardening>(flow.hardening).modulus, 2e9);
+}
+
+TEST(DeckOfPeridigm, HorizonOfAllBlocksAndDefaultBlocks) {
+  const DeckFolder folder;
+  const std::string rest = list("rest", key("Block Names", "string", "Default") + key("Material", "string", "copper"));
+  std::string text = changed(small_deck, horizon, "");
+  text = changed(text, R"(value="all"/>)", R"(value="block_1"/>)");
+  text = changed(text, R"(<ParameterList name="Blocks">)", R"(<ParameterList name="Blocks">)" + rest);
+  text = changed(text, R"(<Parameter name="Input Mesh File")", horizon + R"(<Parameter name="Input Mesh File")");
+  const Deck deck = folder.read(text);
+  ASSERT_EQ(deck.blocks.size(), 2u);
+  EXPECT_EQ(deck.blocks[0].block_names, std::vector<std::string>{"default"});
+  EXPECT_EQ(deck.blocks[0].horizon, 0.0065);
+  EXPECT_EQ(deck.blocks[1].horizon, 0.0065);
+}
+
+TEST(DeckOfPeridigm, OmittedBondsMakeBodies) {
+  const DeckFolder folder;
+  std::string text = changed(small_deck, R"(value="all"/>)", R"(value="block_1 block_2"/>)");
+  text = changed(text, R"(<Parameter name="Input Mesh File")",
+                 key("Omit Bonds Between Blocks", "string", "All") + R"(<Parameter name="Input Mesh File")");
+  const Deck deck = folder.read(text);
+  ASSERT_EQ(deck.blocks.size(), 2u);
+  for (const Block& block : deck.blocks) EXPECT_TRUE(block.separate_body);
+  EXPECT_EQ(deck.blocks[1].block_names, std::vector<std::string>{"block_2"});
+}
+
+TEST(DeckOfPeridigm, Grid) {
+  const DeckFolder folder;
+  std::string generator;
+  for (const std::string axis : {"X", "Y", "Z"}) {
+    generator += key(axis + " Origin", "double", "-1.0") + key(axis + " Length", "double", "4.0") +
+                 key("Number Points " + axis, "int", axis == "X" ? "8" : "2");
+  }
+  const std::string old = R"(<Parameter name="Type" type="string" value="Exodus"/>
+    <Parameter name="Input Mesh File" type="string" value="bar.txt"/>)";
+  const std::string grid = key("Type", "string", "PdQuickGrid") + list("TensorProduct3DMeshGenerator", generator);
+  const Deck deck = with(folder, old, grid + key("NeighborhoodType", "string", "Spherical"));
+  EXPECT_EQ(deck.discretization.type, MeshType::grid);
+  EXPECT_EQ(deck.discretization.grid.origin, Vector(-1, -1, -1));
+  EXPECT_EQ(deck.discretization.grid.length, Vector(4, 4, 4));
+  EXPECT_EQ(deck.discretization.grid.points, (std::array<int, 3>{8, 2, 2}));
+  EXPECT_EQ(
+      folder.error(changed(small_deck, old, grid)),
+      "deck.xml: 1 problem\n  Discretization > NeighborhoodType: missing; expected 'Spherical': without it Peridigm "
+      "takes boxes for neighborhoods, which are not known here");
+}
+
+TEST(DeckOfPeridigm, SetsOfPointsByNumber) {
+  const DeckFolder folder;
+  folder.write("set.txt", "# the left face\n4 1\n1 7\n");
+  const std::string condition =
+      list("push", key("Type", "string", "Initial_Velocity") + key("Node Set", "string", "Left Node Set") +
+                       key("Coordinate", "string", "X") + key("Value", "double", "1.0")) +
+      list("fly", key("Type", "string", "Initial Velocity") + key("Node Set", "string", "Full Domain") +
+                      key("Coordinate", "string", "y") + key("Value", "string", "2.0"));
+  const std::string sets = key("Left Node Set", "string", "set.txt") + key("Node Set Two", "string", "3 2");
+  const Deck deck = with(folder, R"(<ParameterList name="Solver">)",
+                         list("Boundary Conditions", sets + condition) + R"(<ParameterList name="Solver">)");
+  ASSERT_EQ(deck.node_sets.size(), 2u);
+  EXPECT_EQ(deck.node_sets[0].numbers, (std::vector<int>{1, 4, 7}));
+  EXPECT_EQ(deck.node_sets[1].numbers, (std::vector<int>{2, 3}));
+  EXPECT_EQ(std::get<InitialVelocity>(deck.conditions[0].kind).components, std::vector{0});
+  EXPECT_EQ(deck.conditions[1].node_set, "all");
+}
+
+TEST(DeckOfPeridigm, EquilibriaByNox) {
+  const DeckFolder folder;
+  const std::string end = R"(<Parameter name="Final Time" type="double" value="2e-4"/>)";
+  const std::string nox = list("NOXQuasiStatic", key("Number of Load Steps", "int", "3") +
+                                                     key("Max Age Of Prec", "int", "100") + list("Line Search", ""));
+  const Deck deck = with(folder, end, end + key("Peridigm Preconditioner", "string", "None") + nox);
+  ASSERT_TRUE(deck.solver.quasi_static);
+  EXPECT_EQ(deck.solver.quasi_static->load_steps, 3);
+  EXPECT_EQ(deck.notes,
+            (std::vector<std::string>{
+                "Solver > NOXQuasiStatic is taken as QuasiStatic, of all its keys Number of Load Steps: "
+                "equilibria are found in another way",
+                "Solver > Peridigm Preconditioner has no effect here: equilibria are found in another way"}));
+}
+
+TEST(DeckOfPeridigm, NamesOfInteractions) {
+  const DeckFolder folder;
+  const auto partners_of = [&](const std::string& name) {
+    return folder.read(changed(full_deck, "General Contact", name)).interactions[1].partners;
+  };
+  EXPECT_EQ(partners_of("General Contact"), Partners::others);
+  EXPECT_EQ(partners_of("Self Contact"), Partners::itself);
+  EXPECT_EQ(partners_of("everything"), Partners::any);
+}
+
+std::string output(const std::string& name, const std::string& frequency, const std::vector<std::string>& variables) {
+  std::string wanted;
+  for (const std::string& one : variables) wanted += key(one, "bool", "true");
+  return list(name, key("Output File Type", "string", "ExodusII") + key("Output Filename", "string", "bar") +
+                        key("Output Frequency", "int", frequency) + list("Output Variables", wanted));
+}
+
+std::string highest_stress() {
+  return list(
+      "Compute Class Parameters",
+      list("stress", key("Compute Class", "string", "Block_Data") + key("Calculation Type", "string", "Maximum") +
+                         key("Block", "string", "block_1") + key("Variable", "string", "Von_Mises_Stress") +
+                         key("Output Label", "string", "Highest_Stress")));
+}
+
+TEST(DeckOfPeridigm, OutputsBecomeFieldsAndHistory) {
+  const DeckFolder folder;
+  const std::string outputs =
+      highest_stress() +
+      output("Output1", "100", {"Displacement", "ID", "Cauchy_StressXX", "Cauchy_StressXY", "Damage"}) +
+      output("Output2", "10", {"Global_Kinetic_Energy", "Global_Angular_Momentum", "Highest_Stress"});
+  const Deck deck = with(folder, R"(<ParameterList name="Solver">)", outputs + R"(<ParameterList name="Solver">)");
+  EXPECT_EQ(deck.output.file, "bar.e");
+  EXPECT_EQ(deck.output.frequency, 100);
+  EXPECT_EQ(deck.output.variables, (std::vector<std::string>{"Displacement", "Element_Id", "Cauchy_Stress"}));
+  EXPECT_EQ(deck.history.file, "bar.csv");
+  EXPECT_EQ(deck.history.frequency, 10);
+  EXPECT_EQ(deck.history.variables, std::vector<std::string>{"Max_Von_Mises_Stress(block_1)"});
+  EXPECT_EQ(deck.notes,
+            (std::vector<std::string>{
+                "Output1 > Output Variables > Damage is not written: there is no such field here; it would be 0 "
+                "everywhere, as bonds do not break",
+                "Output2 > Output Variables > Global_Kinetic_Energy goes into History: Kinetic_Energy",
+                "Output2 > Output Variables > Global_Angular_Momentum is not written: there is no such number here",
+                "Output2 > Output Variables > Highest_Stress goes into History: Max_Von_Mises_Stress(block_1)"}));
+}
+
+TEST(DeckOfPeridigm, KeysWithoutEffectAreTold) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(full_deck);
+  EXPECT_EQ(deck.notes, (std::vector<std::string>{
+                            "Verbose has no effect here: the program says what it does at all times",
+                            "Contact > Search Radius has no effect here: the program finds out when to search",
+                            "Contact > Search Frequency has no effect here: the program finds out when to search"}));
+}
+
+// Everything that is not here is named, in one error.
+TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
+  const DeckFolder folder;
+  std::string text = changed(small_deck, R"("Elastic Plastic Correspondence")", R"("Elastic")");
+  text = changed(
+      text, R"(<Parameter name="Yield Stress" type="double" value="50e6"/>)",
+      key("Apply Shear Correction Factor", "bool", "true") + key("Thermal Expansion Coefficient", "double", "1e-5"));
+  text = changed(text, horizon, horizon + key("Damage Model", "string", "crack"));
+  text = changed(text, R"(<Parameter name="Final Time" type="double" value="2e-4"/>)",
+                 key("Final Time", "double", "2e-4") + list("Implicit", key("Fixed dt", "double", "1.0")));
+  text = changed(text, R"(<Parameter name="Input Mesh File")",
+                 list("Bond Filters", "") + R"(<Parameter name="Input Mesh File")");
+  const std::string heat = list("heat", key("Type", "string", "Prescribed Temperature"));
+  text = changed(text, R"(<ParameterList name="Solver">)",
+                 list("Damage Models", "") + list("Boundary Conditions", heat) + output("Output1", "1", {"Velocity"}) +
+                     output("Output2", "1", {"Displacement"}) + R"(<ParameterList name="Solver">)");
+  const std::string error = folder.error(text);
+  EXPECT_TRUE(error.starts_with("deck.xml: 8 problems\n")) << error;
+  for (const std::string named :
+       {"Materials > copper > Apply Shear Correction Factor: 'true'; expected false: there is no correction of moduli "
+        "at "
+        "surfaces",
+        "Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no temperature",
+        "Output2: a second section with fields, after 'Output1'; there is one file of fields: put all into one of them",
+        "Discretization > Bond Filters: ", "Blocks > foam > Damage Model: reserved: not in this version",
+        "Boundary Conditions > heat > Type: 'Prescribed Temperature' (there is no temperature here)",
+        "Solver > Implicit: unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia",
+        "Damage Models: reserved: not in this version"}) {
+    EXPECT_NE(error.find("\n  " + named), std::string::npos) << named << "\nin " << error;
+  }
+}
+
+TEST(DeckOfPeridigm, OtherFormsOfADeckAreRefused) {
+  const DeckFolder folder;
+  for (const std::string text : {"Discretization\n   Type \"Exodus\"\n", "#{L=1}\n", "Peridigm:\n  Solver:\n"}) {
+    EXPECT_EQ(folder.error(text),
+              "deck.xml: 1 problem\n  XML: this is no XML; Peridigm's other forms of a deck (indented text with "
+              "aprepro's {…}, YAML) are not read: write it as <ParameterList>s");
+  }
+}
+
+}  // namespace
+}  // namespace strut::deck

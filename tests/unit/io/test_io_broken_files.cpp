@@ -1,0 +1,216 @@
+// Whatever a file holds, reading it gives one Error on all ranks that names the file: no crash, no hang.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/exodus/exodus_file.hpp"
+#include "unit/temporary_folder.hpp"
+
+namespace strut::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_bytes(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+
+std::string read_bytes(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The text of the Error, "" where there is none. Collective; the same on all ranks.
+template <class Action>
+std::string error_of(Action&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_error(const Communicator& world, const fs::path& file, const std::string& part) {
+  const std::string text = error_of([&] { read_exodus(file, world); });
+  EXPECT_NE(text.find(file.string()), std::string::npos) << text;
+  EXPECT_NE(text.find(part), std::string::npos) << "expected '" << part << "' in: " << text;
+}
+
+Mesh row_of_cubes(int count) {
+  Mesh mesh;
+  for (int i = 0; i <= count; ++i) {
+    for (const Vector& x : {Vector(i, 0, 0), Vector(i, 1, 0), Vector(i, 1, 1), Vector(i, 0, 1)})
+      mesh.nodes.push_back(x);
+  }
+  mesh.blocks.push_back({"row", "HEX8", {}, {}});
+  for (int i = 0; i < count; ++i) {
+    const int n = 4 * i;
+    for (const int corner : {0, 4, 5, 1, 3, 7, 6, 2}) mesh.blocks[0].nodes.push_back(n + corner);
+  }
+  mesh.node_sets.push_back({"start", {0, 1, 2, 3}});
+  return mesh;
+}
+
+class BrokenFile : public testing::Test {
+ protected:
+  const Communicator world;
+  const TemporaryFolder folder{world};
+
+  fs::path mesh_file(const Mesh& mesh) const {
+    run_on_root(world, [&] { write_mesh(folder / "mesh.g", mesh); });
+    return folder / "mesh.g";
+  }
+};
+
+TEST_F(BrokenFile, NoMeshAtAll) {
+  run_on_root(world, [&] {
+    write_bytes(folder / "empty.g", "");
+    write_bytes(folder / "text.g", "0 0 0 1 1e-9\n");
+    write_bytes(folder / "short.g", "CD");
+    write_bytes(folder / "hdf.g", "\x89HDF\r\n\x1a\n and nothing more");
+    fs::create_directory(folder / "folder.g");
+  });
+  expect_error(world, folder / "missing.g", "no such file");
+  expect_error(world, folder / "empty.g", "empty");
+  expect_error(world, folder / "text.g", "not an Exodus");
+  expect_error(world, folder / "short.g", "not an Exodus");
+  expect_error(world, folder / "hdf.g", "cannot open");
+  expect_error(world, folder / "folder.g", "directory");
+}
+
+TEST_F(BrokenFile, TruncatedAnywhere) {
+  const fs::path file = mesh_file(row_of_cubes(20));
+  const auto size = static_cast<std::size_t>(fs::file_size(file));
+  world.barrier();
+  for (std::size_t length = 4; length < size; length += 4 + size / 50) {
+    run_on_root(world, [&] { write_bytes(folder / "cut.g", read_bytes(file).substr(0, length)); });
+    expect_error(world, folder / "cut.g", "truncated");
+  }
+  run_on_root(world, [&] { write_bytes(folder / "cut.g", read_bytes(file).substr(0, size - 8)); });
+  expect_error(world, folder / "cut.g", "truncated");
+}
+
+TEST_F(BrokenFile, DamagedBytesNeverCrash) {
+  const fs::path file = mesh_file(row_of_cubes(3));
+  std::mt19937 random(3);
+  const std::string bytes = read_bytes(file);
+  for (int trial = 0; trial < 400; ++trial) {
+    std::string damaged = bytes;
+    for (int k = 0; k < 3; ++k) damaged[random() % bytes.size()] = static_cast<char>(random());
+    run_on_root(world, [&] { write_bytes(folder / "damaged.g", damaged); });
+    error_of([&] { read_exodus(folder / "damaged.g", world); });  // either way, but it comes back
+  }
+}
+
+// A count in the header, of nodes as of anything else, is compared with the file's size before memory is taken.
+TEST_F(BrokenFile, SmallFilesThatClaimToBeLarge) {
+  const fs::path file = mesh_file(row_of_cubes(3));
+  const std::string bytes = read_bytes(file), nodes = std::string("num_nodes") + std::string(3, '\0');
+  const std::size_t at = bytes.find(nodes);
+  ASSERT_NE(at, std::string::npos);
+  for (const char* const count : {"\x7f\xff\xff\xff", "\x10\x00\x00\x00", "\xff\xff\xff\xff"}) {
+    std::string damaged = bytes;
+    damaged.replace(at + nodes.size(), 4, std::string(count, 4));
+    run_on_root(world, [&] { write_bytes(folder / "large.g", damaged); });
+    EXPECT_NE(error_of([&] { read_exodus(folder / "large.g", world); }), "");
+  }
+  // Where no variable has the dimension, the walk through the header sees nothing wrong.
+  run_on_root(world, [&] {
+    const ExodusFile hollow = ExodusFile::create(folder / "hollow.g");
+    hollow.put_sizes("", {3, 8, 1'000'000'000, 1, 0});
+    hollow.put_blocks({{1, "one", "HEX8", 1, 8, {}}});
+  });
+  expect_error(world, folder / "hollow.g", "1000000000 elements, for which it is too small");
+}
+
+TEST_F(BrokenFile, ElementsThatCannotBePoints) {
+  Mesh mesh = row_of_cubes(3);
+  std::swap(mesh.nodes[8], mesh.nodes[4]);
+  std::swap(mesh.nodes[9], mesh.nodes[5]);
+  std::swap(mesh.nodes[10], mesh.nodes[6]);
+  std::swap(mesh.nodes[11], mesh.nodes[7]);
+  expect_error(world, mesh_file(mesh), "block 'row', element 2: volume -1");
+  mesh = row_of_cubes(1);
+  mesh.nodes[2][1] = std::nan("");
+  expect_error(world, mesh_file(mesh), "node 3");
+  mesh = row_of_cubes(1);
+  mesh.blocks[0].nodes.clear();
+  expect_error(world, mesh_file(mesh), "no elements");
+  mesh = row_of_cubes(1);
+  for (int k = 0; k < 65; ++k) mesh.node_sets.push_back({"set" + std::to_string(k), {0}});
+  expect_error(world, mesh_file(mesh), "66 node sets");
+}
+
+TEST_F(BrokenFile, UnknownElementType) {
+  run_on_root(world, [&] {
+    const ExodusFile file = ExodusFile::create(folder / "pyramid.g");
+    const ExodusFile::Block block = {1, "tips", "PYRAMID5", 1, 5, {}};
+    file.put_sizes("", {3, 5, 1, 1, 0});
+    file.put_blocks({block});
+    file.put_coordinates({std::vector<double>(5), std::vector<double>(5), std::vector<double>(5)});
+    file.put_connectivity(block, {1, 2, 3, 4, 5});
+  });
+  expect_error(world, folder / "pyramid.g", "PYRAMID5");
+}
+
+TEST_F(BrokenFile, TextNamesTheLine) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"0 0 0 1 1\n0 0 1\n", "line 2"},
+      {"0 0 0 1 1\n\n0 0 1 1 x\n", "line 3: 'x'"},
+      {"0 0 0 1.5 1\n", "'1.5' is not an integer"},
+      {"0 0 0 1 0\n", "not positive"},
+      {"0 nan 0 1 1\n", "'nan'"},
+      {"0 inf 0 1 1\n", "'inf'"},
+      {"0 1e999 0 1 1\n", "'1e999'"},
+      {"0 0 0 1 1 7\n", "found 6"},
+      {"# nothing\n", "no points"},
+      {"", "no points"},
+  };
+  for (const auto& [content, part] : cases) {
+    run_on_root(world, [&] { write_bytes(folder / "points.txt", content); });
+    const std::string text = error_of([&] { read_text(folder / "points.txt", world); });
+    EXPECT_NE(text.find(part), std::string::npos) << "expected '" << part << "' in: " << text;
+  }
+  EXPECT_NE(error_of([&] { read_text(folder / "missing.txt", world); }), "");
+  EXPECT_NE(error_of([&] { read_text(folder / "", world); }), "");
+}
+
+// A limit on the size of files stands in for a full disk.
+TEST_F(BrokenFile, FullDiskIsAnErrorAndEarlierFramesStay) {
+  PointCloud cloud;
+  cloud.block_names = {"block"};
+  for (int i = 0; i < 10000; ++i) {
+    cloud.ids.push_back(world.rank() * 10000 + i);
+    cloud.positions.emplace_back(i, 0, 0);
+  }
+  cloud.element_ids = cloud.ids;
+  cloud.volumes.assign(10000, 1);
+  cloud.blocks.assign(10000, 0);
+  cloud.sets.assign(10000, 0);
+  const std::vector<std::vector<double>> columns = {std::vector<double>(10000, 3)};
+  ExodusWriter writer(folder / "result.e", world, cloud, {{"Field", 1, true}});
+  writer.write(0, columns);
+
+  signal(SIGXFSZ, SIG_IGN);
+  rlimit before = {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit limit = {static_cast<rlim_t>(fs::file_size(folder / "result.e") + 10000), before.rlim_max};
+  world.barrier();
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const std::string text = error_of([&] { writer.write(1, columns); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_NE(text.find("result.e"), std::string::npos) << text;
+  EXPECT_NE(text.find("large"), std::string::npos) << text;
+  if (world.rank() != 0) return;
+  fs::copy_file(folder / "result.e", folder / "copy.e");
+  EXPECT_EQ(read_result(folder / "copy.e").times, std::vector<double>{0});
+}
+
+}  // namespace
+}  // namespace strut::io

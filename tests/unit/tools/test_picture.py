@@ -1,0 +1,235 @@
+#!/usr/bin/python3
+"""tools/picture, run as a user runs it, on small results that are written here: is what is seen where it should be, in the
+color that the scale gives to its value?"""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import matplotlib
+    import netCDF4
+    import numpy as np
+
+    matplotlib.use("Agg")
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
+sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
+from picture_parts import painter, surface, view  # noqa: E402
+from picture_parts.result import Result  # noqa: E402
+
+H = 1e-3  # m, the spacing
+
+
+def box(nx, ny, nz, origin=(0, 0, 0)):
+    """Centers of cubes."""
+    return (np.stack(np.meshgrid(range(nx), range(ny), range(nz), indexing="ij"), -1).reshape(-1, 3) + 0.5) * H + origin
+
+
+def write_result(path, blocks, displacement, elemental, times=(0, 1e-3), names="XYZ"):
+    """blocks: name -> places; displacement and each of elemental: frames x points (x 3), in the order of the blocks."""
+    file = netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_OFFSET")
+    places = np.concatenate(list(blocks.values()))
+    sizes = {"time_step": None, "num_nodes": len(places), "num_el_blk": len(blocks), "len_name": 64, "one": 1,
+             "num_att": 2, "num_nod_var": 3, "num_elem_var": len(elemental)}
+    for name, size in sizes.items():
+        file.createDimension(name, size)
+
+    def text(name, dimension, words):
+        file.createVariable(name, "S1", (dimension, "len_name"))[:] = np.array([list(w.ljust(64, "\0")) for w in words], "S1")
+
+    file.createVariable("time_whole", "f8", ("time_step",))[:] = times
+    text("eb_names", "num_el_blk", blocks)
+    text("name_nod_var", "num_nod_var", ["Displacement" + c for c in names])
+    text("name_elem_var", "num_elem_var", elemental)
+    for i, c in enumerate("xyz"):
+        file.createVariable("coord" + c, "f8", ("num_nodes",))[:] = places[:, i]
+        file.createVariable(f"vals_nod_var{i + 1}", "f8", ("time_step", "num_nodes"))[:] = displacement[..., i]
+    start = 0
+    for b, block in enumerate(blocks.values(), 1):
+        here, start = np.arange(start, start + len(block)), start + len(block)
+        file.createDimension(f"in{b}", len(block))
+        file.createVariable(f"connect{b}", "i4", (f"in{b}", "one"))[:] = here[:, None] + 1
+        file.createVariable(f"attrib{b}", "f8", (f"in{b}", "num_att"))[:] = [(0.62 * H, H**3)] * len(block)
+        for v, value in enumerate(elemental.values(), 1):
+            file.createVariable(f"vals_elem_var{v}eb{b}", "f8", ("time_step", f"in{b}"))[:] = value[:, here]
+    file.close()
+
+
+def hue(color):
+    """What light, which only multiplies, leaves as it is."""
+    color = np.asarray(color, float)[:3]
+    return color / np.linalg.norm(color)
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.keep.name)
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def picture(self, *words):
+        return subprocess.run([TOOLS / "picture", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+
+    def made(self, *words):
+        done = self.picture(*words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+
+    def error(self, *words):
+        """One line, and no trace of Python."""
+        done = self.picture(*words)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def image(self, name):
+        return matplotlib.image.imread(self.folder / name)[..., :3]
+
+    def bar(self, name="bar.e"):
+        """16 x 4 x 8 cubes; strain and stress differ between the quarters of the face; its right half moves up by 6 H."""
+        places = box(16, 4, 8)
+        right, upper = places[:, 0] > 8 * H, places[:, 2] > 4 * H
+        after = np.zeros((len(places), 3))
+        after[:, 2] = 6 * H * np.clip((places[:, 0] - 6 * H) / (4 * H), 0, 1)
+        strain = np.where(upper, np.where(right, 1.0, 0.6), np.where(right, 0.3, 0.0))
+        stress = np.where(upper, np.where(right, 2e7, 0.0), np.where(right, 1e8, 6e7))
+        both = [np.stack([0 * v, v]) for v in (strain, stress)]
+        write_result(self.folder / name, {"bar": places}, np.stack([0 * after, after]),
+                     {"Equivalent_Plastic_Strain": both[0], "Von_Mises_Stress": both[1]})
+        return places, after, dict(zip(("Equivalent_Plastic_Strain", "Von_Mises_Stress"), both))
+
+    def scene(self, name, **wanted):
+        return view.Scene(Result(str(self.folder / name)), view.Wanted(**wanted))
+
+    def test_a_known_point_has_the_color_of_its_value_where_it_moved_to(self):
+        places, after, values = self.bar()
+        self.made("bar.e", "bar.png", "--view", 0, -1, 0)
+        image, scene = self.image("bar.png"), self.scene("bar.e", view=(0, -1, 0))
+        _, _, panels = view.panels(scene.camera, 2, 2)
+        for (row, column), (left, top) in panels.items():
+            value = list(values.values())[row][column]
+            for x, z in ((2, 1), (2, 6), (13, 1), (13, 6)):
+                point = np.flatnonzero(np.all(np.abs(places - (np.array([x, 0, z]) + 0.5) * H) < 0.1 * H, axis=1))[0]
+                right, down = scene.camera.position(places[point] + column * after[point])
+                found = image[int(top + down), int(left + right)]
+                # 8 bits a channel, and the scale has 256 colors: 0.01. Other quarters' colors are 0.2 and more away.
+                expected = hue(view.SCALE(value[point] / np.max(list(values.values())[row])))
+                np.testing.assert_allclose(hue(found), expected, atol=0.02, err_msg=f"{row} {column} {x} {z}")
+                self.assertGreater(found.max(), 0.3)  # lit
+        # Where the right half was before, at its lower edge, there is nothing left.
+        left, top = panels[0, 1]
+        right, down = scene.camera.position(places[0] + [13 * H, 0, 0])
+        self.assertEqual(image[int(top + down), int(left + right)].tolist(), [1, 1, 1])
+
+    def test_the_picture_has_the_size_of_its_panels(self):
+        self.bar()
+        self.made("bar.e", "bar.png", "--variable", "Von_Mises_Stress", "--frames", 2)
+        scene = self.scene("bar.e", variables=["Von_Mises_Stress"])
+        width, height, _ = view.panels(scene.camera, 1, 2)
+        self.assertEqual(self.image("bar.png").shape[:2], (height, width))
+        self.assertLess(self.image("bar.png").mean(), 0.97)
+
+    def test_a_folder_gets_a_picture_per_variable_and_the_plots_of_the_history(self):
+        self.bar()
+        (self.folder / "bar.csv").write_text("Time,Kinetic_Energy,Plastic_Work,Balance_Error,Max_Displacement\n"
+                                             "0,1,0,0,0\n1e-3,0.5,0.5,1e-6,6e-3\n")
+        self.made("bar.e", "bar.csv", "out/")
+        self.assertEqual(sorted(os.listdir(self.folder / "out")),
+                         ["bar-Equivalent_Plastic_Strain.png", "bar-Von_Mises_Stress.png", "bar-energies.png",
+                          "bar-extremes.png"])
+        for name in os.listdir(self.folder / "out"):
+            self.assertGreater(self.image(f"out/{name}").std(), 0.02, name)
+
+    def test_the_cut_of_a_bar_and_histories_are_drawn(self):
+        self.bar()
+        (self.folder / "a.csv").write_text("Time,Kinetic_Energy,Balance_Error\n0,1,0\n1e-3,0.5,1e-6\n")
+        self.made("--cut", "bar.e", "cut.png")
+        self.made("a.csv", "energies.png")
+        self.made("--history", "a.csv", "a.csv", "both.pdf", "--column", "Kinetic_Energy")
+        self.assertGreater(self.image("cut.png").std(), 0.02)
+        self.assertGreater(self.image("energies.png").std(), 0.02)
+
+    def test_a_block_without_strain_is_grey_glass_and_not_in_the_scale(self):
+        foam, plate = box(6, 6, 6), box(6, 6, 2, (0, 0, 6 * H))
+        strain = np.concatenate([np.full(len(foam), 0.5), np.zeros(len(plate))])
+        stress = np.concatenate([np.full(len(foam), 1e8), np.full(len(plate), 9e8)])
+        still = np.zeros((2, len(strain), 3))
+        write_result(self.folder / "foam.e", {"foam": foam, "plate": plate}, still,
+                     {"Equivalent_Plastic_Strain": np.stack([0 * strain, strain]), "Von_Mises_Stress": np.stack([stress] * 2)})
+        front = {"view": (0, -1, 0), "frames": 1}
+        scene = self.scene("foam.e", **front)
+        self.assertEqual([row.high for row in scene.rows], [0.5, 1e8])
+        right, down = (int(p) for p in scene.camera.position([3 * H, 0, 7 * H]))
+        found = scene.image(scene.rows[1], 0)[down, right]
+        self.assertLess(found[3], 0.5)  # nothing behind, so that it is seen through
+        np.testing.assert_allclose(hue(found), hue(view.GREY), atol=1e-6)
+        solid = self.scene("foam.e", glass=[], **front)
+        np.testing.assert_allclose(solid.image(solid.rows[1], 0)[down, right, 3], 1)
+        self.assertEqual(solid.rows[1].high, 9e8)
+
+    def test_the_clip_shows_the_inside(self):
+        places = box(6, 6, 6)
+        inner = np.all(np.abs(places - 3 * H) < 1.2 * H, axis=1) * 1.0
+        write_result(self.folder / "core.e", {"body": places}, np.zeros((2, len(places), 3)), {"Core": np.stack([inner] * 2)})
+        for clip, expected in ((None, 0.0), ((1, 0.5), 1.0)):
+            scene = self.scene("core.e", view=(0, -1, 0), frames=1, clip=clip, variables=["Core"])
+            right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
+            np.testing.assert_allclose(hue(scene.image(scene.rows[0], 0)[down, right]), hue(view.SCALE(expected)), atol=1e-6)
+
+    def test_errors_are_one_line_that_helps(self):
+        self.bar()
+        self.assertIn("no variable 'Von_Mises_Stres' (did you mean 'Von_Mises_Stress'?)",
+                      self.error("bar.e", "a.png", "--variable", "Von_Mises_Stres"))
+        self.assertIn("it has Displacement, Equivalent_Plastic_Strain", self.error("bar.e", "a.png", "--variable", "Q"))
+        self.assertIn("nowhere.e does not exist", self.error("nowhere.e", "a.png"))
+        self.assertIn("no block 'plate'; it has bar", self.error("bar.e", "a.png", "--blocks", "plate"))
+        self.assertIn("times from 0 s to 0.001 s; found 5", self.error("bar.e", "a.png", "--times", 5))
+        self.assertIn("--clip takes", self.error("bar.e", "a.png", "--clip", "q", 0.5))
+        self.assertIn("ends in .png", self.error("bar.e", "a.bmp"))
+        (self.folder / "text.e").write_text("not a result")
+        self.assertIn("text.e is not an Exodus file", self.error("text.e", "a.png"))
+        write_result(self.folder / "mesh.e", {"bar": box(2, 2, 2)}, np.zeros((0, 8, 3)), {"S": np.zeros((0, 8))}, times=[])
+        self.assertIn("mesh.e is not a result: it has no nodes or no frames", self.error("mesh.e", "a.png"))
+        write_result(self.folder / "still.e", {"bar": box(2, 2, 2)}, np.zeros((1, 8, 3)), {"S": np.zeros((1, 8))}, [0], "ABC")
+        self.assertIn("still.e has no variable Displacement", self.error("still.e", "a.png", "--variable", "S"))
+        self.assertFalse((self.folder / "a.png").exists())
+
+
+class Surfaces(unittest.TestCase):
+    def test_a_box_has_the_faces_of_its_outside_only(self):
+        found = surface.surface_of(box(5, 4, 3), np.full(60, H**3), np.arange(60))
+        self.assertEqual(len(found.quads), 2 * (5 * 4 + 4 * 3 + 3 * 5))
+        self.assertEqual(len(found.corners), 6 * 5 * 4 - 4 * 3 * 2)  # all corners less those inside
+
+    def test_corners_stay_within_half_a_cube_of_the_lattice_and_move_with_the_points(self):
+        found = surface.surface_of(box(5, 4, 3), np.full(60, H**3), np.arange(60))
+        self.assertLessEqual(np.abs(found.corners - np.rint(found.corners / H) * H).max(), (0.5 + 1e-9) * H)
+        np.testing.assert_allclose(found.moved(np.full((60, 3), 0.7 * H)), found.corners + 0.7 * H, rtol=1e-12)
+
+    def test_points_off_a_lattice_are_cubes_by_themselves(self):
+        places = box(3, 3, 3) + np.random.default_rng(1).uniform(-0.3, 0.3, (27, 3)) * H
+        self.assertEqual(len(surface.surface_of(places, np.full(27, H**3), np.arange(27)).quads), 27 * 6)
+
+    def test_the_nearer_of_two_surfaces_is_seen_and_without_holes(self):
+        camera = painter.Camera((0.3, -1, 0.4))
+        both = surface.joined([surface.surface_of(box(20, 1, 20, (0, y * H, 0)), None, np.full(400, y)) for y in (5, 0)])
+        corners = camera.seen(both.corners)
+        camera.frame(corners.min(axis=0), corners.max(axis=0), 200, 200)
+        canvas = painter.canvas_of(corners, both.quads, camera)
+        front = painter.Camera.position(camera, [10 * H, 0, 10 * H])
+        seen = both.point[canvas.quad].reshape(canvas.shape)
+        column, row = (int(painter.FINER * p) for p in front)
+        self.assertTrue(np.all(seen[row - 60:row + 60, column - 60:column + 60] == 0))
+        self.assertTrue(np.all(canvas.quad.reshape(canvas.shape)[row - 60:row + 60, column - 60:column + 60] >= 0))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,708 @@
+#!/usr/bin/python3
+"""tools/voxels and tools/tetrahedra, run as a user runs them: images with known answers, every format, damaged files.
+STRUT_MESH names strut-mesh; STRUT_CT_FOAM the CT foam (default <repository>/../shared/data/ct-foam.pts.gz)."""
+import gzip
+import importlib.util
+import itertools
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SKIPPED = 77  # ctest's SKIP_RETURN_CODE
+MODULES = {"numpy": "python3-numpy", "scipy": "python3-scipy", "netCDF4": "python3-netcdf4",
+           "tifffile": "python3-tifffile", "vtkmodules": "python3-vtk9", "meshio": "python3-meshio",
+           "h5py": "python3-h5py"}
+missing = [package for module, package in MODULES.items() if importlib.util.find_spec(module) is None]
+if missing:
+    print("skipped: these Debian packages are not installed (tools/prepare installs them):", *missing)
+    sys.exit(SKIPPED)
+
+import meshio  # noqa: E402
+import netCDF4  # noqa: E402
+import numpy as np  # noqa: E402
+import tifffile  # noqa: E402
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+CT_FOAM = os.environ.get("STRUT_CT_FOAM", os.path.join(ROOT, "..", "shared", "data", "ct-foam.pts.gz"))
+
+
+class ToolTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        with open(self.path(name), "wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
+        return self.path(name)
+
+    def run_tool(self, tool, *words):
+        return subprocess.run([os.path.join(ROOT, "tools", tool), *map(str, words)], capture_output=True, text=True,
+                              timeout=120)
+
+    def works(self, tool, source, *words):
+        """What it prints by first words, and the mesh it writes."""
+        done = self.run_tool(tool, source, self.path("out.g"), *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+        return dict(line.split(None, 1) for line in done.stdout.splitlines()), mesh_of(self.path("out.g"))
+
+    def refused(self, tool, expected, source, *words):
+        """One line on stderr, exit status 1, and an older mesh is left as it is."""
+        self.write("old.g", "older")
+        done = self.run_tool(tool, source, self.path("old.g"), *words)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertRegex(done.stderr, f"^tools/{tool}: .*{expected}")
+        with open(self.path("old.g")) as file:
+            self.assertEqual(file.read(), "older")
+
+    def voxels(self, image, *words, edge=1e-3):
+        """image: (z, y, x), written as a TIFF file."""
+        tifffile.imwrite(self.path("image.tif"), np.asarray(image, image.dtype if image.dtype != bool else "u1"),
+                         photometric="minisblack")
+        scale = () if "--size" in words or "--voxel-size" in words else ("--voxel-size", edge)
+        return self.works("voxels", self.path("image.tif"), *scale, *words)
+
+
+class Mesh:
+    pass
+
+
+def names_of(file, variable):
+    return [b"".join(row).split(b"\0")[0].decode() for row in file.variables[variable][:]]
+
+
+def mesh_of(path):
+    mesh = Mesh()
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        mesh.nodes = np.stack([file.variables["coord" + c][:] for c in "xyz"], axis=1)
+        mesh.blocks = {name: file.variables[f"connect{i + 1}"][:] - 1
+                       for i, name in enumerate(names_of(file, "eb_names"))}
+        mesh.attributes = {name: file.variables[f"attrib{i + 1}"][:] for i, name in enumerate(mesh.blocks)
+                           if f"attrib{i + 1}" in file.variables}
+        sets = names_of(file, "ns_names") if "ns_names" in file.variables else []
+        mesh.sets = {name: file.variables[f"node_ns{i + 1}"][:] - 1 for i, name in enumerate(sets)}
+    return mesh
+
+
+def hexahedra_volumes(mesh, block="foam"):
+    """Signed; exact for boxes."""
+    corners = mesh.nodes[mesh.blocks[block]]
+    a, b, c = (corners[:, k] - corners[:, 0] for k in (1, 3, 4))
+    return np.einsum("ij,ij->i", np.cross(a, b), c)
+
+
+def first_number(text):
+    return float(re.search(r"[-\d.,]+(e-?\d+)?", text).group().replace(",", ""))
+
+
+def ball(n, radius):
+    z, y, x = np.indices((n, n, n)) - (n - 1) / 2
+    return x**2 + y**2 + z**2 < radius**2
+
+
+def box(shape, *ranges):
+    """ranges: of z, y, x"""
+    image = np.zeros(shape, "u1")
+    image[tuple(slice(*r) for r in ranges)] = 1
+    return image
+
+
+class KnownAnswers(ToolTest):
+    def test_a_ball_has_the_volume_of_a_ball_and_its_diameter(self):
+        said, mesh = self.voxels(ball(48, 20))
+        # Lattice points in a ball of radius r miss 4/3 pi r^3 by about r (the error of Gauss' problem, far below r^2).
+        points = len(mesh.blocks["foam"])
+        self.assertLess(abs(points - 4 / 3 * np.pi * 20**3), 20 * 4)
+        self.assertAlmostEqual(first_number(said["density"]), 100 * points / 48**3, places=3)
+        np.testing.assert_allclose(hexahedra_volumes(mesh), 1e-9, rtol=1e-9)  # coordinates to 1e-16 of 0.05, edges 1e-3
+        # One ridge, in the middle: the distance to the first void voxel, within a voxel of the radius on each side.
+        self.assertLess(abs(first_number(said["thickness"].split("largest")[1]) - 40), 2)
+        self.assertEqual(said["faces"], "touched: none")
+        self.assertEqual(mesh.sets, {})
+
+    def test_a_bar_has_its_thickness_and_touches_two_faces(self):
+        for thick in (4, 6, 10):  # an even number is exact, by the definition
+            said, mesh = self.voxels(box((12, 20, 30), (0, 12), (5, 5 + thick), (7, 7 + thick)))
+            self.assertEqual(first_number(said["thickness"].split("mean")[1]), thick)
+            self.assertEqual(said["faces"], "touched: zmin zmax")
+            self.assertEqual(set(mesh.sets), {"foam_zmin", "foam_zmax"})
+            self.assertEqual(len(mesh.sets["foam_zmin"]), (thick + 1)**2)
+            np.testing.assert_array_equal(mesh.nodes[mesh.sets["foam_zmin"], 2], 0)
+            np.testing.assert_allclose(mesh.nodes[mesh.sets["foam_zmax"], 2], 0.012)
+            self.assertEqual(len(mesh.blocks["foam"]), 12 * thick**2)
+            self.assertEqual(len(mesh.nodes), 13 * (thick + 1)**2)  # shared
+
+    def test_the_mean_thickness_of_slanted_cylinders_is_theirs(self):
+        place = np.indices((40, 40, 40)) - 19.7
+        for diameter, axis in itertools.product((5, 8), ((0.3, 0.5, 0.8), (0.7, 0.7, 0.1))):
+            axis = np.array(axis) / np.linalg.norm(axis)
+            radial = (place**2).sum(0) - np.tensordot(axis, place, 1)**2
+            said, _ = self.voxels(radial < (diameter / 2)**2)
+            # A distance between centers of voxels is known to a voxel, here at both sides of the ridge.
+            self.assertLess(abs(first_number(said["thickness"].split("mean")[1]) - diameter), 1)
+
+    def test_the_largest_of_two_pieces_is_kept_or_both(self):
+        image = box((8, 8, 20), (1, 5), (1, 5), (1, 9)) | box((8, 8, 20), (5, 7), (5, 7), (9, 12))  # meet at an edge
+        said, mesh = self.voxels(image)
+        self.assertEqual(len(mesh.blocks["foam"]), 4 * 4 * 8)
+        self.assertIn("2, the largest kept: 128 of 140", said["pieces"])
+        for pieces in (0, 2, 5):
+            _, mesh = self.voxels(image, "--pieces", pieces)
+            self.assertEqual(len(mesh.blocks["foam"]), 140)
+
+    def test_a_spur_is_reported_or_dropped_from_its_end(self):
+        image = box((9, 9, 20), (2, 7), (2, 7), (2, 7)) | box((9, 9, 20), (4, 5), (4, 5), (7, 15))
+        said, mesh = self.voxels(image)
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 8)
+        # The last has one neighbor, those before it two; the first stands on nine of the cube.
+        self.assertIn("7 voxels have fewer than 4", said["spurs"])
+        said, mesh = self.voxels(image, "--spurs", "drop")
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbors", 2)
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)  # one after the other, while the end has one neighbor
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbors", 1)
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 8)
+
+    def test_pieces_that_hung_on_a_spur_are_dropped_with_it(self):
+        image = box((9, 9, 30), (2, 7), (2, 7), (2, 7)) | box((9, 9, 30), (4, 5), (4, 5), (7, 20))
+        image |= box((9, 9, 30), (3, 6), (3, 6), (20, 23))
+        said, mesh = self.voxels(image, "--spurs", "drop")
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 1)  # the small cube is a piece of its own now
+        self.assertIn("more with what they held", said["spurs"])
+        _, mesh = self.voxels(image, "--spurs", "drop", "--min-neighbors", 2)
+        self.assertEqual(len(mesh.blocks["foam"]), 125 + 13 + 27)  # both its ends are held: none has fewer than two
+
+    def test_otsu_parts_two_gaussians_between_them(self):
+        rng = np.random.default_rng(1)
+        solid = ball(40, 12)
+        levels = {"u1": (60, 180, 12), "u2": (9000, 30000, 2000), "f4": (-0.2, 1.0, 0.1)}
+        for kind, (low, high, width) in levels.items():
+            image = (rng.normal(0, width, solid.shape) + np.where(solid, high, low)).astype(kind)
+            said, mesh = self.voxels(image)
+            threshold = first_number(said["threshold"])
+            # Five standard deviations from both: of 64,000 voxels less than one is expected on the wrong side.
+            self.assertLess(low + 4.5 * width, threshold)
+            self.assertLess(threshold, high - 4.5 * width)
+            self.assertEqual(len(mesh.blocks["foam"]), solid.sum())
+            _, mesh = self.voxels(image, "--invert", "--pieces", 0)
+            self.assertEqual(len(mesh.blocks["foam"]), (~solid).sum())
+
+    def test_a_threshold_is_what_solid_is_larger_than(self):
+        image = np.arange(64, dtype="u1").reshape(4, 4, 4)
+        self.assertEqual(len(self.voxels(image, "--threshold", 31)[1].blocks["foam"]), 32)
+        self.assertEqual(len(self.voxels(image, "--threshold", 31.5)[1].blocks["foam"]), 32)
+        self.assertEqual(len(self.voxels(image, "--threshold", 31, "--invert")[1].blocks["foam"]), 32)
+
+    def test_crop_coarsen_and_refine_keep_counts(self):
+        image = box((20, 20, 20), (4, 16), (4, 16), (4, 16))
+        _, mesh = self.voxels(image, "--crop", 0.5, 1, 0, 1, 0, 0.25)
+        self.assertEqual(len(mesh.blocks["foam"]), 6 * 12 * 1)
+        self.assertEqual(set(mesh.sets), {"foam_xmin", "foam_zmax"})
+        _, mesh = self.voxels(image, "--coarsen", 2)
+        self.assertEqual(len(mesh.blocks["foam"]), 6**3)
+        np.testing.assert_allclose(hexahedra_volumes(mesh).sum(), 12**3 * 1e-9, rtol=1e-9)
+        said, mesh = self.voxels(image, "--refine", 3)
+        self.assertEqual(len(mesh.blocks["foam"]), 36**3)
+        np.testing.assert_allclose(hexahedra_volumes(mesh).sum(), 12**3 * 1e-9, rtol=1e-9)
+        # 20 = 2 * 7 + 6: the lower two cells of 7 hold layers 0-6 and 7-13, the solid 3/7 and all of them.
+        said, mesh = self.voxels(image, "--coarsen", 7)
+        self.assertEqual(said["cut"].split()[1:4], ["6", "x", "6"])
+        self.assertEqual(len(mesh.blocks["foam"]), 1)
+
+    def test_coarsening_counts_half_as_solid(self):
+        image = box((4, 4, 4), (0, 1), (0, 4), (0, 4))
+        self.assertEqual(len(self.voxels(image, "--coarsen", 2)[1].blocks["foam"]), 4)
+        image[0, 0, 0] = 0  # one of eight less than half
+        self.assertEqual(len(self.voxels(image, "--coarsen", 2)[1].blocks["foam"]), 3)
+
+    def test_spacing_makes_cubes_of_anisotropic_voxels(self):
+        image = box((10, 20, 40), (2, 8), (4, 16), (8, 32))
+        _, mesh = self.voxels(image, "--voxel-size", 1e-3, 2e-3, 4e-3, "--spacing", 1e-3)
+        self.assertEqual(len(mesh.blocks["foam"]), 24 * 24 * 24)
+        np.testing.assert_allclose(hexahedra_volumes(mesh), 1e-9, rtol=1e-9)
+        np.testing.assert_allclose(np.ptp(mesh.nodes, axis=0), 0.024)
+
+    def test_sizes_and_origin_place_the_box(self):
+        image = box((10, 20, 40), (0, 10), (0, 20), (0, 39))
+        _, mesh = self.voxels(image, "--size", 0.4)
+        np.testing.assert_allclose(np.ptp(mesh.nodes, axis=0), (0.39, 0.2, 0.1))
+        _, mesh = self.voxels(image, "--size", 0.4, 0.4, 0.4, "--origin", "-1e-1", 2, "-3")
+        np.testing.assert_allclose(mesh.nodes.min(axis=0), (-0.1, 2, -3))
+        np.testing.assert_allclose(np.ptp(mesh.nodes, axis=0), (0.39, 0.4, 0.4))
+
+    def test_spheres_have_the_volumes_of_hexahedra_and_stand_in_their_middles(self):
+        image = box((6, 7, 9), (0, 3), (1, 5), (2, 9))
+        size = ("--voxel-size", 1e-3, 2e-3, 3e-3)
+        _, hexes = self.voxels(image, *size)
+        _, spheres = self.voxels(image, *size, "--elements", "sphere", "--block", "strut")
+        np.testing.assert_allclose(spheres.attributes["strut"][:, 1], 6e-9)
+        np.testing.assert_allclose(hexahedra_volumes(hexes), 6e-9, rtol=1e-9)
+        middles = hexes.nodes[hexes.blocks["foam"]].mean(axis=1)
+        np.testing.assert_allclose(spheres.nodes[spheres.blocks["strut"][:, 0]], middles, atol=1e-15)
+        self.assertEqual(set(spheres.sets), {"strut_xmax", "strut_zmin"})
+        self.assertEqual(len(spheres.sets["strut_zmin"]), 4 * 7)
+        np.testing.assert_allclose(spheres.nodes[spheres.sets["strut_xmax"], 0], 8.5e-3)
+
+    def test_points_are_found_on_their_lattice(self):
+        z, y, x = np.nonzero(ball(12, 5))
+        lines = "".join(f"{1 + 0.1 * a:.6g} {0.2 * b:.6g} {-1 / 3 * c:.6g}\n" for a, b, c in zip(x, y, z))
+        for name, content in {"a.pts": lines, "a.pts.gz": gzip.compress(lines.encode())}.items():
+            said, mesh = self.works("voxels", self.write(name, content))
+            self.assertEqual(len(mesh.blocks["foam"]), len(x))
+            # Six digits of numbers up to 4 on ten places: 1e-6 of a spacing and less.
+            np.testing.assert_allclose(hexahedra_volumes(mesh), 0.1 * 0.2 / 3, rtol=1e-5)
+            self.assertEqual(said["faces"], "touched: xmin xmax ymin ymax zmin zmax")
+
+
+class Cells(ToolTest):
+    """--cells: columns of the attributes are volume, centroid, moments (xx yy zz xy yz zx), surface."""
+
+    def cells(self, image, *words):
+        said, mesh = self.voxels(image, *words)
+        return said, mesh, mesh.attributes["foam"]
+
+    def test_a_cube_that_is_off_the_cells_keeps_its_moments(self):
+        image = box((9, 9, 9), (1, 6), (2, 6), (3, 8))
+        edge = np.array([1e-3, 2e-3, 3e-3])
+        said, mesh, cells = self.cells(image, "--cells", 3, "--voxel-size", *edge, "--origin", 1, 2, 3)
+        places = (np.stack(np.nonzero(image)[::-1], axis=1) + 0.5) * edge + (1, 2, 3)
+        volume, center = cells[:, 0], cells[:, 1:4]
+        self.assertGreaterEqual(volume.min(), 0.3 * 27 * 6e-9)
+        np.testing.assert_allclose(volume.sum(), 100 * 6e-9, rtol=1e-12)
+        np.testing.assert_allclose(volume @ center / volume.sum(), places.mean(axis=0), rtol=1e-12)
+        second = volume @ (cells[:, 4:7] + (center - places.mean(axis=0))**2) / volume.sum()
+        np.testing.assert_allclose(second, (np.array([5, 4, 5]) * edge)**2 / 12, rtol=1e-9)  # of a box
+        np.testing.assert_allclose(cells[:, 10:13].sum(axis=0), 0, atol=1e-15)
+        np.testing.assert_allclose(hexahedra_volumes(mesh), 27 * 6e-9, rtol=1e-9)
+        self.assertEqual(set(mesh.sets), {"foam_xmax", "foam_ymin", "foam_zmin"})
+
+    def test_small_cells_are_kept_where_none_is_too_small(self):
+        image = box((8, 12, 8), (0, 8), (0, 9), (0, 8))
+        self.assertEqual(len(self.cells(image, "--cells", 4)[2]), 8)  # a quarter of a cell is merged
+        self.assertEqual(len(self.cells(image, "--cells", 4, "--smallest-cell", 0.2)[2]), 12)
+
+    def test_a_plate_one_cell_thick_gets_two_layers(self):
+        said, mesh, cells = self.cells(box((8, 8, 8), (0, 8), (0, 4), (0, 8)), "--cells", 4)
+        self.assertIn("4 cut in two layers", said["cells"])
+        self.assertEqual(len(cells), 8)
+        np.testing.assert_allclose(np.unique(cells[:, 2] / np.ptp(cells[:, 2])), (0.5, 1.5))
+
+    def test_grey_voxels_are_solid_in_part(self):
+        image = np.full((12, 12, 12), 50, "u1")
+        image[3:9, 3:9, 3:9] = 250
+        image[9, 3:9, 3:9] = 100  # a quarter
+        image[0, 0, 0] = 240  # apart, and dropped
+        for words in (("--grey", 50, 250), ("--grey", 50, 250, "--threshold", 180)):
+            said, mesh, cells = self.cells(image, "--cells", 1, *words)
+            np.testing.assert_allclose(cells[:, 0].sum(), (216 + 9) * 1e-9, rtol=1e-6)  # parts in single precision
+            self.assertEqual(len(cells), 216)  # the quarters are less than 0.3
+            np.testing.assert_allclose(cells[:, 3].max(), (0.5 * 1 + 0.25 * 1.5) / 1.25 * 1e-3 + 8e-3, rtol=1e-6)
+            np.testing.assert_allclose(cells[:, 10:13].sum(axis=0), 0, atol=1e-12)
+        said, mesh, cells = self.cells(image, "--cells", 3, "--grey")
+        self.assertIn("void 51", said["levels"])  # 36 of 1511 void voxels have 100
+        self.assertEqual(len(cells), 8)
+
+    def test_wrong_cells(self):
+        tifffile.imwrite(self.path("a.tif"), box((4, 4, 4), (0, 2), (0, 4), (0, 4)), photometric="minisblack")
+        for words, expected in ((("--cells", 1), "from 2 to 16"), (("--cells", 17), "from 2 to 16"),
+                                (("--cells", 2.5), "1 whole number"),
+                                (("--smallest-cell", 0.2), "needs --cells"), (("--grey",), "--grey needs --cells"),
+                                (("--cells", 2, "--smallest-cell", 1), "from 0 to 0.9"),
+                                (("--cells", 2, "--elements", "sphere"), "leave out --elements"),
+                                (("--cells", 2, "--grey", 1), "no or 2 numbers"),
+                                (("--cells", 2, "--grey", 1, 1), "two different values"),
+                                (("--cells", 2, "--grey", "--coarsen", 2), "leave out --coarsen"),
+                                (("--cells", 2, "--grey"), "has two values")):
+            self.refused("voxels", expected, self.path("a.tif"), "--voxel-size", 1e-3, *words)
+
+
+class CtFoam(ToolTest):
+    @unittest.skipUnless(os.path.exists(CT_FOAM), f"the CT foam is not there: {CT_FOAM}")
+    def test_the_ct_foam_is_what_is_known_of_it(self):
+        said, mesh = self.works("voxels", CT_FOAM, "--size", 2.5e-3)
+        self.assertIn("204 x 204 x 160 voxels", said["image"])
+        self.assertIn("0.00098039 x 0.00098039 x 0.00125", said["image"])
+        self.assertIn("3, the largest kept: 379,485 of 380,892", said["pieces"])
+        self.assertEqual(said["faces"], "touched: xmin xmax ymin ymax zmin zmax")
+        self.assertEqual(len(mesh.blocks["foam"]), 379485)
+        np.testing.assert_allclose(np.ptp(mesh.nodes, axis=0), 2.5e-3, rtol=1e-5)  # text of six digits
+        said, mesh = self.works("voxels", CT_FOAM, "--pieces", 0, "--elements", "sphere")
+        self.assertEqual(said["density"], "5.720 % of the box")
+        self.assertEqual(len(mesh.sets), 6)
+
+
+# Formats
+
+
+def vtk_image(values, spacing):
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+    from vtkmodules.vtkCommonDataModel import vtkImageData
+
+    image = vtkImageData()
+    image.SetDimensions(*values.shape[::-1])
+    image.SetSpacing(*spacing)
+    array = numpy_to_vtk(np.ascontiguousarray(values).ravel(), deep=True)
+    array.SetName("grey")
+    image.GetPointData().SetScalars(array)
+    return image
+
+
+def written(writer, path, image, **words):
+    writer.SetFileName(path)
+    for name, value in words.items():
+        getattr(writer, name)(value)
+    writer.SetInputData(image)
+    writer.Write()
+    return path
+
+
+def nrrd(values, encoding="raw"):
+    kinds = {"uint8": "uint8", "uint16": "uint16", "float32": "float"}
+    sizes = " ".join(map(str, values.shape[::-1]))
+    header = (f"NRRD0004\ntype: {kinds[values.dtype.name]}\ndimension: 3\nsizes: {sizes}\nspacings: 0.001 0.002 0.003\n"
+              f"endian: little\nencoding: {encoding}\n\n")
+    data = values.tobytes()
+    return header.encode() + (gzip.compress(data) if encoding == "gzip" else data)
+
+
+class Formats(ToolTest):
+    spacing = (1e-3, 2e-3, 3e-3)
+
+    def setUp(self):
+        super().setUp()
+        # No symmetry: an axis that is exchanged or turned round is seen.
+        self.image = np.zeros((8, 10, 12), "u1")
+        self.image[1:4, 2:5, 0:9] = 200
+        self.image[1:2, 2:9, 3:5] = 180
+        self.image[5, 5, 5] = 7
+
+    def middles(self, spacing):
+        return (np.stack(np.nonzero(self.image > 100)[::-1], axis=1) + 0.5) * spacing
+
+    def check(self, path, *words, spacing=None):
+        _, mesh = self.works("voxels", path, "--elements", "sphere", *words)
+        expected = self.middles(spacing or self.spacing)
+        np.testing.assert_allclose(mesh.nodes, expected, rtol=1e-6)  # spacings are written with six digits or more
+
+    def test_nrrd(self):
+        for kind, encoding in itertools.product(("u1", "u2", "f4"), ("raw", "gzip")):
+            self.check(self.write("a.nrrd", nrrd(self.image.astype(kind), encoding)))
+
+    def test_nrrd_with_detached_data(self):
+        head, data = nrrd(self.image, "gzip").split(b"\n\n", 1)
+        self.write("a.raw.gz", data)
+        self.check(self.write("a.nhdr", head + b"\ndata file: a.raw.gz\n"))
+
+    def test_raw(self):
+        for kind in ("uint8", "uint16", "float32"):
+            path = self.write("a.raw", self.image.astype(kind).tobytes())
+            self.check(path, "--shape", 12, 10, 8, "--type", kind, "--voxel-size", *self.spacing)
+
+    def test_tiff_of_many_pages(self):
+        for kind, words in itertools.product(("u1", "u2", "f4"), ({}, {"compression": "zlib"}, {"imagej": True})):
+            tifffile.imwrite(self.path("a.tif"), self.image.astype(kind), **words)
+            self.check(self.path("a.tif"), "--voxel-size", *self.spacing)
+
+    @unittest.skipUnless(importlib.util.find_spec("PIL"), "python3-pil is not there, which writes LZW")
+    def test_tiff_with_lzw(self):
+        from PIL import Image
+
+        pages = [Image.fromarray(page) for page in self.image]
+        pages[0].save(self.path("a.tif"), save_all=True, append_images=pages[1:], compression="tiff_lzw")
+        self.check(self.path("a.tif"), "--voxel-size", *self.spacing)
+        os.mkdir(self.path("slices"))
+        for z, page in enumerate(pages):
+            page.save(self.path(f"slices/{z}.tif"), compression="tiff_lzw")
+        self.check(self.path("slices"), "--voxel-size", *self.spacing)
+
+    def test_tiff_slices_in_a_folder_and_by_pattern(self):
+        os.mkdir(self.path("slices"))
+        for z, page in enumerate(np.concatenate([self.image, np.zeros((4, 10, 12), "u1")])):
+            tifffile.imwrite(self.path(f"slices/s{z}.tif"), page)  # s10 comes after s9
+        self.check(self.path("slices"), "--voxel-size", *self.spacing)
+        self.check(self.path("slices/s*.tif"), "--voxel-size", *self.spacing)
+
+    def test_vtk(self):
+        from vtkmodules.vtkIOImage import vtkMetaImageWriter
+        from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
+        from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+        for kind in ("u1", "u2", "f4"):
+            image = vtk_image(self.image.astype(kind), self.spacing)
+            for mode in ("SetDataModeToAscii", "SetDataModeToBinary", "SetDataModeToAppended"):
+                writer = vtkXMLImageDataWriter()
+                getattr(writer, mode)()
+                self.check(written(writer, self.path("a.vti"), image))
+            self.check(written(vtkStructuredPointsWriter(), self.path("a.vtk"), image, SetFileType=1))
+            self.check(written(vtkStructuredPointsWriter(), self.path("b.vtk"), image, SetFileType=2))
+            self.check(written(vtkMetaImageWriter(), self.path("a.mha"), image))
+            self.check(written(vtkMetaImageWriter(), self.path("a.mhd"), image, SetRAWFileName=self.path("a.raw")))
+
+    def test_voxels_as_cells_of_a_vtk_image(self):
+        from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+        image = vtk_image(self.image, self.spacing)
+        array = image.GetPointData().GetScalars()
+        image.GetPointData().Initialize()
+        image.SetDimensions(13, 11, 9)
+        image.GetCellData().SetScalars(array)
+        self.check(written(vtkXMLImageDataWriter(), self.path("a.vti"), image))
+
+
+class Damaged(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.image = box((10, 12, 14), (2, 8), (3, 9), (0, 9))
+
+    def cut_off(self, path):
+        with open(path, "rb") as file:
+            whole = file.read()
+        for part in (0.02, 0.3, 0.6, 0.95):
+            with open(path, "wb") as file:
+                file.write(whole[:int(part * len(whole))])
+            self.refused("voxels", "damaged|cannot be read|not a TIFF", path, "--size", 1)
+
+    def test_files_that_are_cut_off(self):
+        from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
+        from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+        tifffile.imwrite(self.path("a.tif"), self.image)
+        tifffile.imwrite(self.path("z.tif"), self.image, compression="zlib")
+        self.write("a.nrrd", nrrd(self.image))
+        self.write("z.nrrd", nrrd(np.random.default_rng(1).integers(0, 255, self.image.shape, "u1"), "gzip"))
+        image = vtk_image(self.image, (1, 1, 1))
+        written(vtkStructuredPointsWriter(), self.path("a.vtk"), image, SetFileType=2)
+        written(vtkXMLImageDataWriter(), self.path("a.vti"), image)
+        for name in ("a.tif", "z.tif", "a.nrrd", "z.nrrd", "a.vtk", "a.vti"):
+            with self.subTest(name):
+                self.cut_off(self.path(name))
+
+    def test_files_of_something_else(self):
+        for ending in ("nrrd", "tif", "vti", "vtk", "mhd", "pts", "pts.gz"):
+            with self.subTest(ending):
+                self.refused("voxels", "empty", self.write(f"empty.{ending}", ""), "--size", 1)
+                self.refused("voxels", "", self.write(f"text.{ending}", "this is no image\n"), "--size", 1)
+                self.refused("voxels", "", self.write(f"bytes.{ending}", bytes(range(256)) * 9), "--size", 1)
+        self.refused("voxels", "did you mean '.nrrd'", self.write("a.nrd", "x"))
+        self.refused("voxels", "does not exist", self.path("none.tif"))
+        self.refused("voxels", "no TIFF images", self.path("none*.tif"))
+        os.mkdir(self.path("folder.pts"))
+        self.refused("voxels", "no TIFF images", self.path("folder.pts"))
+
+    def test_raw_files_of_another_size(self):
+        path = self.write("a.raw", bytes(999))
+        self.refused("voxels", "999 bytes, expected 1000", path, "--shape", 10, 10, 10, "--type", "uint8", "--size", 1)
+        self.refused("voxels", "both --shape and --type", path, "--shape", 10, 10, 10)
+
+    def test_slices_that_do_not_match(self):
+        os.mkdir(self.path("s"))
+        tifffile.imwrite(self.path("s/1.tif"), self.image[0])
+        tifffile.imwrite(self.path("s/2.tif"), self.image[0][:5])
+        self.refused("voxels", "2.tif has 14 x 5 x 1", self.path("s"), "--size", 1)
+        tifffile.imwrite(self.path("c.tif"), np.zeros((5, 6, 3), "u1"), photometric="rgb")
+        self.refused("voxels", "colors", self.path("c.tif"), "--size", 1)
+
+    def test_points_that_are_none(self):
+        for expected, text in {"not a list": "0 0 0\n1 1 x\n", "not finite": "0 0 0\n0 nan 1\n",
+                               "2 numbers a line": "0 0\n1 1\n", "no points": "# nothing\n",
+                               "same place": "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0\n", "one point": "1 2 3\n",
+                               "changed|not a list": "0 0 0\n1 1\n"}.items():
+            self.refused("voxels", expected, self.write("a.pts", text))
+        grid = list(itertools.product(range(5), repeat=3))
+        off = "".join(f"{x} {y + 0.3 * (i == 31)} {z}\n" for i, (x, y, z) in enumerate(grid))
+        self.refused("voxels", "point 32 .*off", self.write("a.pts", off))
+        scattered = "".join("{} {} {}\n".format(*p) for p in np.random.default_rng(1).random((200, 3)))
+        self.refused("voxels", "not on a lattice", self.write("a.pts", scattered))
+        self.refused("voxels", "", self.write("a.pts.gz", gzip.compress(b"0 0 0\n1 1 1\n" * 99)[:-12]))
+
+    def test_images_without_solid_or_void(self):
+        for value in (0, 1):
+            tifffile.imwrite(self.path("a.tif"), np.full((5, 6, 7), value, "u1"))
+            self.refused("voxels", f"all voxels have the value {value}", self.path("a.tif"), "--size", 1)
+        tifffile.imwrite(self.path("a.tif"), np.arange(125, dtype="u1").reshape(5, 5, 5) + 5)
+        self.refused("voxels", "every voxel is solid", self.path("a.tif"), "--size", 1, "--threshold", 4)
+        self.refused("voxels", "every voxel is void", self.path("a.tif"), "--size", 1, "--threshold", 200)
+        tifffile.imwrite(self.path("a.tif"), np.where(self.image, np.nan, 0).astype("f4"))
+        self.refused("voxels", "not finite", self.path("a.tif"), "--size", 1)
+
+    def test_options_that_are_wrong(self):
+        tifffile.imwrite(self.path("a.tif"), self.image)
+        path = self.path("a.tif")
+        self.refused("voxels", "no spacing", path)
+        self.refused("voxels", "did you mean '--coarsen'", path, "--coarse", 2)
+        self.refused("voxels", "exclude", path, "--size", 1, "--coarsen", 2, "--refine", 2)
+        self.refused("voxels", "exclude", path, "--size", 1, "--otsu", "--threshold", 2)
+        self.refused("voxels", "expected 1 or 3 numbers", path, "--size", 1, 2)
+        self.refused("voxels", "> 0", path, "--size", 0)
+        self.refused("voxels", "whole number", path, "--size", 1, "--coarsen", 1.5)
+        self.refused("voxels", "no voxel in x", path, "--size", 1, "--crop", 0.5, 0.5, 0, 1, 0, 1)
+        self.refused("voxels", "no solid voxel", path, "--size", 1, "--crop", 0.9, 1, 0, 1, 0, 1)
+        self.refused("voxels", "leaves nothing", path, "--size", 1, "--spurs", "drop", "--min-neighbors", 26)
+        done = self.run_tool("voxels", path, self.path("none/out.g"), "--size", 1)
+        self.assertEqual((done.returncode, len(done.stderr.splitlines())), (1, 1))
+        self.assertIn("no folder", done.stderr)
+
+
+# Tetrahedra
+
+
+def cube_of_tetrahedra(n):
+    """The unit cube, six tetrahedra a cell, every second one inverted; and triangles of the face x = 0."""
+    points = np.array(list(itertools.product(range(n + 1), repeat=3)), float) / n
+    place = lambda cell: np.ravel_multi_index(cell, (n + 1,) * 3)
+    tetrahedra, triangles = [], []
+    for cell in itertools.product(range(n), repeat=3):
+        for order in itertools.permutations(range(3)):
+            corner = list(cell)
+            nodes = [place(corner)]
+            for axis in order:
+                corner[axis] += 1
+                nodes.append(place(corner))
+            tetrahedra.append(nodes)
+    for y, z in itertools.product(range(n), repeat=2):
+        triangles.append([place((0, y, z)), place((0, y + 1, z)), place((0, y + 1, z + 1))])
+        triangles.append([place((0, y, z)), place((0, y, z + 1)), place((0, y + 1, z + 1))])
+    return points, np.array(tetrahedra), np.array(triangles)
+
+
+# Two tetrahedra as gmsh 4 writes them: volumes 1 and 2, of the groups "strut" and "rest", and a surface "foot".
+GMSH_4 = """$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+2 5 "foot"
+3 1 "strut one"
+3 2 "rest"
+$EndPhysicalNames
+$Entities
+0 0 1 2
+1 0 0 0 1 1 0 1 5 0
+1 0 0 0 1 1 1 1 1 0
+2 0 0 0 2 2 2 1 2 0
+$EndEntities
+$Nodes
+1 5 1 5
+3 1 0 5
+1
+2
+3
+4
+5
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+1 1 1
+$EndNodes
+$Elements
+3 3 1 3
+2 1 2 1
+1 1 2 3
+3 1 4 1
+2 1 2 3 4
+3 2 4 1
+3 2 3 4 5
+$EndElements
+"""
+
+
+class Tetrahedra(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.points, self.nodes, self.triangles = cube_of_tetrahedra(3)
+        self.left = self.points[self.nodes][:, :, 0].mean(axis=1) < 1 / 3
+        # A node that no tetrahedron has.
+        self.points = np.concatenate([self.points, [[7, 7, 7]]])
+
+    def mesh(self, **words):
+        return meshio.Mesh(self.points, [("tetra", self.nodes[self.left]), ("tetra", self.nodes[~self.left]),
+                                         ("triangle", self.triangles)], **words)
+
+    def groups(self, name):
+        return {name: [np.full(self.left.sum(), 1), np.full((~self.left).sum(), 2), np.full(len(self.triangles), 7)]}
+
+    def check(self, path, blocks, foot, scale=1e-3):
+        said, mesh = self.works("tetrahedra", path, "--scale", scale)
+        self.assertEqual([len(b) for b in mesh.blocks.values()], [54, 108])
+        self.assertEqual(list(mesh.blocks), blocks)
+        self.assertEqual(len(mesh.nodes), 64)
+        volumes = [volume for nodes in mesh.blocks.values() for volume in tetrahedra_volumes(mesh.nodes, nodes)]
+        np.testing.assert_allclose(volumes, scale**3 / 27 / 6, rtol=1e-9)  # none inverted; text of 16 digits
+        self.assertIn("81 tetrahedra", said["turned"])
+        self.assertEqual(list(mesh.sets), [foot])
+        self.assertEqual(len(mesh.sets[foot]), 16)
+        np.testing.assert_array_equal(mesh.nodes[mesh.sets[foot], 0], 0)
+
+    def test_gmsh_2(self):
+        mesh = self.mesh(cell_data={**self.groups("gmsh:physical"), **self.groups("gmsh:geometrical")},
+                         field_data={"left part": np.array([1, 3]), "foot": np.array([7, 2])})
+        mesh.write(self.path("a.msh"), file_format="gmsh22")
+        self.check(self.path("a.msh"), ["left_part", "block_2"], "foot")
+
+    def test_gmsh_4(self):
+        _, mesh = self.works("tetrahedra", self.write("a.msh", GMSH_4))
+        self.assertEqual(list(mesh.blocks), ["strut_one", "rest"])
+        np.testing.assert_array_equal(mesh.sets["foot"], [0, 1, 2])
+        np.testing.assert_allclose(tetrahedra_volumes(mesh.nodes, mesh.blocks["rest"]), 1 / 3)
+
+    def test_formats_with_numbers(self):
+        for name, key in {"a.vtu": "CellEntityIds", "a.vtk": "CellEntityIds", "a.mesh": "medit:ref"}.items():
+            with self.subTest(name):
+                self.mesh(cell_data=self.groups(key)).write(self.path(name))
+                self.check(self.path(name), ["block_1", "block_2"], "set_7")
+
+    def test_med(self):
+        tags = np.where(self.left, -1, -2)
+        mesh = meshio.Mesh(self.points, [("tetra", self.nodes), ("triangle", self.triangles)],
+                           cell_data={"cell_tags": [tags, np.full(len(self.triangles), -7)]})
+        mesh.cell_tags = {-1: ["left"], -2: ["right"], -7: ["foot"]}
+        mesh.write(self.path("a.med"))
+        self.check(self.path("a.med"), ["left", "right"], "foot")
+
+    def test_abaqus(self):
+        none = np.array([], int)
+        self.mesh(cell_sets={"LEFT": [np.arange(54), none, none], "ALL": [np.arange(54), np.arange(108), none]},
+                  point_sets={"FOOT": np.unique(self.triangles)}).write(self.path("a.inp"))
+        self.check(self.path("a.inp"), ["LEFT", "ALL"], "FOOT")
+
+    def test_names_of_blocks_are_given(self):
+        self.mesh(cell_data=self.groups("medit:ref")).write(self.path("a.mesh"))
+        _, mesh = self.works("tetrahedra", self.path("a.mesh"), "--block-names", "strut", "rest")
+        self.assertEqual(list(mesh.blocks), ["strut", "rest"])
+        self.refused("tetrahedra", "expected 2 different names", self.path("a.mesh"), "--block-names", "one")
+
+    def test_wrong_meshes(self):
+        meshio.Mesh(self.points, [("triangle", self.triangles)]).write(self.path("a.vtu"))
+        self.refused("tetrahedra", "no tetrahedra; it has 18 triangle", self.path("a.vtu"))
+        flat = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
+        meshio.Mesh(flat, [("tetra", [[0, 1, 2, 3]])]).write(self.path("a.vtk"))
+        self.refused("tetrahedra", "1 tetrahedra have no volume", self.path("a.vtk"))
+        self.refused("tetrahedra", "does not exist", self.path("none.msh"))
+        self.refused("tetrahedra", "folder", self.folder)
+        self.refused("tetrahedra", "did you mean", self.write("a.vtux", "x"))
+        for ending in ("msh", "vtu", "inp", "vtk", "mesh"):
+            with self.subTest(ending):
+                self.refused("tetrahedra", "empty", self.write(f"e.{ending}", ""))
+                self.refused("tetrahedra", "", self.write(f"t.{ending}", "this is no mesh\n"))
+                self.refused("tetrahedra", "", self.write(f"b.{ending}", bytes(range(256)) * 9))
+        self.refused("tetrahedra", "", self.write("cut.msh", GMSH_4[:len(GMSH_4) * 2 // 3]))
+
+
+def tetrahedra_volumes(points, nodes):
+    a, b, c = (points[nodes[:, k]] - points[nodes[:, 0]] for k in (1, 2, 3))
+    return np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

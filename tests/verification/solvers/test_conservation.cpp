@@ -1,0 +1,98 @@
+// What must not change: momentum to round-off, energy with the order of the scheme; and the limit of the step.
+#include <gtest/gtest.h>
+
+#include "base/errors.hpp"
+#include "solvers/explicit/central_difference.hpp"
+#include "verification/probes.hpp"
+
+namespace strut {
+namespace {
+
+BlockMaterial copper(bool plastic) {
+  const materials::Elastic e = std::get<materials::Elastic>(elastic(110e9, 0.296));
+  if (!plastic) return {8960, e, SillingStabilization{0.02}};
+  const materials::FlowStress flow{50e6, materials::PowerHardening{0.00218, 0.1}, materials::PowerRate{1e-3, 0.01}};
+  return {8960, materials::J2{e.bulk, e.shear, flow}, MeanGradientStabilization{0.05}};
+}
+
+// A free block whose ends fly apart and shear, smoothly.
+void throw_apart(Body& body, double speed, double size) {
+  for (int i = 0; i < body.owned(); ++i) {
+    const Vector x = body.domain.reference(i) / size * M_PI;
+    body.velocity[i] = speed * Vector(std::cos(x[0]) + 0.3, 0.5 * std::cos(x[2]), -0.4 * std::cos(x[1]));
+  }
+}
+
+const double crossing_time = 9e-3 / std::sqrt(110e9 / 8960);  // of a wave through the block, s
+
+struct Outcome {
+  double momentum_drift, balance_error;
+};
+
+Outcome run_free_block(const BlockMaterial& material, double speed, StepControl control, double crossings) {
+  const Communicator world;
+  LatticeSpec spec{{9, 9, 9}, 1e-3, 2.515, 0.1, Influence::one, material};
+  Body body = lattice_body(spec, world);
+  throw_apart(body, speed, 9e-3);
+  CentralDifference solver(body, {}, {}, control, 0);
+  const double final_time = crossings * crossing_time;
+  Vector start = Vector::Zero();
+  Outcome outcome{0, 0};
+  for (;;) {
+    solver.advance_velocity(final_time);
+    const Ledger now = solver.ledger();
+    if (solver.steps() == 0) start = now.momentum;
+    outcome.momentum_drift = std::max(outcome.momentum_drift, (now.momentum - start).norm() / start.norm());
+    outcome.balance_error = std::max(outcome.balance_error, now.balance_error);
+    if (solver.time() >= final_time) return outcome;
+    solver.advance_position(true);
+  }
+}
+
+// Central differences at a constant step conserve the energy of a linear body to round-off. What is left: strains of
+// 3e-6 make the body linear to 3e-6; the energy of the stabilization is a difference of two sums 1e9 times as large.
+TEST(Conservation, ElasticBlockAtConstantStep) {
+  const Outcome outcome = run_free_block(copper(false), 0.01, {4e-8, 0}, 200 * 4e-8 / crossing_time);
+  EXPECT_LT(outcome.momentum_drift, 1e-12);  // forces are pairs: the round-off of some hundred thousand additions
+  EXPECT_LT(outcome.balance_error, 2e-5);
+}
+
+// With its own step, which follows the deformation, and strains of 3e-4.
+TEST(Conservation, ElasticBlockAtItsOwnStep) {
+  const Outcome outcome = run_free_block(copper(false), 1, {0, 0.8}, 10);
+  EXPECT_LT(outcome.momentum_drift, 1e-12);
+  EXPECT_LT(outcome.balance_error, 1e-3);  // of the order of the strain: a hypoelastic law has no exact energy
+}
+
+TEST(Conservation, PlasticBlock) {
+  const Outcome coarse = run_free_block(copper(true), 50, {0, 0.8, false}, 3),
+                fine = run_free_block(copper(true), 50, {0, 0.4, false}, 3);
+  EXPECT_LT(coarse.momentum_drift, 1e-12);
+  EXPECT_LT(coarse.balance_error, 1e-2);
+  EXPECT_LT(fine.balance_error, 0.7 * coarse.balance_error);  // first order at least, where yielding starts and stops
+}
+
+// At 0.99 of the estimated limit a noisy elastic block stays bounded over a thousand steps; above it, it does not.
+TEST(CriticalTimeStep, LimitIsTheLimit) {
+  const Communicator world;
+  const LatticeSpec spec{{7, 7, 7}, 1e-3, 2.015, 0, Influence::one, copper(false)};
+  EXPECT_TRUE(stays_bounded(lattice_body(spec, world), 0.99));
+  EXPECT_FALSE(stays_bounded(lattice_body(spec, world), 1.05));
+}
+
+// A lattice's own formula: for the dispersion of Waves.DispersionOfTheOperator no bulk wave is faster than the limit.
+TEST(CriticalTimeStep, ScalesWithSpacingAndSpeed) {
+  const Communicator world;
+  const auto limit = [&](double spacing, double young) {
+    LatticeSpec spec{{7, 7, 7}, spacing,        2.015,
+                     0,         Influence::one, {1000, elastic(young, 0.3), SillingStabilization{0.02}}};
+    Body body = lattice_body(spec, world);
+    return CentralDifference(body, {}, {}, {0, 1}, 0).critical_time_step();
+  };
+  // Rounded down to 10 bits of mantissa: a part in 512 at the most.
+  EXPECT_NEAR(limit(2e-3, 1e9) / limit(1e-3, 1e9), 2, 2.0 / 512);
+  EXPECT_NEAR(limit(1e-3, 1e9) / limit(1e-3, 4e9), 2, 2.0 / 512);
+}
+
+}  // namespace
+}  // namespace strut

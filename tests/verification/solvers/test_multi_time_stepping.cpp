@@ -1,0 +1,140 @@
+// Multi-time-stepping: a run with subcycled points is stable, keeps what is to be kept, and comes to the same result.
+#include <gtest/gtest.h>
+
+#include "verification/probes.hpp"
+
+namespace strut {
+namespace {
+
+constexpr double h = 1e-3, soft = 1e9, density = 1000;
+const double slow_step = h / std::sqrt(soft / density);  // the time in which a wave passes a spacing of the soft part
+
+// A bar whose first two layers of points are `ratio` times as stiff as the others.
+Body bar(double ratio, const BlockMaterial& like, FamilyKind families = FamilyKind::fastest) {
+  const Communicator world;
+  PointCloud cloud = lattice_cloud({{16, 5, 5}, h, 2.015}, world);
+  cloud.block_names = {"soft", "stiff"};
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.blocks[i] = cloud.positions[i][0] < 2 * h ? 1 : 0;
+  BlockBonds bonds(2.015 * h);
+  bonds.families = families;
+  std::vector<BlockMaterial> materials(2, like);
+  materials[0].law = elastic(soft, 0.3);
+  materials[1].law = elastic(ratio * soft, 0.3);
+  return make_body(make_domain(partitioned(cloud, world), {bonds, bonds}, world), Influence::one, materials);
+}
+
+BlockMaterial stabilized(const Stabilization& stabilization) { return {density, {}, stabilization}; }
+
+// The slowest motion that bends and stretches the bar at once.
+void swing(Body& body) {
+  for (int i = 0; i < body.owned(); ++i) {
+    const double x = body.domain.reference(i)[0] / (16 * h) * M_PI;
+    body.velocity[i] = Vector(std::cos(x), 0.4 * std::cos(x), 0.3 * std::cos(2 * x));
+  }
+}
+
+int max_level(const Body& body) {
+  return static_cast<int>(
+      largest_over(body, [&](int i) { return body.time_levels.empty() ? 0.0 : body.time_levels[i]; }));
+}
+
+struct Case {
+  double ratio, silling, mean, safety;
+};
+
+class StiffPart : public testing::TestWithParam<Case> {};
+
+// Noise in every motion that the bar has, undamped. What is kept is an energy that differs from the sum by terms of the
+// order of (ω Δt)², so that the balance of noise swings by some percent; a resonance grows without bound, tenfold in a
+// hundred steps without the points between (multi_time_stepping.cpp: families_between_levels = 0).
+TEST_P(StiffPart, SwingsOnWithoutGrowth) {
+  const Case& c = GetParam();
+  const bool by_mean = c.mean > 0;
+  Body body = bar(
+      c.ratio, by_mean ? stabilized(MeanGradientStabilization{c.mean}) : stabilized(SillingStabilization{c.silling}));
+  throw_apart(body, 0.1);  // strains of 1e-4
+  CentralDifference solver(body, {}, {}, {0, c.safety}, 0);
+  EXPECT_GE(max_level(body), std::log2(std::sqrt(c.ratio)));
+  const double end = 1000 * slow_step;
+  Vector start = Vector::Zero();
+  double noise = 0;  // of momentum: what its terms add up to
+  for (;;) {
+    solver.advance_velocity(end);
+    const bool last = solver.time() >= end, look = solver.steps() % 50 == 0;
+    if (look || last) {
+      const Ledger now = solver.ledger();
+      if (solver.steps() == 0) start = now.momentum, noise = std::sqrt(2 * now.kinetic * density * 400 * h * h * h);
+      EXPECT_LT(now.balance_error, 0.05);
+      EXPECT_LT((now.momentum - start).norm(), 1e-8 * noise);  // forces are pairs but for the round-off of places
+    }
+    if (last) break;
+    solver.advance_position(solver.steps() % 50 == 49 || solver.time() + 1.5 * solver.dt() >= end);
+  }
+  EXPECT_LT(solver.steps(), 1.3 * 1000 / c.safety);  // the steps of the soft part
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, StiffPart,
+                         testing::Values(Case{8, 0, 0.05, 0.8}, Case{8, 0.05, 0, 0.8}, Case{40, 0, 0.01, 0.8},
+                                         Case{40, 0.05, 0, 0.99}, Case{40, 0, 0, 0.8}, Case{40, 0, 0.05, 0.99},
+                                         Case{1000, 0, 0.05, 0.8}, Case{1000, 0.02, 0, 0.8}),
+                         [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+// Places after a time, of the points in the order of their ids.
+std::vector<double> swung(Body body, const StepControl& control, double time) {
+  swing(body);
+  CentralDifference solver(body, {}, {}, control, 0);
+  while (true) {
+    solver.advance_velocity(time);
+    if (solver.time() >= time) break;
+    solver.advance_position(false);
+  }
+  std::vector<double> places(3 * 400, 0);
+  for (int i = 0; i < body.owned(); ++i) {
+    const Vector u = body.displacement(i);
+    for (int c = 0; c < 3; ++c) places[3 * body.domain.cloud.ids[i] + c] = u[c];
+  }
+  body.domain.communicator.sum(places);
+  return places;
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double off = 0, size = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) off += (a[k] - b[k]) * (a[k] - b[k]), size += b[k] * b[k];
+  return std::sqrt(off / size);
+}
+
+// Central differences and their impulses are of the second order: with half the step the difference to a run with
+// steps that resolve everything falls to a quarter, or by any more than to a third.
+TEST(MultiTimeStepping, ConvergeToTheFullRun) {
+  const BlockMaterial material = stabilized(MeanGradientStabilization{0.05});
+  const double time = 40 * slow_step;
+  const std::vector<double> exact = swung(bar(40, material), {0.005 * slow_step, 0}, time);
+  const double coarse = difference(swung(bar(40, material), {0, 0.6}, time), exact);
+  const double fine = difference(swung(bar(40, material), {0, 0.3}, time), exact);
+  EXPECT_LT(coarse, 0.01);
+  EXPECT_LT(fine, coarse / 3) << coarse;
+}
+
+// Between steps a lattice is read bond by bond, in another order than by its sums.
+TEST(MultiTimeStepping, OfALatticeAreThoseOfLists) {
+  for (const BlockMaterial& material :
+       {stabilized(MeanGradientStabilization{0.05}), stabilized(SillingStabilization{0.05})}) {
+    const double time = 20 * slow_step;
+    const auto stencil = swung(bar(40, material, FamilyKind::stencil), {0, 0.8}, time);
+    const auto lists = swung(bar(40, material, FamilyKind::lists), {0, 0.8}, time);
+    EXPECT_LT(difference(stencil, lists), 1e-9);  // round-off, and the step's own in its last digits
+  }
+}
+
+// Points at the surface are faster than those within: less than what is worth while.
+TEST(MultiTimeStepping, AreNotForABodyThatIsAlikeEverywhere) {
+  const Communicator world;
+  LatticeSpec spec{{9, 9, 9}, h, 3.015};
+  spec.material = {density, elastic(soft, 0.3), MeanGradientStabilization{0.01}};
+  Body body = lattice_body(spec, world);
+  const CentralDifference solver(body, {}, {}, {}, 0);
+  EXPECT_TRUE(body.time_levels.empty());
+}
+
+}  // namespace
+}  // namespace strut
