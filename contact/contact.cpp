@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/timing.hpp"
+#include "contact/laws/contact_law.hpp"
 #include "contact/search/search.hpp"
 
 namespace strut::contact {
@@ -52,6 +53,11 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.pairs = find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
+  contact_pair.meets = false;
+  contact_pair.broken.clear();
+  if (blocks.one_body && !kinematics.domain.families.broken.empty()) {
+    for (const int i : blocks.points) contact_pair.broken.push_back(kinematics.domain.families.broken[i].size());
+  }
   contact_pair.used = 0;
   contact_pair.result = {};
   contact_pair.friction.clear();
@@ -69,7 +75,37 @@ void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact
   if (contact_pair.searched)
     contact_pair.used =
         part_used(kinematics, contact_pair.blocks, contact_pair.frame, contact_pair.places, contact_pair.skins);
-  if (!contact_pair.searched || contact_pair.used > most_used) search(kinematics, dt, contact_pair);
+  if (!contact_pair.searched || contact_pair.meets || contact_pair.used > most_used) {
+    search(kinematics, dt, contact_pair);
+  }
+}
+
+namespace {
+
+// Whether the far end of a bond of an owned point may be of the other block; of ghosts it is not known.
+bool may_meet(const BlockPair& blocks, const Domain& domain, int i, int j) {
+  return blocks.self() || j >= domain.owned || domain.cloud.blocks[i] != domain.cloud.blocks[j];
+}
+
+}  // namespace
+
+// Whether points whose bonds have broken since the last search are about to touch: that search has left them out, and
+// they may be nearer to each other than two skin distances.
+bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair) {
+  constexpr double about_to_touch = 1.05;
+  const Domain& domain = kinematics.domain;
+  const double radius = radius_of(contact_pair.model.law);
+  for (std::size_t k = 0; k < contact_pair.broken.size(); ++k) {
+    const int i = contact_pair.blocks.points[k];
+    const std::vector<int>& broken = domain.families.broken[i];
+    for (std::size_t n = contact_pair.broken[k]; n < broken.size(); ++n) {
+      if (!may_meet(contact_pair.blocks, domain, i, broken[n])) continue;
+      const double apart = (domain.reference(broken[n]) - domain.reference(i)).norm();
+      const double touch = about_to_touch * largest_touching_distance(radius, apart, true);
+      if ((domain.current(broken[n]) - domain.current(i)).norm() < touch) return true;
+    }
+  }
+  return false;
 }
 
 void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
@@ -106,6 +142,7 @@ void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>&
   if (!any()) return;
   for (const ContactPair& contact_pair : contact_pairs_) {
     numbers.push_back(contact_pair.result.stiffness);
+    numbers.push_back(breaks_meet(kinematics, contact_pair));
     numbers.push_back(largest_use(kinematics, contact_pair.blocks, contact_pair.mean_velocity, contact_pair.skins));
   }
   numbers.push_back(deepest().penetration);
@@ -116,10 +153,11 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
   double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& contact_pair = contact_pairs_[m];
-    stiffness += numbers[2 * m];
-    const double use = dt * numbers[2 * m + 1];
+    stiffness += numbers[3 * m];
+    contact_pair.meets = numbers[3 * m + 1] > 0;
+    const double use = dt * numbers[3 * m + 2];
     contact_pair.used += use;
-    contact_pair.due = !contact_pair.searched || !(contact_pair.used + forecast * use < 1);
+    contact_pair.due = !contact_pair.searched || contact_pair.meets || !(contact_pair.used + forecast * use < 1);
   }
   stiffness_ = std::max(stiffness, decay * stiffness_);
   penetration_ = numbers.back();

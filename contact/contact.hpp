@@ -1,4 +1,4 @@
-// The door of contact: between chosen blocks, and within them. It searches when points may have come near, adds the
+// Public header of contact: between chosen blocks, and within them. It searches when points may have come near, adds the
 // forces of those that touch, and says what this costs the step and the ledger.
 #pragma once
 
@@ -73,14 +73,17 @@ class Contact {
     SkinDistances skins = {};
     Pairs pairs = {};
     bool searched = false;
+    std::vector<std::size_t> broken = {};  // how many bonds of blocks.points had broken
     // As of the last look.
     Vector mean_velocity = Vector::Zero();  // m/s
-    double used = 0;  // a bound of the part of its skin distance that any point has used since the last search
+    double used = 0;    // a bound of the part of its skin distance that any point has used since the last search
+    bool meets = false;  // points whose bond has broken since are near each other
     bool due = true;  // that has come near 1
     ForceResult result = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
   };
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
+  static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   void add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
                   std::vector<Vector>& force_density);

@@ -47,8 +47,8 @@ struct Touch {
 };
 
 PointPair pair_of(const Site& a, const Site& b, bool one_body) {
-  return {{a.reference[3], b.reference[3]},
-          0.5 * (a.current[3] + b.current[3]),
+  return {{a.volume(), b.volume()},
+          0.5 * (a.horizon() + b.horizon()),
           (b.reference - a.reference).head<3>().matrix().norm(),
           one_body};
 }
@@ -122,7 +122,7 @@ ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>&
       const double weight = touch.stiffness_to_come() * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
       springs += weight * touch.direction * touch.direction.transpose();
     });
-    force_density[pairs.owned[k]] += force / pairs.sites[k].reference[3];
+    force_density[pairs.owned[k]] += force / pairs.sites[k].volume();
     result.stiffness = std::max(result.stiffness, largest_eigenvalue(springs, result.stiffness));
   }
   return result;
@@ -173,7 +173,7 @@ void add_friction(const Kinematics& kinematics, const Model& model, double dt, P
   friction = std::visit([&](const auto& law) { return friction_forces(kinematics, law, model.friction, dt, pairs); },
                         model.law);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k)
-    force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].reference[3];
+    force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
 }
 
 void add_springs(const Law& law, const Pairs& pairs, std::span<Tensor> springs) {

@@ -33,11 +33,15 @@ struct Criterion {
   const BlockPair& blocks;
 
   bool operator()(const Candidate& a, const Candidate& b) const {
-    const Vector xi = reference(b) - reference(a);
+    if (!within_reach(a, b)) return false;
+    return !(blocks.one_body && bonded(a.current[3], b.current[3], reference(b) - reference(a)));
+  }
+
+  bool within_reach(const Candidate& a, const Candidate& b) const {
+    const double apart = (reference(b) - reference(a)).norm();
     const double reach =
-        largest_touching_distance(radius, xi.norm(), blocks.one_body) + (a.skin + b.skin);  // the same from both
-    const double distance2 = (place(b) - place(a)).squaredNorm();
-    return distance2 <= reach * reach && !(blocks.one_body && bonded(a.current[3], b.current[3], xi));
+        largest_touching_distance(radius, apart, blocks.one_body) + (a.skin + b.skin);  // the same from both
+    return (place(b) - place(a)).squaredNorm() <= reach * reach;
   }
 };
 

@@ -10,7 +10,7 @@
 
 namespace strut::contact {
 
-// This rank's points as they are now; ghosts are not looked at.
+// This rank's points as they are now. Ghosts are looked at only where bonds to them have broken.
 struct Kinematics {
   const Domain& domain;
   std::span<const Vector> velocities;  // m/s

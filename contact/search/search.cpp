@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <unordered_map>
 
 #include "contact/search/candidates.hpp"
 #include "contact/search/clusters.hpp"
@@ -21,7 +22,7 @@ Candidate candidate(const Kinematics& kinematics, int i, double skin) {
   Candidate c{};
   std::copy_n(site.reference.data(), 4, c.reference);
   std::copy_n(site.current.data(), 4, c.current);
-  c.mass = kinematics.densities[i] * site.reference[3];
+  c.mass = kinematics.densities[i] * site.volume();
   c.skin = skin;
   c.id = kinematics.domain.cloud.ids[i];
   c.block = kinematics.domain.cloud.blocks[i];
@@ -160,12 +161,36 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   return pairs;
 }
 
+// Points that were bonded and are no longer: the search by clusters leaves out all that once were.
+void add_broken_pairs(const Kinematics& kinematics, const CandidatePool& candidates, const Criterion& may_touch,
+                      IndexPairs& pairs) {
+  const auto& broken = kinematics.domain.families.broken;
+  if (!may_touch.blocks.one_body || broken.empty()) return;
+  std::unordered_map<std::int64_t, int> index;
+  for (std::size_t m = 0; m < candidates.members.size(); ++m) {
+    index.emplace(candidates.members[m].id, static_cast<int>(m));
+  }
+  for (std::size_t m = 0; m < candidates.owned; ++m) {
+    const Candidate& one = candidates.members[m];
+    for (const int j : broken[one.owned]) {
+      const auto found = index.find(kinematics.domain.id(j));
+      if (found == index.end()) continue;  // far away, or of a third block
+      const Candidate& other = candidates.members[found->second];
+      const bool of_both = may_touch.blocks.self() || one.block != other.block;
+      if (of_both && may_touch.within_reach(one, other)) pairs.emplace_back(static_cast<int>(m), found->second);
+    }
+  }
+}
+
 }  // namespace
 
 Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, double radius, SkinDistances& skins) {
   const std::vector<int> near = near_points(kinematics, blocks, radius, skins);
   const CandidatePool candidates = candidates_of(kinematics, blocks, near, skins, radius);
-  const Lists lists = lists_of(candidates, pairs_in(candidates, {radius, blocks}));
+  const Criterion may_touch{radius, blocks};
+  IndexPairs found = pairs_in(candidates, may_touch);
+  add_broken_pairs(kinematics, candidates, may_touch, found);
+  const Lists lists = lists_of(candidates, found);
   return pairs_of(candidates, lists, blocks.one_body, kinematics.domain.communicator);
 }
 

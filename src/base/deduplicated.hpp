@@ -37,9 +37,21 @@ class Deduplicated {
       values_ = std::move(all);
       which_ = std::vector<int>();
     }
+    shared_ = values_.size();
   }
 
   const T& operator[](std::size_t i) const { return values_[which_.empty() ? i : which_[i]]; }
+  // Of one point, whatever others have.
+  void set(std::size_t i, const T& value) {
+    if (which_.empty()) {
+      values_[i] = value;
+    } else if (static_cast<std::size_t>(which_[i]) >= shared_) {  // has been set before: its own
+      values_[which_[i]] = value;
+    } else {
+      which_[i] = static_cast<int>(values_.size());
+      values_.push_back(value);
+    }
+  }
   double bytes() const { return static_cast<double>(values_.size() * sizeof(T) + which_.size() * sizeof(int)); }
 
  private:
@@ -52,6 +64,7 @@ class Deduplicated {
 
   std::vector<T> values_;
   std::vector<int> which_;  // of values_; empty: the points' own
+  std::size_t shared_ = 0;  // so many of the values may be of several points
 };
 
 }  // namespace strut

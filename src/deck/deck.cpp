@@ -6,11 +6,13 @@
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "deck/check.hpp"
+#include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/numbered_sets.hpp"
 #include "deck/sections/written_files.hpp"
 #include "deck/whole.hpp"
+#include "deck/yaml.hpp"
 
 namespace strut::deck {
 
@@ -24,13 +26,14 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   deck.discretization = read_discretization(values, file, problems);
   deck.node_sets = read_node_sets(values, problems);
   deck.materials = read_materials(values, problems);
-  deck.blocks = read_blocks(values, deck.materials, problems);
+  deck.damage_models = read_damage_models(values, problems);
+  deck.blocks = read_blocks(values, deck.materials, deck.damage_models, problems);
   deck.contact_models = read_contact_models(values);
   deck.interactions = read_interactions(values, deck.contact_models, problems);
   deck.conditions = read_conditions(values, problems);
   add_numbered_sets(values, file, deck.node_sets, problems);
   deck.solver = read_solver(values, problems);
-  check_quasi_static(deck.solver, deck.conditions, deck.contact_models, problems);
+  check_quasi_static(deck.solver, deck.conditions, deck.contact_models, deck.blocks, problems);
   deck.output = read_output(values, deck.solver, problems);
   deck.history = read_history(values, deck.solver, problems);
   deck.restart = read_restart(values, file, problems);
@@ -49,16 +52,17 @@ void look_at_files(Deck& deck, Problems& problems) {
   check_files(written, {{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}}, problems);
 }
 
+bool is_xml(const std::string& text) {
+  const std::string_view content = trimmed(text);
+  return content.empty() || content[0] == '<';
+}
+
 enum class FileCheck { no, yes };
 
 Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) {
   Problems problems;
   Deck deck;
-  if (is_text_of_peridigm(text)) {
-    problems.add("XML",
-                 "this is no XML; Peridigm's other forms of a deck (indented text with aprepro's {…}, YAML) are "
-                 "not read: write it as <ParameterList>s");
-  } else if (auto list = parse_xml(text, problems)) {
+  if (auto list = is_xml(text) ? parse_xml(text, problems) : parse_yaml(text, problems)) {
     translate_peridigm(*list, problems);
     const Values values = check(*list, schema(), "", problems);
     deck = build(values, file, problems);

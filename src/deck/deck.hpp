@@ -10,6 +10,7 @@
 #include "deck/sections/blocks.hpp"
 #include "deck/sections/conditions.hpp"
 #include "deck/sections/contact.hpp"
+#include "deck/sections/damage_models.hpp"
 #include "deck/sections/discretization.hpp"
 #include "deck/sections/history.hpp"
 #include "deck/sections/materials.hpp"
@@ -31,6 +32,7 @@ struct Deck {
   Discretization discretization;
   std::vector<NodeSet> node_sets;
   std::vector<Material> materials;
+  std::vector<NamedDamageModel> damage_models;
   std::vector<Block> blocks;
   std::vector<ContactModel> contact_models;
   std::vector<Interaction> interactions;

@@ -3,6 +3,7 @@
 #include "deck/sections/blocks.hpp"
 #include "deck/sections/conditions.hpp"
 #include "deck/sections/contact.hpp"
+#include "deck/sections/damage_models.hpp"
 #include "deck/sections/discretization.hpp"
 #include "deck/sections/from_peridigm.hpp"
 #include "deck/sections/history.hpp"
@@ -21,11 +22,10 @@ const Section& schema() {
   static const Section whole = {
       .meaning = "",
       .keys = {verbose_without_effect()},
-      .sections = {discretization_section(), node_sets_section(), materials_section(), blocks_section(),
-                   contact_section(), conditions_section(), solver_section(), output_section(), history_section(),
+      .sections = {discretization_section(), node_sets_section(), materials_section(), damage_models_section(),
+                   blocks_section(), contact_section(), conditions_section(), solver_section(), output_section(), history_section(),
                    restart_section(), watch_section()},
-      .hints = {{"Damage Models", bonds_hold},
-                {"Interfaces", "unknown section; there are no interfaces between elements"},
+      .hints = {{"Interfaces", "unknown section; there are no interfaces between elements"},
                 {"Problem",
                  "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "
                  "deck itself"},

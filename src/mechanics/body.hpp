@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "base/math/tensors.hpp"
 #include "materials/laws.hpp"
 #include "mechanics/formulation/formulation.hpp"
+#include "mechanics/fracture/damage_model.hpp"
 #include "mechanics/stabilization/stabilization.hpp"
 #include "points/domain.hpp"
 #include "points/site.hpp"
@@ -34,7 +36,7 @@ struct ForceState : TensorRecord {
 };
 
 // F, and of the springs on the residual of both ends' gradients C, the share of the step at whose end they act, and
-// which stabilization they are (its place in the variant).
+// which stabilization they are (its index in the variant).
 struct GradientState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }
@@ -97,6 +99,7 @@ struct BlockMaterial {
   Stabilization stabilization = NoStabilization();  // by correspondence; other formulations need none
   Formulation formulation = Formulation::correspondence;
   Viscosity viscosity = {};  // by correspondence
+  std::optional<DamageModel> damage = {};
 };
 
 // The state of point k from columns of so many points.
@@ -156,6 +159,7 @@ struct MaterialBlock {
   }
 };
 
+class Fracture;
 class LatticeSums;
 class QuadraticFits;
 
@@ -172,7 +176,7 @@ struct Body {
   // Owned points.
   std::vector<MaterialPoint> points;
   Deduplicated<Symmetric> shape_inverse;      // K⁻¹, 1/m⁵
-  std::shared_ptr<const QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
+  std::shared_ptr<QuadraticFits> fits;        // of owned points by quadratic correspondence, where there are any
   std::vector<double> density;                // kg/m³
   std::vector<Vector> velocity;               // at mid-step, m/s
   std::vector<Vector> previous_velocity;      // at the mid-step before, m/s
@@ -186,6 +190,8 @@ struct Body {
   // Current after a step with diagnostics:
   std::vector<double> residual;   // Σ ω V |η − F ξ|², m⁵, by correspondence
   std::vector<double> bond_work;  // energy of the springs on both ends' gradients, J/m³; empty where no block has them
+
+  std::shared_ptr<Fracture> fracture;  // where bonds may break
 
   // Workspaces of the sums over the families on lattices, as domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;

@@ -6,7 +6,7 @@
 namespace strut {
 
 struct Energies {
-  double elastic = 0, dissipated = 0, stabilization = 0;  // J
+  double elastic = 0, dissipated = 0, stabilization = 0, fracture = 0;  // J
 };
 
 // Collective: sums over all ranks, after a stress update with diagnostics.

@@ -34,9 +34,11 @@ double frequency_bound(const Body& body, const MaterialBlock& block, int k) {
   if (block.is_quadratic()) return frequency_bound_of_cell(body, block, k);
   const MaterialPoint& point = body.points[i];
   const Tensor& F = point.deformation_gradient;
-  const double steepness = block.is_ordinary() ? 3 : F.determinant() * F.inverse().squaredNorm();
-  const double modulus = block.moduli(k).longitudinal();
-  return std::sqrt(modulus / body.density[i] * body.domain.volume(i) * trace(body.shape_inverse[i]) / 3 * steepness);
+  const double speed2 = block.moduli(k).longitudinal() / body.density[i];
+  // tr K⁻¹ of a family that is alike in all directions is 9/m; of ordinary points any are allowed.
+  if (block.is_ordinary()) return std::sqrt(speed2 * body.domain.volume(i) * 9 / block.ordinary[k].weighted_volume);
+  const double steepness = F.determinant() * F.inverse().squaredNorm();
+  return std::sqrt(speed2 * body.domain.volume(i) * trace(body.shape_inverse[i]) / 3 * steepness);
 }
 
 }  // namespace strut

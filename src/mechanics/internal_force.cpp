@@ -1,6 +1,7 @@
 #include "mechanics/internal_force.hpp"
 
 #include "mechanics/force_sum.hpp"
+#include "mechanics/fracture/fracture.hpp"
 
 namespace strut {
 
@@ -23,11 +24,14 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
     if (block.is_quadratic()) diagnose_cells(body, block, groups);
     if (!block.is_ordinary()) diagnose_residuals(body, groups);
   };
+  Fracture* fracture = pass.dt > 0 ? body.fracture.get() : nullptr;
   const auto over = [&](Part part) {
+    if (fracture) fracture->break_bonds(body, part, pass.time);
     const Timed timed(deforming);
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
         advance);
+    if (fracture) fracture->count_dissipation(body);
     if (!with_diagnostics) return;
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },
@@ -43,13 +47,14 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
   behind_exchange(
       body.domain.halo, places(body.domain.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
+  if (body.fracture) body.fracture->finish_step(body);
   return report;
 }
 
 }  // namespace
 
-StepReport advance_stress(Body& body, double dt, bool with_diagnostics) {
-  return advance(body, {dt}, with_diagnostics);
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time) {
+  return advance(body, {.dt = dt, .time = time}, with_diagnostics);
 }
 
 void sum_forces(Body& body, bool with_diagnostics) {

@@ -8,12 +8,13 @@ namespace strut {
 // Collective. Advances F, R, stress and state from the last positions to the current ones (owned entries of sites) over
 // dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_diagnostics`: also what
 // forces do not need but a look at the body does, the energy of the stabilization, and F, R and stress of ordinary
-// points, which are a view of their families only. force_density then holds what the points' own states give to the
+// points, which are a view of their families only. `time`: at the end of the step (s), for bonds that break, as they do
+// in a step of a length. force_density then holds what the points' own states give to the
 // force on them, for the one sum_forces that is to follow.
-StepReport advance_stress(Body& body, double dt, bool with_diagnostics);
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time = 0);
 
-// Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a point that is
-// stepped alone, the part of its stress that acts at the end of a whole step.
+// Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a subcycled
+// point, the part of its stress that acts at the end of a whole step.
 void sum_forces(Body& body, bool with_diagnostics);
 
 // Both.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "points/parallel_for.hpp"
 
@@ -60,7 +61,7 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   MaterialPoint& point = body.points[block.points[k]];
   inverse = symmetric_part(K.inverse());
-  if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress
+  if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress, or an ordinary point
   if (block.lattice >= 0) {
     // Of alike families the same. It takes the gradient of displacements there, so this is as small beside strains.
     const double size = trace(inverse);
@@ -165,6 +166,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .time_levels = {},
             .residual = {},
             .bond_work = {},
+            .fracture = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
   body.force_states = zero_states(body.domain.sites.size(), materials);
@@ -183,7 +185,9 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   }
   set_shapes(body);
   set_what_blocks_feel(body);
-  if (!body.force_states.quadratics.empty()) body.fits = std::make_shared<const QuadraticFits>(body);
+  if (!body.force_states.quadratics.empty()) body.fits = std::make_shared<QuadraticFits>(body);
+  const auto breaks = [](const BlockMaterial& material) { return material.damage.has_value(); };
+  if (std::any_of(materials.begin(), materials.end(), breaks)) body.fracture = std::make_shared<Fracture>(body);
   return body;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "mechanics/fracture/fracture.hpp"
 
 namespace strut {
 
@@ -103,8 +104,10 @@ void serialize(Archive& archive, Body& body) {
   compare_reference(archive, body);
   serialize_motion(archive, body);
   keep_points(archive, body);
-  if (!archive.loading()) return;
-  body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  if (archive.loading()) {
+    body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  }
+  if (body.fracture) body.fracture->serialize(archive, body);
 }
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// What of a body a run must know to go on: all that its steps change.
+// What of a body a checkpoint contains: all that its steps change.
 #pragma once
 
 #include "base/archive.hpp"

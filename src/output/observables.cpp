@@ -9,6 +9,8 @@
 #include <variant>
 
 #include "base/errors.hpp"
+#include "mechanics/fracture/fracture.hpp"
+#include "mechanics/fracture/fragments.hpp"
 
 namespace strut {
 
@@ -45,7 +47,25 @@ Symmetric cauchy(const Body& body, int i) {
   return symmetric_part(R * to_tensor(p.stress) * R.transpose());
 }
 
-double weighted_volume(const Body& body, int i) { return to_tensor(body.shape_inverse[i]).inverse().trace(); }
+// 0 of points whose neighbors do not span space.
+double trace_of_shape(const Body& body, int i) {
+  const Symmetric& inverse = body.shape_inverse[i];
+  return trace(inverse) > 0 ? to_tensor(inverse).inverse().trace() : 0;
+}
+
+// Of ordinary points that of the whole family, before bonds broke.
+Observable weighted_volume() {
+  const auto fill = [](const Body& body, std::vector<double>& out) {
+    out.assign(body.owned(), 0);
+    for (const MaterialBlock& block : body.blocks) {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        const int i = block.points[k];
+        out[i] = block.is_ordinary() ? block.ordinary[k].weighted_volume : trace_of_shape(body, i);
+      }
+    }
+  };
+  return {"Weighted_Volume", 1, false, "Σ ω |ξ|² V = tr K, m⁵", fill};
+}
 
 // Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
 Observable dilatation() {
@@ -94,7 +114,10 @@ std::vector<Observable> kinematic() {
                    return symmetric_part(p.deformation_gradient * p.rotation.tensor().transpose());
                  }),
       observable("Residual", "of F: the root mean square of |y_j − y_i − F ξ| over that of |ξ| in the family",
-                 [](const Body& b, int i) { return std::sqrt(std::max(0.0, b.residual[i]) / weighted_volume(b, i)); }),
+                 [](const Body& b, int i) {
+                   const double scale = trace_of_shape(b, i);
+                   return scale > 0 ? std::sqrt(std::max(0.0, b.residual[i]) / scale) : 0.0;
+                 }),
       observable("Jacobian", "det F",
                  [](const Body& b, int i) { return b.points[i].deformation_gradient.determinant(); }),
       dilatation(),
@@ -111,14 +134,25 @@ std::vector<Observable> stresses() {
   };
 }
 
+Observable fragment() {
+  const auto fill = [](const Body& body, std::vector<double>& out) {
+    const std::vector<std::int64_t> ids = fragment_ids(body);
+    out.assign(ids.begin(), ids.end());
+  };
+  return {"Fragment", 1, false, "the least id of the points that bonds lead to", fill};
+}
+
 std::vector<Observable> fixed_properties() {
   return {
       observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volume(i); }),
       observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
       observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizon(i); }),
-      observable("Weighted_Volume", "Σ ω |ξ|² V = tr K, m⁵", weighted_volume),
+      weighted_volume(),
       observable("Number_Of_Neighbors", "size of the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
+      observable("Damage", "1 − the volume of the points that are still bonded to it / of all that were",
+                 [](const Body& b, int i) { return b.fracture ? b.fracture->damage(b, i) : 0.0; }),
+      fragment(),
       observable("Element_Id", "the mesh's own number",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.cloud.element_ids[i]); }),
       observable("Proc_Num", "the rank that owns the point",

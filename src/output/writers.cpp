@@ -48,9 +48,19 @@ History::History(const deck::Deck& deck, const OutputVariables& variables)
 
 void History::open(const Body& body) {
   if (!enabled_) return;
-  std::vector<std::string> names{
-      "Time",         "Step_Size",     "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy",
-      "Contact_Work", "External_Work", "Balance_Error",  "Momentum_X",     "Momentum_Y",   "Momentum_Z"};
+  std::vector<std::string> names{"Time",
+                                 "Step_Size",
+                                 "Kinetic_Energy",
+                                 "Elastic_Energy",
+                                 "Plastic_Work",
+                                 "Stabilization_Energy",
+                                 "Fracture_Energy",
+                                 "Contact_Work",
+                                 "External_Work",
+                                 "Balance_Error",
+                                 "Momentum_X",
+                                 "Momentum_Y",
+                                 "Momentum_Z"};
   for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
   for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
   file_.emplace(path_, body.domain.communicator, names, before_);
@@ -59,9 +69,9 @@ void History::open(const Body& body) {
 void History::write(const Ledger& now, const Reactions& reactions, const Body& body) {
   static Teuchos::Time& timer = phase("History");
   const Timed timed(timer);
-  std::vector<double> row{now.time,          now.dt,         now.kinetic,  now.elastic,       now.dissipated,
-                          now.stabilization, now.contact,    now.external, now.balance_error, now.momentum[0],
-                          now.momentum[1],   now.momentum[2]};
+  std::vector<double> row{now.time,          now.dt,          now.kinetic,    now.elastic,  now.dissipated,
+                          now.stabilization, now.fracture,    now.contact,    now.external, now.balance_error,
+                          now.momentum[0],   now.momentum[1], now.momentum[2]};
   const std::size_t fixed = row.size();
   for (const Extreme& e : extremes_) row.push_back(e.local(body));
   body.domain.communicator.max(std::span(row).subspan(fixed));

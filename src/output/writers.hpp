@@ -22,7 +22,7 @@ class FieldWriter {
  public:
   FieldWriter(const deck::Deck& deck, const OutputVariables& variables);
 
-  // Collective. Replaces the file, or, of a restored run, goes on with it.
+  // Collective. Replaces the file, or, of a resumed run, appends to it.
   void open(const Body& body);
   void write(double time, const Body& body);  // collective
   void serialize(Archive& archive, double time);
@@ -46,7 +46,7 @@ class History {
  public:
   History(const deck::Deck& deck, const OutputVariables& variables);
 
-  void open(const Body& body);                                                  // as Frames
+  void open(const Body& body);                                                  // as FieldWriter
   void write(const Ledger& now, const Reactions& reactions, const Body& body);  // collective
   void serialize(Archive& archive, double time);
 

@@ -232,14 +232,19 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
 struct Search {
   const CellGrid& grid;
   const LeftOut& left_out;
+  const std::vector<Crack>& cracks;
   double reach;
+
+  bool is_cut(const Vector& a, const Vector& b) const {
+    return std::any_of(cracks.begin(), cracks.end(), [&](const Crack& crack) { return crosses(crack, a, b); });
+  }
 };
 
 // Calls visit(j) for the family of owned point i.
 template <class Visit>
 void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, Visit&& visit) {
   for_each_within(search.grid, pool, i, search.reach, [&](int j) {
-    if (!search.left_out.contains(i, j)) visit(j);
+    if (!search.left_out.contains(i, j) && !search.is_cut(pool.positions[i], pool.positions[j])) visit(j);
   });
 }
 
@@ -437,7 +442,8 @@ void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& 
 
 }  // namespace
 
-Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
+Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
+                   const std::vector<Crack>& cracks) {
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
   double reach = std::numeric_limits<double>::min();  // where there is no point
@@ -455,17 +461,17 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
   const LeftOut apart = left_out(cloud, bonds, pool, grid, reach, communicator);
-  const Search search{grid, apart, reach};
+  const Search search{grid, apart, cracks, reach};
   const Order order = order_of(stencils, search, pool, cloud.blocks);
   PointCloud mine = reordered(cloud, order.points);
   mine.positions = {}, mine.volumes = {};
   Members members = members_of(pool, order, owned);
-  Families families{lists_of(stencils, search, pool, cloud.blocks, order, members.local), {}, {}};
+  Families families{lists_of(stencils, search, pool, cloud.blocks, order, members.local), {}, {}, {}};
   add_lattices(frames, pool, members, owned, families);
   Halo halo(communicator, mine.ids, members.ghost_ids);
   const int ghosts = static_cast<int>(order.ghosts.size());
   return {communicator,      std::move(mine),     order.interior, owned, ghosts, std::move(members.sites),
-          std::move(blocks), std::move(families), std::move(halo)};
+          std::move(blocks), std::move(families), std::move(halo), std::move(members.ghost_ids)};
 }
 
 PointCloud whole_cloud(const Domain& domain) {

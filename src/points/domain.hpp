@@ -8,6 +8,7 @@
 #include "points/cloud.hpp"
 #include "points/halo.hpp"
 #include "points/neighbors/block_bonds.hpp"
+#include "points/neighbors/cracks.hpp"
 #include "points/neighbors/families.hpp"
 #include "points/site.hpp"
 
@@ -32,15 +33,18 @@ struct Domain {
   std::vector<BlockHorizons> blocks;  // one each
   Families families;
   Halo halo;
+  std::vector<std::int64_t> ghost_ids;
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
-  double volume(int i) const { return sites[i].reference[3]; }                     // m³
-  double horizon(int i) const { return sites[i].current[3]; }                      // δ, m
+  double volume(int i) const { return sites[i].volume(); }                         // m³
+  double horizon(int i) const { return sites[i].horizon(); }                       // δ, m
+  std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
 };
 
-// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud.
-Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator);
+// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud; all ask for lists where there are cracks.
+Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
+                   const std::vector<Crack>& cracks = {});
 
 // The owned points as they were read.
 PointCloud whole_cloud(const Domain& domain);

@@ -70,7 +70,7 @@ Halo::~Halo() = default;
 Halo::Halo(Halo&&) noexcept = default;
 Halo& Halo::operator=(Halo&&) noexcept = default;
 
-void Halo::start(const double* data, int stride, int width) {
+void Halo::start(const double* data, int stride, int width) const {
   if (plan_->distributor.is_null()) return;
   Plan& plan = *plan_;
   const std::size_t outgoing = plan.sent.size() * width, incoming = plan.received.size() * width;
@@ -82,7 +82,7 @@ void Halo::start(const double* data, int stride, int width) {
   bytes_sent_ += static_cast<std::int64_t>(outgoing * sizeof(double));
 }
 
-void Halo::finish(double* data, int stride, int width) {
+void Halo::finish(double* data, int stride, int width) const {
   if (plan_->distributor.is_null()) return;
   plan_->distributor->doWaits();
   const double* from = plan_->incoming.data();

@@ -24,10 +24,10 @@ class Halo {
 
   // Sends `width` consecutive doubles of every owned point that another rank needs: point i's start at
   // data[i * stride]. One exchange at a time; finish() with the same arguments waits and fills the ghosts.
-  void start(const double* data, int stride, int width);
-  void finish(double* data, int stride, int width);
+  void start(const double* data, int stride, int width) const;
+  void finish(double* data, int stride, int width) const;
 
-  void exchange(double* data, int stride, int width) {
+  void exchange(double* data, int stride, int width) const {
     start(data, stride, width);
     finish(data, stride, width);
   }
@@ -38,7 +38,7 @@ class Halo {
   struct Plan;
   explicit Halo(std::unique_ptr<Plan> plan);
   std::unique_ptr<Plan> plan_;
-  std::int64_t bytes_sent_ = 0;
+  mutable std::int64_t bytes_sent_ = 0;
 };
 
 }  // namespace strut

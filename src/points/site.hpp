@@ -10,6 +10,9 @@ namespace strut {
 struct alignas(64) Site {
   Eigen::Array4d reference;  // X (m), V (m³)
   Eigen::Array4d current;    // y (m), δ (m)
+
+  double volume() const { return reference[3]; }
+  double horizon() const { return current[3]; }
 };
 
 }  // namespace strut

@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "base/timing.hpp"
+#include "mechanics/fracture/fracture.hpp"
+#include "mechanics/fracture/fragments.hpp"
 #include "mechanics/make_body.hpp"
 
 namespace strut {
@@ -124,9 +126,28 @@ std::string searches(const contact::Contact& contact) {
   return formatted("%d searches for contact\n", contact.searches());
 }
 
+// Collective. What bonds that broke have left of the bodies.
+std::string fragment_table(const Body& body) {
+  constexpr std::size_t most = 10;
+  if (!body.fracture) return "";
+  const std::int64_t broken = body.domain.communicator.sum(body.fracture->broken());
+  if (broken == 0) return "no bond broke\n";
+  const std::vector<Fragment> all = fragments(body);
+  std::string text = formatted("%lld bonds broke; %zu fragments:\n%12s %12s %12s   velocity, m/s\n",
+                               static_cast<long long>(broken / 2), all.size(), "point", "points", "mass, kg");
+  for (std::size_t f = 0; f < std::min(most, all.size()); ++f) {
+    const auto& [id, points, mass, v] = all[f];
+    text += formatted("%12lld %12lld %12.5g   %.5g %.5g %.5g\n", static_cast<long long>(id),
+                      static_cast<long long>(points), mass, v[0], v[1], v[2]);
+  }
+  if (all.size() > most) text += formatted("and %zu lighter ones\n", all.size() - most);
+  return text;
+}
+
 std::string energies(const Ledger& ledger) {
-  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilization %.5g;\n",
-                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization) +
+  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilization %.5g%s;\n",
+                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization,
+                   ledger.fracture > 0 ? formatted(", fracture %.5g", ledger.fracture).c_str() : "") +
          formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
                    ledger.external, ledger.contact, ledger.balance_error);
 }
@@ -143,10 +164,10 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
                     static_cast<double>(scene.points) * steps / seconds,
                     1e9 * core_seconds / (static_cast<double>(scene.bonds) * steps));
   if (solver.most_substeps() > 1) {
-    text << formatted("the stiffest points were stepped alone, up to %d times a step: %.2f updates a point and step\n",
+    text << formatted("the stiffest points were subcycled, up to %d times a step: %.2f updates a point and step\n",
                       solver.most_substeps(), solver.updates() / solver.steps());
   }
-  return text.str() + energies(ledger);
+  return text.str() + fragment_table(scene.body) + energies(ledger);
 }
 
 std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,

@@ -37,6 +37,15 @@ void check_blocks(const deck::Deck& deck, const PointCloud& cloud, deck::Problem
   }
 }
 
+namespace {
+
+std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& section) {
+  if (!section.damage_model) return std::nullopt;
+  return deck.damage_models[*section.damage_model].model;
+}
+
+}  // namespace
+
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
@@ -45,7 +54,8 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
                          material.law,
                          material.stabilization,
                          material.formulation,
-                         {material.linear_viscosity, material.quadratic_viscosity}});
+                         {material.linear_viscosity, material.quadratic_viscosity},
+                         damage_of(deck, *section_of(deck, name))});
   }
   return materials;
 }
@@ -65,7 +75,10 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
     bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
     const bool any = bonds.back().touching || bonds.back().through_material;
-    if (any || material.formulation != Formulation::correspondence) bonds.back().families = FamilyKind::lists;
+    const bool break_or_cut = section->damage_model || !deck.discretization.cracks.empty();
+    if (any || break_or_cut || material.formulation != Formulation::correspondence) {
+      bonds.back().families = FamilyKind::lists;
+    }
   }
   return bonds;
 }

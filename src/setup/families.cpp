@@ -16,15 +16,18 @@ namespace {
 // Owned points whose family cannot carry a shape tensor; `text` tells of the first.
 std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, std::string& text) {
   std::vector<int> found;
-  std::vector<char> by_cells;  // of blocks
+  std::vector<Formulation> formulations;  // of blocks
   for (const std::string& name : domain.cloud.block_names) {
-    by_cells.push_back(is_quadratic(deck.materials[section_of(deck, name)->material]));
+    formulations.push_back(deck.materials[section_of(deck, name)->material].formulation);
   }
   for (int i = 0; i < domain.owned; ++i) {
     const LatticeFamilies* stencil = domain.families.lattice(i);
     if (stencil && stencil->spans_space(i)) continue;  // without a sum over the family
+    const Formulation formulation = formulations[domain.cloud.blocks[i]];
+    if (formulation == Formulation::ordinary && domain.families.size(i) > 0)
+      continue;  // chains and pairs are solids, too
     const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
-    if (!reason && by_cells[domain.cloud.blocks[i]] && !spans_cell(domain, i)) reason = "they hardly span space";
+    if (!reason && formulation == Formulation::quadratic && !spans_cell(domain, i)) reason = "they hardly span space";
     if (!reason) continue;
     found.push_back(i);
     if (found.size() > 1) continue;
@@ -54,7 +57,7 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   for (;;) {
-    Domain domain = make_domain(std::move(cloud), bonds, communicator);
+    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));

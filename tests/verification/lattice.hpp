@@ -20,7 +20,8 @@ struct LatticeSpec {
   Influence influence = Influence::one;
   BlockMaterial material;
   FamilyKind families = FamilyKind::fastest;
-  std::function<bool(const Eigen::Array3i& cell)> is_filled;  // none: all cells are
+  std::function<bool(const Eigen::Array3i& cell)> is_filled = {};  // none: all cells are
+  std::vector<Crack> cracks = {};
 };
 
 inline materials::AnyLaw elastic(double young, double poisson) {
@@ -55,8 +56,9 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
 inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
   PointCloud cloud = partitioned(lattice_cloud(spec, world), world);
   BlockBonds bonds(spec.horizon * spec.spacing);
-  bonds.families = spec.material.formulation == Formulation::ordinary ? FamilyKind::lists : spec.families;
-  Domain domain = make_domain(std::move(cloud), {bonds}, world);
+  const bool by_lists = spec.material.formulation != Formulation::correspondence || spec.material.damage;
+  bonds.families = by_lists || !spec.cracks.empty() ? FamilyKind::lists : spec.families;
+  Domain domain = make_domain(std::move(cloud), {bonds}, world, spec.cracks);
   return make_body(std::move(domain), spec.influence, {spec.material});
 }
 

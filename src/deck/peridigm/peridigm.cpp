@@ -221,11 +221,6 @@ void erase_list(List& list, const std::string& name) {
   std::erase_if(list.lists, [&](const List& one) { return one.name == name; });
 }
 
-bool is_text_of_peridigm(const std::string& text) {
-  const std::string_view content = trimmed(text);
-  return !content.empty() && content[0] != '<';
-}
-
 void translate_peridigm(List& deck, Problems& problems) {
   translate_blocks(deck, problems);
   translate_materials(deck, problems);

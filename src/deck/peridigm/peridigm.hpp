@@ -15,9 +15,6 @@ void translate_peridigm(List& deck, Problems& problems);
 // Its sections Output, Output1, "Output Data" … and Compute Class Parameters, as one Output of fields and one History.
 void translate_outputs(List& deck, Problems& problems);
 
-// Whether the deck is not XML but the indented text that Peridigm reads, too.
-bool is_text_of_peridigm(const std::string& text);
-
 // Of a list, by name; null where it has none.
 Parameter* find_parameter(List& list, const std::string& name);
 List* find_list(List& list, const std::string& name);

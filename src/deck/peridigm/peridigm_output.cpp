@@ -14,8 +14,7 @@ namespace {
 
 // Fields that are not here, and what to look at in their place.
 const std::map<std::string, std::string> missing_fields = {
-    {"Damage", "it would be 0 everywhere, as bonds do not break"},
-    {"Bond_Damage", "it would be 0 everywhere, as bonds do not break"},
+    {"Bond_Damage", "there is Damage, the share of broken bonds of a point"},
     {"Coordinates", "there are Coordinate_X, Coordinate_Y and Coordinate_Z"},
     {"Model_Coordinates", "they are the coordinates of the nodes in the file"},
     {"Block_Id", "elements are in the blocks of the file"},

@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "deck/sections/from_peridigm.hpp"
 #include "deck/sections/two_keys.hpp"
 
 namespace strut::deck {
@@ -41,6 +40,9 @@ const OptionalKey<bool> across_voids(
                 "elements that share nodes lead from one to the other within it. Needs hexahedra or "
                 "tetrahedra. Without this key: true, but false for Quadratic Correspondence."});
 
+const OptionalKey<std::string> damage_model(
+    {.name = "Damage Model", .meaning = "The name of a section in Damage Models. Without this key bonds hold."});
+
 void check_horizon(const Values& values, Problems& problems) {
   check_one_of(values, horizon, horizon_factor, problems);
   if (values.given(horizon) || values.given(horizon_factor)) return;
@@ -69,28 +71,51 @@ void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
 }  // namespace
 
 Section blocks_section() {
-  return {
-      .name = name,
-      .required = true,
-      .meaning = "What the blocks of the mesh are made of.",
-      .sections = {{.name = any_name,
-                    .required = true,
-                    .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
-                    .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids},
-                    .hints = {{"Damage Model", bonds_hold}, {"Damage Models", bonds_hold}}}}};
+  return {.name = name,
+          .required = true,
+          .meaning = "What the blocks of the mesh are made of.",
+          .sections = {
+              {.name = any_name,
+               .required = true,
+               .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
+               .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids, damage_model}}}};
 }
 
-std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials, Problems& problems) {
+std::optional<int> find_damage_model(const Values& section, const Material& material,
+                                     const std::vector<NamedDamageModel>& models, Problems& problems) {
+  if (!section.has(damage_model)) return std::nullopt;
+  const int found = find_named(section, damage_model, *section[damage_model], models, "Damage Models", problems);
+  const auto refuse = [&](const std::string& what) { problems.add(section.path_to(damage_model), what); };
+  if (material.formulation == Formulation::correspondence &&
+      residual_of(material.stabilization) == ResidualKind::both_gradients) {
+    refuse("bonds with the Stabilization of material '" + material.name +
+           "' cannot break: what its springs dissipate is not known; expected 'Silling' or 'None', or Formulation "
+           "'Quadratic Correspondence'");
+  }
+  const bool by_energy = found < static_cast<int>(models.size()) && models[found].model.fracture_energy > 0;
+  if (material.formulation == Formulation::quadratic && by_energy) {
+    refuse("model '" + models[found].name +
+           "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic Correspondence'; "
+           "expected one with a Critical Stretch");
+  }
+  return found;
+}
+
+std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials,
+                               const std::vector<NamedDamageModel>& damage_models, Problems& problems) {
   std::vector<Block> all;
   for (const Values& section : deck.section(name).sections()) {
     check_horizon(section, problems);
+    const int of_material = find_named(section, material, materials, "Materials", problems);
+    const Material& made_of = of_material < static_cast<int>(materials.size()) ? materials[of_material] : Material();
     all.push_back({.name = section.name(),
                    .block_names = section[block_names],
-                   .material = find_named(section, material, materials, "Materials", problems),
+                   .material = of_material,
                    .horizon = section[horizon],
                    .horizon_factor = section[horizon_factor],
                    .separate_body = section[separate_body],
-                   .across_voids = section[across_voids]});
+                   .across_voids = section[across_voids],
+                   .damage_model = find_damage_model(section, made_of, damage_models, problems)});
   }
   check_overlaps(all, problems);
   return all;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "deck/forward.hpp"
+#include "deck/sections/damage_models.hpp"
 #include "deck/sections/materials.hpp"
 
 namespace strut::deck {
@@ -19,9 +20,11 @@ struct Block {
   std::optional<double> horizon_factor;  // in local spacings of each point
   bool separate_body{};                  // bonded to nothing outside of this section
   std::optional<bool> across_voids;      // whether bonds reach across voids
+  std::optional<int> damage_model;       // index into Deck::damage_models
 };
 
 Section blocks_section();
-std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials, Problems& problems);
+std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& materials,
+                               const std::vector<NamedDamageModel>& damage_models, Problems& problems);
 
 }  // namespace strut::deck

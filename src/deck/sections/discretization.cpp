@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "deck/problems.hpp"
+#include "deck/sections/bond_filters.hpp"
 #include "deck/sections/from_peridigm.hpp"
 #include "deck/values.hpp"
 
@@ -33,7 +34,7 @@ Section grid_section() {
       {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only one."}};
   for (const AxisKeys& axis : axes) keys.insert(keys.end(), {axis.origin, axis.length, axis.points});
   return {.name = generator,
-          .meaning = "A block of equal cells, one point at the centre of each, x fastest: the block block_1.",
+          .meaning = "A block of equal cells, one point at the center of each, x fastest: the block block_1.",
           .keys = std::move(keys)};
 }
 
@@ -111,11 +112,8 @@ Section discretization_section() {
                    without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
                                   "the mesh is not kept"),
                    points, influence, degenerate},
-          .sections = {grid_section()},
-          .hints = {{"Bond Filters",
-                     "unknown section: bonds of a body cannot be cut by planes or disks; make cracks as "
-                     "gaps of the mesh, or bodies apart (Separate Body)"},
-                    {"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
+          .sections = {grid_section(), bond_filters_section()},
+          .hints = {{"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
 }
 
 Discretization read_discretization(const Values& deck, const fs::path& deck_file, Problems& problems) {
@@ -132,7 +130,8 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
           .grid = read_grid(values.section(generator)),
           .points = values[points],
           .influence = values[influence],
-          .degenerate = values[degenerate]};
+          .degenerate = values[degenerate],
+          .cracks = read_bond_filters(values, problems)};
 }
 
 void check_mesh(const fs::path& mesh, Problems& problems) {

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <filesystem>
+#include <vector>
 
 #include "base/math/tensors.hpp"
 #include "deck/forward.hpp"
 #include "mechanics/formulation/formulation.hpp"
+#include "points/neighbors/cracks.hpp"
 
 namespace strut::deck {
 
@@ -14,7 +16,7 @@ enum class MeshType { exodus, text, grid };
 enum class Points { elements, nodes };
 enum class DegeneratePoints { error, drop };
 
-// Equal cells, with a point at the centre of each, x fastest.
+// Equal cells, with a point at the center of each, x fastest.
 struct Grid {
   Vector origin = Vector::Zero(), length = Vector::Ones();  // m
   std::array<int, 3> points = {1, 1, 1};
@@ -27,6 +29,7 @@ struct Discretization {
   Points points{};             // where they are; nodes: of Exodus meshes only
   Influence influence{};
   DegeneratePoints degenerate{};
+  std::vector<Crack> cracks;  // that no bond crosses
 };
 
 Section discretization_section();

@@ -12,7 +12,4 @@ Key without_effect(Key key, const std::string& why);
 
 Key verbose_without_effect();
 
-// About Damage Models and the like.
-inline const char* const bonds_hold = "reserved: not in this version (bonds do not break)";
-
 }  // namespace strut::deck

@@ -6,7 +6,8 @@
 namespace strut::deck {
 
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
-                        const std::vector<ContactModel>& contact_models, Problems& problems) {
+                        const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
+                        Problems& problems) {
   if (!solver.quasi_static) return;
   for (const Condition& condition : conditions) {
     const auto check = [&]<class Type>(const Type&) {
@@ -22,6 +23,11 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
                  "'" + to_text(one.model.friction) +
                      "'; expected 0 with Solver > QuasiStatic: there, friction is that of "
                      "rigid planes and tools");
+  }
+  for (const Block& block : blocks) {
+    if (!block.damage_model) continue;
+    problems.add("Blocks > " + block.name + " > Damage Model",
+                 "bonds cannot break with Solver > QuasiStatic; expected explicit steps (Verlet)");
   }
 }
 

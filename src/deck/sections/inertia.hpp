@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "deck/sections/blocks.hpp"
 #include "deck/sections/conditions.hpp"
 #include "deck/sections/contact.hpp"
 #include "deck/sections/solver.hpp"
@@ -10,6 +11,7 @@
 namespace strut::deck {
 
 void check_quasi_static(const Solver& solver, const std::vector<Condition>& conditions,
-                        const std::vector<ContactModel>& contact_models, Problems& problems);
+                        const std::vector<ContactModel>& contact_models, const std::vector<Block>& blocks,
+                        Problems& problems);
 
 }  // namespace strut::deck

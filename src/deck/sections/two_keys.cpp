@@ -12,9 +12,8 @@ void check_one_of(const Values& values, const Key& one, const Key& other, Proble
   }
 }
 
-int find_name(const Values& section, const TextKey& key, const std::vector<std::string>& names,
+int find_name(const Values& section, const Key& key, const std::string& wanted, const std::vector<std::string>& names,
               const std::string& where, Problems& problems) {
-  const std::string wanted = section[key];
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found != names.end() || !section.has(key)) return static_cast<int>(found - names.begin());
   problems.add(section.path_to(key), "'" + wanted + "' is not defined" + did_you_mean(wanted, names) +

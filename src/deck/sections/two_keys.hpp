@@ -12,16 +12,23 @@ namespace strut::deck {
 // Reports where both keys are given.
 void check_one_of(const Values& values, const Key& one, const Key& other, Problems& problems);
 
-// The place of the name that `key` of the section gives in `names`, those of the sections of `where`.
-int find_name(const Values& section, const TextKey& key, const std::vector<std::string>& names,
+// The index of the name that `key` of the section gives, `wanted`, in `names`, those of the sections of `where`; past
+// the last one where it gives none.
+int find_name(const Values& section, const Key& key, const std::string& wanted, const std::vector<std::string>& names,
               const std::string& where, Problems& problems);
+
+template <class Named>
+int find_named(const Values& section, const Key& key, const std::string& wanted, const std::vector<Named>& all,
+               const std::string& where, Problems& problems) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return find_name(section, key, wanted, names, where, problems);
+}
 
 template <class Named>
 int find_named(const Values& section, const TextKey& key, const std::vector<Named>& all, const std::string& where,
                Problems& problems) {
-  std::vector<std::string> names;
-  for (const Named& one : all) names.push_back(one.name);
-  return find_name(section, key, names, where, problems);
+  return find_named(section, key, section[key], all, where, problems);
 }
 
 }  // namespace strut::deck

@@ -73,9 +73,10 @@ struct Update {
 
   LaneTensor deformation_gradient(const LaneGroup& g, const LaneTensor& N, const LaneSymmetric& shape_inverse) const {
     LaneTensor F = small::product(N, small::full(shape_inverse));
-    if (!g.cluster) {  // of displacements
-      for (int i = 0; i < 3; ++i) F.c[i][i] += 1;
-    }
+    const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];
+    // On lattices N is of displacements. A point whose neighbors do not span space stays undeformed.
+    const Lanes missing = g.cluster ? Lanes((trace > 0).select(Lanes::Zero(), Lanes::Constant(1))) : Lanes::Constant(1);
+    for (int i = 0; i < 3; ++i) F.c[i][i] += missing;
     return F;
   }
 

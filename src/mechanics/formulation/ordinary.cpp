@@ -4,17 +4,13 @@
 #include <cmath>
 
 #include "base/math/rotation.hpp"
+#include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
+#include "mechanics/point_energy.hpp"
 
 namespace strut {
 
 namespace {
-
-// ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)², whose sum is Σ ω V e² − m θ²/9.
-double energy(const materials::Moduli& moduli, double weighted_volume, double dilatation, double square) {
-  const double theta2 = dilatation * dilatation;
-  return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / weighted_volume - theta2 / 9);
-}
 
 template <class Weight>
 void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups, WorstFailure& failure) {
@@ -43,6 +39,14 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
   return symmetric_part(T * U / U.determinant());
 }
 
+// Of the bonds that are left; zero where they do not span space.
+Symmetric present_shape_inverse(const Body& body, int i) {
+  const auto& broken = body.domain.families.broken;
+  if (broken.empty() || broken[i].empty()) return body.shape_inverse[i];
+  const Symmetric inverse = symmetric_part(shape_tensor(body, i).inverse());
+  return inverse.allFinite() ? inverse : Symmetric(Symmetric::Zero());
+}
+
 template <class Weight>
 void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const LaneGroups& groups) {
   const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
@@ -53,9 +57,11 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
     const auto N = bonds::gather<false>(family, body.domain.sites.data(), weight).tensor;
     for (int l = 0; l < group.count; ++l) {
       OrdinaryPoint& ordinary = block.ordinary[group.k[l]];
-      ordinary.energy = energy(moduli, ordinary.weighted_volume, ordinary.dilatation, squares[l]);
+      ordinary.energy = ordinary_energy(block, ordinary, squares[l]);
       MaterialPoint& point = body.points[group.i[l]];
-      point.deformation_gradient = at(N, l) * to_tensor(body.shape_inverse[group.i[l]]);
+      const Symmetric shape_inverse = present_shape_inverse(body, group.i[l]);
+      if (!(trace(shape_inverse) > 0)) continue;  // its neighbors do not span space
+      point.deformation_gradient = at(N, l) * to_tensor(shape_inverse);
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);
       point.stress = stress_of(moduli, R.transpose() * point.deformation_gradient);

@@ -13,7 +13,7 @@ class QuadraticCells {
  public:
   QuadraticCells(const LaneGroup& group, const QuadraticFits& fits, const std::vector<Site>& sites)
       : numbers_(small::numbers_of<QuadraticFit::size>([&](int l) { return fits[group.i[l]].linear; })),
-        volume_(small::lanes_of([&](int l) { return sites[group.i[l]].reference[3]; })) {
+        volume_(small::lanes_of([&](int l) { return sites[group.i[l]].volume(); })) {
     for (auto& row : moment_) {
       for (Lanes& number : row) number.setZero();
     }

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "mechanics/kernels/bonds.hpp"
@@ -46,6 +47,13 @@ class QuadraticFits {
  public:
   // Collective. Of all owned points of the blocks by quadratic correspondence.
   explicit QuadraticFits(Body& body);
+
+  // Of an owned point that has lost bonds, whose μ and those of its neighbors stay. False where those that are left do
+  // not span space: it carries no stress any more.
+  bool refit(const Body& body, int i);
+
+  // F at a place of the cell of an owned point that carries stress, of points at place(j).
+  Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;
 
   const QuadraticFit& operator[](int i) const { return fits_[number_[i]]; }
   // μ of owned points and ghosts, zero of other formulations.

@@ -178,6 +178,38 @@ struct LinearFit {
   Tensor C = Tensor::Zero();
 };
 
+// Of (ξ, 1) over the family and the point: the inverse of their moments.
+Eigen::Matrix4d inverse_moments(const Body& body, int i) {
+  Eigen::Matrix4d N = Eigen::Matrix4d::Zero();
+  N(3, 3) = body.domain.volume(i);
+  over_family(body, i, [&](int, double w, const Vector& xi) {
+    Eigen::Vector4d b;
+    b << xi, 1;
+    N += w * b * b.transpose();
+  });
+  return N.inverse();
+}
+
+LinearFit linear_fit(const Body& body, int i, const Eigen::Array4d* mu, const Eigen::Matrix4d& inverse_moments) {
+  Eigen::Matrix<double, 4, 3> sums = Eigen::Matrix<double, 4, 3>::Zero();
+  sums.row(3) = body.domain.volume(i) * mu[i].head<3>().matrix().transpose();
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    const Eigen::RowVector3d weighted = w * mu[j].head<3>().matrix().transpose();
+    for (int c = 0; c < 3; ++c) sums.row(c) += xi[c] * weighted;
+    sums.row(3) += weighted;
+  });
+  const Eigen::Matrix<double, 4, 3> fit = inverse_moments * sums;
+  return {fit.row(3).transpose(), fit.topRows<3>().transpose()};
+}
+
+// V (μ_j − c − C ξ) is added to what a bond gives to F.
+void add_correction(const LinearFit& correction, double volume, QuadraticFit& fit) {
+  for (int c = 0; c < 3; ++c) {
+    fit.center[c] = correction.c[c];
+    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] -= volume * correction.C(b, c);
+  }
+}
+
 }  // namespace
 
 // Finds μ: of all corrections that make the forces of a uniform stress those on the surface, about the smallest one.
@@ -197,7 +229,10 @@ class ConsistencyCorrection {
     set_operator();
     solve();
     exchange_multipliers();
-    for_each_point(0, count(), [&](int p) { add_to_fit(points_[p]); });
+    for_each_point(0, count(), [&](int p) {
+      const int i = points_[p];
+      if (carries_stress(i)) add_correction(fit_of(i), body_.domain.volume(i), fits_.fit(i));
+    });
   }
 
  private:
@@ -208,10 +243,9 @@ class ConsistencyCorrection {
 
   void set_missing();
   void set_operator();
-  LinearFit fit_of(int i) const;
+  LinearFit fit_of(int i) const { return linear_fit(body_, i, fits_.multipliers(), moments_[i]); }
   void apply_operator();
   void solve();
-  void add_to_fit(int i);
 
   // A linear fit as others need it: c, C, and V² of the point; nothing of points that carry no stress.
   struct Share {
@@ -263,14 +297,7 @@ void ConsistencyCorrection::set_operator() {
     const QuadraticFit& fit = fits_[i];
     if (!fit.carries_stress()) continue;
     const double volume = body_.domain.volume(i);
-    Eigen::Matrix4d N = Eigen::Matrix4d::Zero();
-    N(3, 3) = volume;
-    over_family(body_, i, [&](int, double w, const Vector& xi) {
-      Eigen::Vector4d b;
-      b << xi, 1;
-      N += w * b * b.transpose();
-    });
-    moments_[i] = N.inverse();
+    moments_[i] = inverse_moments(body_, i);
     shares_[i].weight = volume * volume;
   }
   halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
@@ -282,19 +309,6 @@ void ConsistencyCorrection::set_operator() {
     diagonal_[i] = volume * sum;
     ridge_[i] = regularization * inner_diagonal * std::pow(body_.domain.cloud.spacings[i], 9);
   }
-}
-
-LinearFit ConsistencyCorrection::fit_of(int i) const {
-  const std::vector<Eigen::Array4d>& mu = fits_.multipliers_;
-  Eigen::Matrix<double, 4, 3> sums = Eigen::Matrix<double, 4, 3>::Zero();
-  sums.row(3) = body_.domain.volume(i) * mu[i].head<3>().matrix().transpose();
-  over_family(body_, i, [&](int j, double w, const Vector& xi) {
-    const Eigen::RowVector3d weighted = w * mu[j].head<3>().matrix().transpose();
-    for (int c = 0; c < 3; ++c) sums.row(c) += xi[c] * weighted;
-    sums.row(3) += weighted;
-  });
-  const Eigen::Matrix<double, 4, 3> fit = moments_[i] * sums;
-  return {fit.row(3).transpose(), fit.topRows<3>().transpose()};
 }
 
 void ConsistencyCorrection::apply_operator() {
@@ -337,18 +351,6 @@ void ConsistencyCorrection::solve() {
       mu.head<3>() += step[i].array();
     }
     rho = next;
-  }
-}
-
-// V (μ_j − c − C ξ) is added to what a bond gives to F.
-void ConsistencyCorrection::add_to_fit(int i) {
-  if (!carries_stress(i)) return;
-  const LinearFit correction = fit_of(i);
-  QuadraticFit& fit = fits_.fit(i);
-  const double volume = body_.domain.volume(i);
-  for (int c = 0; c < 3; ++c) {
-    fit.center[c] = correction.c[c];
-    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] -= volume * correction.C(b, c);
   }
 }
 
@@ -443,6 +445,30 @@ QuadraticFits::QuadraticFits(Body& body)
     if (number_[i] < 0 || !fit(i).carries_stress()) return;
     fit(i).steepness = steepness_of(body, i, multipliers(), fit(i));
   });
+}
+
+bool QuadraticFits::refit(const Body& body, int i) {
+  QuadraticFit fresh;
+  set_cell(shape_of(body, i), fresh);
+  const bool spans = fit_motion(body, i, fresh);
+  if (spans) {
+    add_correction(linear_fit(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
+    set_sums(body, i, multipliers(), fresh);
+    fresh.steepness = steepness_of(body, i, multipliers(), fresh);
+  }
+  fit(i) = spans ? fresh : QuadraticFit{};
+  return spans;
+}
+
+Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const {
+  const QuadraticFit& fit = (*this)[i];
+  const Vector here = place(i), at = place_of(fit, q);
+  Tensor F = Tensor::Zero();
+  over_family(body, i, [&](int j, double w, const Vector& xi) {
+    const Vector g = weight_of_bond(fit, body.domain.volume(i), w, xi, multipliers_[j], at);
+    F += (place(j) - here) * g.transpose();
+  });
+  return F;
 }
 
 double QuadraticFits::bytes() const {

@@ -163,9 +163,9 @@ inline void over(const Family& family, const Site* sites, Weight, Visit&& visit)
   family.for_each([&](int j, const auto& present) {
     const Site& there = sites[j];
     const Vector3<T> xi = apart(there.reference, X);
-    T weight = there.reference[3] * present;
+    T weight = there.volume() * present;
     if constexpr (!std::is_same_v<Weight, One>) {
-      const T length = sqrt(dot(xi, xi)), ratio = 2 * length / (horizon + there.current[3]);
+      const T length = sqrt(dot(xi, xi)), ratio = 2 * length / (horizon + there.horizon());
       weight *= Weight::of(ratio);
     }
     visit(j, weight, xi, present);

@@ -11,7 +11,7 @@
 
 namespace strut {
 
-// Points that kernels take side by side, one a lane, with one list for all of them: who is in the family of any, and in
+// SIMD: points that kernels take side by side, one per lane, with one list for all of them: who is in the family of any, and in
 // whose. Points of a cluster lie close together, so that most bonds of most of them share their far ends, each of which
 // is read once.
 struct Cluster {
@@ -28,10 +28,8 @@ class ClusterLists {
 
   int count() const { return static_cast<int>(first_.size()) - 1; }
   Cluster operator[](int b) const {
-    const auto slice = [b](const auto& from, const auto& values) {
-      return std::span(values.data() + from[b], values.data() + from[b + 1]);
-    };
-    return {slice(first_, points_), slice(start_, near_), mask_.data() + start_[b]};
+    const std::span points(points_.data() + first_[b], points_.data() + first_[b + 1]);
+    return {points, std::span(near_.data() + start_[b], near_.data() + end_[b]), mask_.data() + start_[b]};
   }
   std::size_t entries() const { return near_.size(); }
   double bytes() const {
@@ -55,6 +53,19 @@ class ClusterLists {
     }
   }
 
+  // Takes the members of a cluster whose bits are set out of the families that its n-th neighbor is in.
+  void cut(int b, std::size_t n, std::uint8_t members) { mask_[start_[b] + n] &= static_cast<std::uint8_t>(~members); }
+  // Lets go of the neighbors that are in no family of a cluster any more; the others keep their order.
+  void drop_cut(int b) {
+    std::size_t kept = start_[b];
+    for (std::size_t n = start_[b]; n < end_[b]; ++n) {
+      if (mask_[n] == 0) continue;
+      near_[kept] = near_[n];
+      mask_[kept++] = mask_[n];
+    }
+    end_[b] = kept;
+  }
+
   // Room for so many entries, or more than there will be: what is not filled takes no memory.
   void reserve(std::size_t entries) { near_.reserve(entries), mask_.reserve(entries); }
   // Gives all points and neighbors their numbers in `numbers`.
@@ -65,7 +76,8 @@ class ClusterLists {
 
  private:
   std::vector<int> points_, first_{0};  // of the points of a cluster
-  std::vector<std::size_t> start_{0};   // of the list of a cluster
+  std::vector<std::size_t> start_{0};   // of the list of a cluster; after the last one, where the next would begin
+  std::vector<std::size_t> end_;        // of it
   std::vector<int> near_;
   std::vector<std::uint8_t> mask_;
 };
@@ -93,6 +105,7 @@ class ClusterLists::Builder {
       mask_[j] = 0;
     }
     lists_.first_.push_back(static_cast<int>(lists_.points_.size()));
+    lists_.end_.push_back(lists_.near_.size());
     lists_.start_.push_back(lists_.near_.size());
   }
 
@@ -117,6 +130,8 @@ struct Families {
   ClusterLists lists;
   std::vector<LatticeFamilies> lattices;
   std::vector<int> lattice_of;  // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+  // Of owned points: those whose bonds to them have broken, local indices. Empty where no bond may break.
+  std::vector<std::vector<int>> broken;
 
   const LatticeFamilies* lattice(int i) const {
     return lattice_of.empty() || lattice_of[i] < 0 ? nullptr : &lattices[lattice_of[i]];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <sstream>
 
@@ -46,7 +47,11 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
 contact::Kinematics CentralDifference::kinematics() const { return {body_.domain, body_.velocity, body_.density}; }
 
 void CentralDifference::estimate_step() {
+  // The estimate takes the force states for its own; a break in the next step asks what they were.
+  std::optional<ForceStates> kept;
+  if (body_.fracture) kept = body_.force_states;
   critical_at_estimate_ = critical_time_step_.estimate(body_);
+  if (kept) body_.force_states = std::move(*kept);
   bound_at_estimate_ = frequency_bound_;
   estimate_due_ = false;
   steps_since_estimate_ = 0;
@@ -81,9 +86,19 @@ void CentralDifference::choose_step(double final_time) {
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
     // Equal steps to the end: a jump in dt at the last one would cost energy.
-    dt_ = left / std::ceil(left / (control_.safety_factor * critical_time_step()) * (1 - round_off));
+    dt_ = left / std::ceil(left / longest_step() * (1 - round_off));
   }
   next_time_ = dt_ == left ? final_time : time_ + dt_;
+}
+
+// Each change of the step takes or gives energy, in proportion to it. Where bonds break the bound of the critical time
+// step goes up and down with the families of a few points: there the step stays as it is while it is stable, and not
+// much shorter than it could be.
+double CentralDifference::longest_step() const {
+  constexpr double most = 0.95, least = 0.7;  // of the critical time step; of the step that would be chosen
+  const double critical = critical_time_step(), chosen = control_.safety_factor * critical;
+  const bool stays = body_.fracture && steps_ > 0 && dt_ <= most * critical && dt_ >= least * chosen;
+  return stays ? dt_ : chosen;
 }
 
 void CentralDifference::advance_velocity(double final_time) {
@@ -196,7 +211,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   update_rigid_motion(body_);
   const StepReport between = substeps();
   move_points();
-  StepReport report = advance_stress(body_, dt_, with_diagnostics);
+  StepReport report = advance_stress(body_, dt_, with_diagnostics, time_);
   take_worse(between.failure, report.failure);
   if (levels_due_) reassign_levels(report);
   sum_forces(body_, with_diagnostics);
@@ -249,7 +264,10 @@ void CentralDifference::check(const StepReport& report) {
 // A point that only is turned inside out has a place; others take their neighbors with them.
 CentralDifference::Severity CentralDifference::severity(const StepReport& report) const {
   if (!report.failure) return harmless;
-  return control_.with_inverted && report.failure->kind == Failure::Kind::inverted ? passable : fatal;
+  if (report.failure->kind != Failure::Kind::inverted) return fatal;
+  const auto& broken = body_.domain.families.broken;  // a point that has lost bonds may be crushed between others
+  const bool is_damaged = !broken.empty() && !broken[report.failure->point].empty();
+  return control_.continue_with_inverted || is_damaged ? passable : fatal;
 }
 
 void CentralDifference::serialize(Archive& archive) {
@@ -290,9 +308,18 @@ void CentralDifference::serialize_work(Archive& archive) {
   substep_impulses_.serialize(archive);
 }
 
-// What the body holds and has dissipated, less what was put in.
+namespace {
+
+// What the body holds and has dissipated.
+double held(const Ledger& now) {
+  return now.kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
+}
+
+}  // namespace
+
+// That, less what was put in.
 double CentralDifference::imbalance(const Ledger& now) const {
-  return now.kinetic + now.elastic + now.dissipated + now.stabilization - now.contact - now.external - initial_energy_;
+  return held(now) - now.contact - now.external - initial_energy_;
 }
 
 Ledger CentralDifference::ledger() {
@@ -316,8 +343,8 @@ Ledger CentralDifference::ledger() {
   now.elastic = stored.elastic;
   now.dissipated = stored.dissipated;
   now.stabilization = stored.stabilization;
-  const double held = now.kinetic + now.elastic + now.dissipated + now.stabilization;
-  largest_energy_ = std::max({largest_energy_, held, std::abs(initial_energy_ + now.contact + now.external)});
+  now.fracture = stored.fracture;
+  largest_energy_ = std::max({largest_energy_, held(now), std::abs(initial_energy_ + now.contact + now.external)});
   now.balance_error = largest_energy_ > 0 ? std::abs(imbalance(now)) / largest_energy_ : 0;
   return now;
 }

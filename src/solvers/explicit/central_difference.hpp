@@ -14,7 +14,7 @@ struct StepControl {
   double fixed_dt = 0;  // s; 0: from the critical time step
   double safety_factor = 0.8;
   bool subcycling = true;      // of the points that limit the step; none with a fixed one
-  bool with_inverted = false;  // goes on with points that are turned inside out, as masses while they are
+  bool continue_with_inverted = false;  // inverted points carry no stress but keep their mass while det F ≤ 0
 };
 
 class CentralDifference {
@@ -74,6 +74,7 @@ class CentralDifference {
   void add_work_of_friction(double impulse_time);
   void take_reactions(const ReactionImpulses& now, double impulse_time);
   void choose_step(double final_time);
+  double longest_step() const;
   void estimate_step();
   void reassign_levels(StepReport& report);
   void restrict_conditions();

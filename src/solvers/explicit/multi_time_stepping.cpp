@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "mechanics/force_sum.hpp"
+#include "mechanics/fracture/fracture.hpp"
 
 namespace strut {
 
@@ -77,13 +78,14 @@ double FrequencyHistogram::cost(int c) const {
 // Whether the points of a block may have smaller steps: not in a body with ordinary points, whose forces act once a
 // step.
 bool may_be_subcycled(const Body& body, std::size_t block) {
+  if (body.fracture && body.fracture->may_break(block)) return false;  // bonds break between whole steps
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (body.domain.blocks[b].body == body.domain.blocks[block].body && body.blocks[b].is_ordinary()) return false;
   }
   return true;
 }
 
-bool moves_rigidly(const Body& body, int i) { return body.blocks[body.domain.cloud.blocks[i]].in_rigid_motion; }
+bool moves_rigidly(const Body& body, int i) { return body.block_of(i).in_rigid_motion; }
 
 // Calls visit(i, whether it may have a higher level) for the owned points.
 template <class Visit>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # A Taylor impact, a fast one whose foot is subcycled, the same with points at the nodes of a graded mesh, also by
 # quadratic correspondence, a bar whose upper half is ordinary elastic below either formulation, and two bodies that
-# meet with friction, on 1, 2, 3 and 4 ranks: results and histories must be the same.
+# meet with friction, also so fast that they break, on 1, 2, 3 and 4 ranks: results and histories must be the same.
 #   invariance.sh strut strut-mesh strut-compare mpirun [its options]
 set -u
 strut=$1 mesh=$2 compare=$3
@@ -36,6 +36,7 @@ block() {
       <Parameter name="Block Names" type="string" value="$2"/>
       <Parameter name="Material" type="string" value="$3"/>
       <Parameter $horizon type="double"/>
+      $damage
       <Parameter name="Separate Body" type="bool" value="${4:-false}"/>
     </ParameterList>
 END
@@ -59,7 +60,7 @@ contact_section='<ParameterList name="Contact">
 
 # problem NAME: sets what deck() reads.
 problem() {
-  contact= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
+  contact= damage= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
   case $1 in
     bar) mesh_type=Exodus mesh_file=bar.g sets= foot=foot blocks=$(block bar all copper) ;;
     fast)
@@ -70,15 +71,16 @@ problem() {
     cells)
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"' speed=200
       formulation="Quadratic Correspondence" blocks=$(block bar all copper) ;;
-    mixed | mixed-cells | meeting)
+    mixed | mixed-cells | meeting | breaking)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
       </ParameterList>'
       blocks=$(block lower block_1 copper; block upper block_2 steel) ;;
   esac
-  [ $1 = mixed-cells ] && formulation="Quadratic Correspondence" viscosity=0.06
-  [ $1 = meeting ] || return 0
+  case $1 in mixed-cells | breaking) formulation="Quadratic Correspondence" viscosity=0.06 ;; esac
+  case $1 in mixed | mixed-cells | bar | fast | nodes | cells) return 0 ;; esac
+  [ $1 = breaking ] && speed=100 damage='<Parameter name="Damage Model" type="string" value="brittle"/>'
   mesh_file=apart.txt contact=$contact_section viscosity=0.06
   blocks=$(block lower block_1 copper true; block upper block_2 steel true)
 }
@@ -121,6 +123,12 @@ deck() {
       <Parameter name="Poisson's Ratio" type="double" value="0.3"/>
     </ParameterList>
   </ParameterList>
+  <ParameterList name="Damage Models">
+    <ParameterList name="brittle">
+      <Parameter name="Damage Model" type="string" value="Critical Stretch"/>
+      <Parameter name="Critical Stretch" type="double" value="0.02"/>
+    </ParameterList>
+  </ParameterList>
   <ParameterList name="Blocks">
 $blocks
   </ParameterList>
@@ -150,6 +158,8 @@ $blocks
       <Parameter name="Cauchy_Stress" type="bool" value="true"/>
       <Parameter name="Equivalent_Plastic_Strain" type="bool" value="true"/>
       <Parameter name="Dilatation" type="bool" value="true"/>
+      <Parameter name="Damage" type="bool" value="true"/>
+      <Parameter name="Fragment" type="bool" value="true"/>
     </ParameterList>
   </ParameterList>
   <ParameterList name="History">
@@ -171,7 +181,7 @@ END
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
-for name in bar fast nodes cells mixed mixed-cells meeting; do
+for name in bar fast nodes cells mixed mixed-cells meeting breaking; do
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml
@@ -180,9 +190,13 @@ for name in bar fast nodes cells mixed mixed-cells meeting; do
       cat log
       exit 1
     fi
-    [ $ranks -eq 1 ] && grep -E ' steps, |stepped alone|subcycled' log
-    if { [ $name = fast ] || [ $name = cells ]; } && ! grep -qE 'stepped alone|subcycled' log; then
+    [ $ranks -eq 1 ] && grep -E ' steps, |subcycled|bonds broke' log
+    if { [ $name = fast ] || [ $name = cells ]; } && ! grep -qE 'subcycled' log; then
       echo "FAILED: no point of the bar $name is subcycled"
+      exit 1
+    fi
+    if [ $name = breaking ] && ! grep -q 'bonds broke' log; then
+      echo "FAILED: no bond broke"
       exit 1
     fi
     for kind in e csv; do

@@ -3,8 +3,9 @@
 
   restarts.py [--kills N] [--seed S] strut strut-compare mpirun [its options]
 
-Two scenes: one in explicit steps, of a plastic bar that strikes a plane with an ordinary elastic one behind it (points
-that are subcycled, contact, friction, viscosity, reactions); one of equilibria between tools. Each is run once
+Scenes: in explicit steps a plastic bar that strikes a plane with an ordinary elastic one behind it (points that are
+subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break;
+equilibria between tools. Each is run once
 without a break. Then it is ended by SIGTERM, by N SIGKILLs at random times (a checkpoint is written every third step, so
 that many of them come in the middle of that, of a frame or of a line), by the loss of a rank, by a full disk; and goes
 on. Histories must be the same to the last byte and fields to the last bit on as many ranks; 1e-12 on others.
@@ -152,7 +153,15 @@ def cells():
     return [text.replace(model, model + '<Parameter name="Formulation" type="string" value="Quadratic Correspondence"/>')]
 
 
-SCENES = {"impact": impact, "press": press, "cells": cells}
+def breaking():
+    """The same, with bonds that break."""
+    text = "\n".join(cells()).replace("cells.", "breaking.")
+    material = '<Parameter name="Material" '
+    text = text.replace(material, keys(Damage_Model="brittle") + material)
+    return [text, section("Damage Models", section("brittle", keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)))]
+
+
+SCENES = {"impact": impact, "press": press, "cells": cells, "breaking": breaking}
 
 
 class Test:
@@ -237,7 +246,8 @@ class Test:
         self.same(whole, folder, scene)
         self.run(Path(elsewhere), "--continue", ranks=2)
         # Equilibria are found to 1e-6 of the forces, by preconditioners that differ with the ranks.
-        tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "cells": (1e-12, 1e-9)}
+        tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "cells": (1e-12, 1e-9),
+                      "breaking": (1e-12, 1e-9)}
         self.same(whole, elsewhere, scene, *tolerances[scene])
 
     def killed(self, scene, whole, kills):
@@ -377,8 +387,10 @@ class Test:
         if self.failures:
             return
         self.seconds[name] = time.monotonic() - began
-        if name in ("impact", "cells") and not ("stepped alone" in log or "subcycled" in log):
+        if name in ("impact", "cells") and "subcycled" not in log:
             self.fail("no point of the impact is subcycled", whole / "log")
+        if name == "breaking" and "bonds broke" not in log:
+            self.fail("no bond broke", whole / "log")
         self.setup[name] = 0.1
         self.terminated(name, whole)
         self.killed(name, whole, kills)

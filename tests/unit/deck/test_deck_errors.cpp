@@ -114,7 +114,7 @@ const std::vector<Case> names = {
     {"UnknownKeyWithoutLikeness", R"("Block Names" type="string" value="block_2"/>)",
      R"("Block Names" type="string" value="block_2"/> <Parameter name="Colour" type="string" value="red"/>)",
      "Blocks > plate > Colour: unknown key; expected one of Block Names, Material, Horizon, Horizon Factor, "
-     "Separate Body, Bonds Across Voids"},
+     "Separate Body, Bonds Across Voids, Damage Model"},
     {"UnknownSection", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Node Sts"/><ParameterList name="Solver">)",
      "Node Sts: unknown section (did you mean 'Node Sets'?)"},
@@ -188,9 +188,9 @@ const std::vector<Case> names = {
         <Parameter name="Effective Modulus" type="double" value="60e9"/>)",
      "Contact > Models > touch > Effective Modulus: unknown key for Contact Model 'Short Range Force'; it belongs to "
      "'Hertz'"},
-    {"ReservedDamage", R"(<ParameterList name="Solver">)",
+    {"EmptyDamageModels", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Damage Models"/><ParameterList name="Solver">)",
-     "Damage Models: reserved: not in this version (bonds do not break)"},
+     "Damage Models: empty; expected at least one section, named as you like"},
     {"PeridigmsHourglassBesideOurs", R"("Stabilization Coefficient" type="double" value="0.05"/>)",
      R"("Stabilization Coefficient" type="double" value="0.05"/>
       <Parameter name="Hourglass Coefficient" type="double" value="0.02"/>)",

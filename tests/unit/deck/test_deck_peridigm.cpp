@@ -164,14 +164,12 @@ TEST(DeckOfPeridigm, OutputsBecomeFieldsAndHistory) {
   const Deck deck = with(folder, R"(<ParameterList name="Solver">)", outputs + R"(<ParameterList name="Solver">)");
   EXPECT_EQ(deck.output.file, "bar.e");
   EXPECT_EQ(deck.output.frequency, 100);
-  EXPECT_EQ(deck.output.variables, (std::vector<std::string>{"Displacement", "Element_Id", "Cauchy_Stress"}));
+  EXPECT_EQ(deck.output.variables, (std::vector<std::string>{"Displacement", "Element_Id", "Cauchy_Stress", "Damage"}));
   EXPECT_EQ(deck.history.file, "bar.csv");
   EXPECT_EQ(deck.history.frequency, 10);
   EXPECT_EQ(deck.history.variables, std::vector<std::string>{"Max_Von_Mises_Stress(block_1)"});
   EXPECT_EQ(deck.notes,
             (std::vector<std::string>{
-                "Output1 > Output Variables > Damage is not written: there is no such field here; it would be 0 "
-                "everywhere, as bonds do not break",
                 "Output2 > Output Variables > Global_Kinetic_Energy goes into History: Kinetic_Energy",
                 "Output2 > Output Variables > Global_Angular_Momentum is not written: there is no such number here",
                 "Output2 > Output Variables > Highest_Stress goes into History: Max_Von_Mises_Stress(block_1)"}));
@@ -196,35 +194,113 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
   text = changed(text, horizon, horizon + key("Damage Model", "string", "crack"));
   text = changed(text, R"(<Parameter name="Final Time" type="double" value="2e-4"/>)",
                  key("Final Time", "double", "2e-4") + list("Implicit", key("Fixed dt", "double", "1.0")));
-  text = changed(text, R"(<Parameter name="Input Mesh File")",
-                 list("Bond Filters", "") + R"(<Parameter name="Input Mesh File")");
   const std::string heat = list("heat", key("Type", "string", "Prescribed Temperature"));
   text = changed(text, R"(<ParameterList name="Solver">)",
-                 list("Damage Models", "") + list("Boundary Conditions", heat) + output("Output1", "1", {"Velocity"}) +
+                 list("Damage Models", list("brittle", key("Damage Model", "string", "Interface Aware"))) +
+                     list("Boundary Conditions", heat) + output("Output1", "1", {"Velocity"}) +
                      output("Output2", "1", {"Displacement"}) + R"(<ParameterList name="Solver">)");
   const std::string error = folder.error(text);
-  EXPECT_TRUE(error.starts_with("deck.xml: 8 problems\n")) << error;
+  EXPECT_TRUE(error.starts_with("deck.xml: 7 problems\n")) << error;
   for (const std::string named :
        {"Materials > copper > Apply Shear Correction Factor: 'true'; expected false: there is no correction of moduli "
         "at "
         "surfaces",
         "Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no temperature",
         "Output2: a second section with fields, after 'Output1'; there is one file of fields: put all into one of them",
-        "Discretization > Bond Filters: ", "Blocks > foam > Damage Model: reserved: not in this version",
         "Boundary Conditions > heat > Type: 'Prescribed Temperature' (there is no temperature here)",
         "Solver > Implicit: unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia",
-        "Damage Models: reserved: not in this version"}) {
+        "Blocks > foam > Damage Model: 'crack' is not defined; expected the name of a section of Damage Models: "
+        "brittle",
+        "Damage Models > brittle > Damage Model: 'Interface Aware'; expected"}) {
     EXPECT_NE(error.find("\n  " + named), std::string::npos) << named << "\nin " << error;
   }
 }
 
 TEST(DeckOfPeridigm, OtherFormsOfADeckAreRefused) {
   const DeckFolder folder;
-  for (const std::string text : {"Discretization\n   Type \"Exodus\"\n", "#{L=1}\n", "Peridigm:\n  Solver:\n"}) {
-    EXPECT_EQ(folder.error(text),
-              "deck.xml: 1 problem\n  XML: this is no XML; Peridigm's other forms of a deck (indented text with "
-              "aprepro's {…}, YAML) are not read: write it as <ParameterList>s");
-  }
+  const std::string what =
+      ": this is neither XML nor YAML; expected <ParameterList>s, or 'Key: value' and indented sections (Peridigm's "
+      "text "
+      "with aprepro's {…} is not read)";
+  EXPECT_EQ(folder.error("Discretization\n   Type \"Exodus\"\n"), "deck.xml: 1 problem\n  line 2 column 4" + what);
+  EXPECT_EQ(folder.error("Peridigm:\n  Solver:\n    Final Time: 1\n    Final Time: 2\n"),
+            "deck.xml: 1 problem\n  line 5 column 1: Parameter \"Final Time\" is given twice; expected once");
+  EXPECT_EQ(folder.error(std::string(200, '[')),
+            "deck.xml: 1 problem\n  YAML: more than a hundred levels; expected few");
+}
+
+// ---- Fracture ------------------------------------------------------------------------------------------------------
+
+const char* const fracturing = R"(Peridigm:
+  Discretization:
+    Type: "PdQuickGrid"
+    NeighborhoodType: "Spherical"
+    TensorProduct3DMeshGenerator:
+      Type: "PdQuickGrid"
+      X Origin: 0.0
+      Y Origin: 0.0
+      Z Origin: 0.0
+      X Length: 1.0
+      Y Length: 1.0
+      Z Length: 1.0
+      Number Points X: 4
+      Number Points Y: 4
+      Number Points Z: 4
+    Bond Filters:
+      notch:
+        Type: "Disk"
+        Center_X: 0.5
+        Center_Y: 0.5
+        Center_Z: 0.5
+        Normal_X: 0.0
+        Normal_Y: 0.0
+        Normal_Z: 2.0
+        Radius: 0.2
+  Materials:
+    glass: {Material Model: "Elastic", Density: 2440.0, Bulk Modulus: 40.0e9, Shear Modulus: 30.0e9}
+  Damage Models:
+    brittle: {Damage Model: "Critical Stretch", Critical Stretch: 0.001}
+    growing: {Damage Model: "Time Dependent Critical Stretch", Time Dependent Critical Stretch: "0.001 + t"}
+  Blocks:
+    all of it: {Block Names: "all", Material: "glass", Damage Model: "growing", Horizon: 0.8}
+  Solver:
+    Final Time: 1.0e-5
+    Verlet: {Safety Factor: 0.7}
+)";
+
+TEST(DeckOfPeridigm, YamlIsReadAsXml) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(fracturing);
+  EXPECT_EQ(deck.materials[0].density, 2440);
+  ASSERT_EQ(deck.damage_models.size(), 2u);
+  EXPECT_EQ(deck.damage_models[0].model.critical_stretch(0, 0, 0, 7), 0.001);
+  EXPECT_EQ(deck.damage_models[1].model.critical_stretch(0, 0, 0, 7), 7.001);
+  EXPECT_EQ(deck.blocks[0].damage_model, 1);
+  ASSERT_EQ(deck.discretization.cracks.size(), 1u);
+  const DiskCrack disk = std::get<DiskCrack>(deck.discretization.cracks[0]);
+  EXPECT_EQ(disk.normal, Vector::UnitZ());
+  EXPECT_EQ(disk.radius, 0.2);
+}
+
+TEST(DeckOfPeridigm, DamageThatIsNotKnownIsRefused) {
+  const DeckFolder folder;
+  const auto refused = [&](const std::string& old, const std::string& by, const std::string& problem) {
+    const std::string error = folder.error(changed(fracturing, old, by));
+    EXPECT_NE(error.find("\n  " + problem), std::string::npos) << problem << "\nin " << error;
+  };
+  refused("\"growing\", Horizon", "\"growin\", Horizon",
+          "Blocks > all of it > Damage Model: 'growin' is not defined (did you mean 'growing'?)");
+  refused("0.001 + t", "0.001 + x", "Damage Models > growing > Time Dependent Critical Stretch: '0.001 + x'; expected");
+  refused("Critical Stretch: 0.001}", "Critical Stretch: 0.001, Fracture Energy: 10.0}",
+          "Damage Models > brittle: 'Critical Stretch' and 'Fracture Energy' are both given");
+  refused("Critical Stretch: 0.001}", "Critical Stretch: -0.001}", "Damage Models > brittle > Critical Stretch: ");
+  refused("Normal_Z: 2.0", "Normal_Z: 0.0",
+          "Discretization > Bond Filters > notch > Normal_X: the vector has no length");
+  refused("Radius: 0.2", "Radius: 0.0", "Discretization > Bond Filters > notch > Radius: ");
+  refused("\"Elastic\"", "\"Elastic Correspondence\"",
+          "Blocks > all of it > Damage Model: bonds with the Stabilization");
+  refused("Verlet: {Safety Factor: 0.7}", "QuasiStatic: {Number of Load Steps: 1}",
+          "Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic");
 }
 
 }  // namespace

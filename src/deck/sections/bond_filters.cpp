@@ -1,0 +1,101 @@
+#include "deck/sections/bond_filters.hpp"
+
+#include <array>
+
+#include "deck/problems.hpp"
+#include "deck/values.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+const char* const name = "Bond Filters";
+
+// A vector as Peridigm's decks have it: a key for each of its components.
+struct ComponentKeys {
+  std::array<RealKey, 3> axes;
+
+  ComponentKeys(const std::string& name, const std::string& unit, const std::string& meaning)
+      : axes{key(name + "_X", unit, meaning), key(name + "_Y", unit, meaning), key(name + "_Z", unit, meaning)} {}
+
+  Vector of(const Values& values) const { return {values[axes[0]], values[axes[1]], values[axes[2]]}; }
+
+  // Of length 1.
+  Vector direction(const Values& values, Problems& problems) const {
+    const Vector given = of(values);
+    if (!(given.norm() > 0) && values.has(axes[2])) {
+      problems.add(values.path_to(axes[0]), "the vector has no length; expected a direction");
+    }
+    return given.norm() > 0 ? Vector(given.normalized()) : Vector(Vector::UnitZ());
+  }
+
+ private:
+  static RealKey key(const std::string& name, const std::string& unit, const std::string& meaning) {
+    return RealKey({.name = name, .unit = unit, .meaning = meaning});
+  }
+};
+
+const ComponentKeys normal("Normal", "", "Of the plane, of any length but zero.");
+const ComponentKeys corner("Lower_Left_Corner", "m", "A corner.");
+const ComponentKeys bottom("Bottom_Unit_Vector", "",
+                           "From the corner along an edge; the other edge is along this × normal.");
+const RealKey bottom_length({.name = "Bottom_Length", .unit = "m", .range = positive, .meaning = "Of the first edge."});
+const RealKey side_length({.name = "Side_Length", .unit = "m", .range = positive, .meaning = "Of the other edge."});
+
+const ComponentKeys center("Center", "m", "Of the disk.");
+const RealKey radius({.name = "Radius", .unit = "m", .range = positive, .meaning = "Of the disk."});
+
+std::vector<Key> keys_of(const std::vector<ComponentKeys>& vectors, const std::vector<Key>& others) {
+  std::vector<Key> keys;
+  for (const ComponentKeys& vector : vectors) keys.insert(keys.end(), vector.axes.begin(), vector.axes.end());
+  keys.insert(keys.end(), others.begin(), others.end());
+  return keys;
+}
+
+Crack read_rectangle(const Values& values, Problems& problems) {
+  const Vector n = normal.direction(values, problems), along = bottom.direction(values, problems);
+  if (std::abs(n.dot(along)) > 1e-6) {
+    problems.add(values.path_to(bottom.axes[0]),
+                 "is not at a right angle to the normal; expected an edge in the plane");
+  }
+  return RectangularCrack{corner.of(values), n, along, values[bottom_length], values[side_length]};
+}
+
+Crack read_disk(const Values& values, Problems& problems) {
+  return DiskCrack{center.of(values), normal.direction(values, problems), values[radius]};
+}
+
+struct FilterEntry {
+  Section schema;  // named as "Type" has it
+  Crack (*read)(const Values& values, Problems& problems);
+};
+
+const std::vector<FilterEntry>& entries() {
+  static const std::vector<FilterEntry> all = {
+      {{.name = "Rectangular_Plane",
+        .meaning = "A rectangle.",
+        .keys = keys_of({normal, corner, bottom}, {bottom_length, side_length})},
+       read_rectangle},
+      {{.name = "Disk", .meaning = "A disk.", .keys = keys_of({normal, center}, {radius})}, read_disk}};
+  return all;
+}
+
+}  // namespace
+
+Section bond_filters_section() {
+  return {.name = name,
+          .meaning = "Cracks that the bodies have from the start: bonds do not cross them.",
+          .sections = {with_cases({.name = any_name, .required = true, .meaning = "One crack."},
+                                  {.name = "Type", .meaning = "Its form; it decides on further keys."},
+                                  schemas_of(entries()))}};
+}
+
+std::vector<Crack> read_bond_filters(const Values& discretization, Problems& problems) {
+  std::vector<Crack> cracks;
+  for (const Values& section : discretization.section(name).sections()) {
+    if (const FilterEntry* entry = chosen_of(entries(), section)) cracks.push_back(entry->read(section, problems));
+  }
+  return cracks;
+}
+
+}  // namespace strut::deck

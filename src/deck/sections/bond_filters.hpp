@@ -1,0 +1,14 @@
+// The section Discretization > Bond Filters: cracks that a body has from the start.
+#pragma once
+
+#include <vector>
+
+#include "deck/forward.hpp"
+#include "points/neighbors/cracks.hpp"
+
+namespace strut::deck {
+
+Section bond_filters_section();
+std::vector<Crack> read_bond_filters(const Values& discretization, Problems& problems);
+
+}  // namespace strut::deck

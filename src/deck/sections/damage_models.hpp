@@ -1,0 +1,20 @@
+// The section Damage Models: when bonds break.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/forward.hpp"
+#include "mechanics/fracture/damage_model.hpp"
+
+namespace strut::deck {
+
+struct NamedDamageModel {
+  std::string name;
+  DamageModel model;
+};
+
+Section damage_models_section();
+std::vector<NamedDamageModel> read_damage_models(const Values& deck, Problems& problems);
+
+}  // namespace strut::deck

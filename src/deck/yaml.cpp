@@ -1,0 +1,100 @@
+#include "deck/yaml.hpp"
+
+#include <Teuchos_Array.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <Teuchos_YamlParameterListCoreHelpers.hpp>
+#include <algorithm>
+
+#include "deck/numbers.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+template <class T>
+std::string text_of(const T& value) {
+  if constexpr (std::is_same_v<T, std::string>) return value;
+  if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
+  if constexpr (std::is_same_v<T, int>) return std::to_string(value);
+  if constexpr (std::is_same_v<T, double>) return to_text(value);
+}
+
+template <class T>
+bool read_as(const Teuchos::ParameterEntry& entry, const std::string& type, Parameter& parameter) {
+  if (entry.isType<T>()) {
+    parameter.type = type, parameter.value = text_of(Teuchos::getValue<T>(entry));
+    return true;
+  }
+  if (!entry.isType<Teuchos::Array<T>>()) return false;
+  parameter.type = "Array(" + type + ")";
+  for (const T& one : Teuchos::getValue<Teuchos::Array<T>>(entry)) {
+    parameter.value += (parameter.value.empty() ? "{" : ", ") + text_of(one);
+  }
+  parameter.value += "}";
+  return true;
+}
+
+List read_list(const Teuchos::ParameterList& yaml, const std::string& path, Problems& problems) {
+  List list;
+  for (auto at = yaml.begin(); at != yaml.end(); ++at) {
+    const std::string& name = yaml.name(at);
+    const Teuchos::ParameterEntry& entry = yaml.entry(at);
+    Parameter parameter{name, "", ""};
+    if (entry.isList()) {
+      list.lists.push_back(read_list(yaml.sublist(name), path_to(path, name), problems));
+      list.lists.back().name = name;
+    } else if (read_as<double>(entry, "double", parameter) || read_as<int>(entry, "int", parameter) ||
+               read_as<bool>(entry, "bool", parameter) || read_as<std::string>(entry, "string", parameter)) {
+      list.parameters.push_back(parameter);
+    } else {
+      problems.add(path_to(path, name), "expected a number, a truth value, a text, a list of these, or a section");
+    }
+  }
+  return list;
+}
+
+// Of Teuchos' many lines: "Parser failure at line 2 column 3 of …" and, if it has one, its own last word.
+void add_syntax_error(const std::string& what, Problems& problems) {
+  const std::string mark = "Parser failure at ";
+  const std::size_t begin = what.find(mark);
+  const std::string place = begin == std::string::npos
+                                ? "YAML"
+                                : what.substr(begin + mark.size(), what.find(" of ", begin) - begin - mark.size());
+  const std::size_t twice = what.find("already exists"), name = what.rfind('\n', twice);
+  if (twice != std::string::npos) {
+    return problems.add(place,
+                        std::string(trimmed(what.substr(name, twice - name))) + " is given twice; expected once");
+  }
+  problems.add(
+      place,
+      "this is neither XML nor YAML; expected <ParameterList>s, or 'Key: value' and indented sections (Peridigm's "
+      "text with aprepro's {…} is not read)");
+}
+
+// Teuchos and read_list call themselves for each level.
+bool is_too_deep(const std::string& text) {
+  constexpr int deepest = 100;
+  int brackets = 0, most = 0;
+  for (const char c : text) {
+    brackets += (c == '{' || c == '[') - (c == '}' || c == ']');
+    most = std::max(most, brackets);
+  }
+  return most > deepest || text.find("\n" + std::string(4 * deepest, ' ')) != std::string::npos;
+}
+
+}  // namespace
+
+std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
+  if (is_too_deep(text)) {
+    problems.add("YAML", "more than a hundred levels; expected few");
+    return std::nullopt;
+  }
+  try {
+    return read_list(*Teuchos::getParametersFromYamlString(text), "", problems);
+  } catch (const std::exception& error) {
+    add_syntax_error(error.what(), problems);
+  }
+  return std::nullopt;
+}
+
+}  // namespace strut::deck

@@ -1,0 +1,26 @@
+// A point that has lost bonds.
+#pragma once
+
+#include "mechanics/body.hpp"
+#include "mechanics/fracture/point_account.hpp"
+
+namespace strut {
+
+// K = Σ ω V ξ⊗ξ over the family that a point has now, m⁵.
+Tensor shape_tensor(const Body& body, int i);
+
+// V tr K⁻¹ of an owned point that is not by quadratic correspondence, 1/m²: its share in ω², by correspondence.
+double steepness(const Body& body, int i);
+
+// Computes anew what block.points[k] knows of its family: shape tensor and first moment, or the fit of its cell; of an
+// ordinary point nothing. Where
+// the bonds that are left cannot hold a deformation gradient, or only a steeper one than `most` (by correspondence), it
+// carries no stress from now on, and goes on as a mass.
+void refit(Body& body, MaterialBlock& block, int k, double most);
+
+// The same as bonds break in a step. The gradient of the bonds that are left differs by ΔF from that of all. Stress
+// follows this jump as long as its energy falls, in the direction of ΔF; the rest of the jump leaves it alone: a break
+// releases energy, and where it leaves bonds in compression only, it must not make any.
+void refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start);
+
+}  // namespace strut

@@ -1,0 +1,134 @@
+#include "mechanics/fracture/critical_stretch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/kernels/bonds.hpp"
+
+namespace strut {
+
+namespace {
+
+struct LatticeBond {
+  Vector xi;
+  double weight;     // ω V
+  double opening;    // at which it breaks if it crosses the plane, its critical stretch being 1
+  int layers_below;  // its far end is so many layers below
+};
+
+// The family of a point inside of the lattice. A bond is longer by Δ |ξ_z|/|ξ| once the halves are Δ apart.
+std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
+  const double h = lattice.spacing;
+  const int reach = static_cast<int>(lattice.horizon / h * (1 + 1e-9));
+  std::vector<LatticeBond> family;
+  bonds::with_influence(lattice.influence, [&]<class Weight>(Weight) {
+    for (int x = -reach; x <= reach; ++x) {
+      for (int y = -reach; y <= reach; ++y) {
+        for (int z = -reach; z <= reach; ++z) {
+          const Vector xi = h * Vector(x, y, z);
+          if (xi.norm() == 0 || !bonded(lattice.horizon, lattice.horizon, xi)) continue;
+          const double weight = Weight::of(xi.norm() / lattice.horizon) * h * h * h;
+          family.push_back({xi, weight, z < 0 ? xi.squaredNorm() / -xi[2] : 0, -z});
+        }
+      }
+    }
+  });
+  return family;
+}
+
+// The energy of a point so many layers above the plane, J/m³, at an opening. Bonds across the plane that break at
+// `broken` or less are gone.
+class SeparatedPoint {
+ public:
+  SeparatedPoint(const PulledLattice& lattice, const std::vector<LatticeBond>& family, int layer)
+      : lattice_(lattice), family_(family), layer_(layer) {}
+
+  double energy(double opening, double broken) const {
+    return lattice_.formulation == Formulation::ordinary ? ordinary(opening, broken) : correspondence(opening, broken);
+  }
+
+ private:
+  bool crosses(const LatticeBond& bond) const { return bond.layers_below > layer_; }
+  double ordinary(double opening, double broken) const;
+  double correspondence(double opening, double broken) const;
+
+  const PulledLattice& lattice_;
+  const std::vector<LatticeBond>& family_;
+  int layer_;
+};
+
+double SeparatedPoint::ordinary(double opening, double broken) const {
+  double m = 0, moment = 0, squares = 0;
+  for (const LatticeBond& bond : family_) {
+    m += bond.weight * bond.xi.squaredNorm();
+    if (!crosses(bond) || bond.opening <= broken) continue;
+    const double extension = opening * std::abs(bond.xi[2]) / bond.xi.norm();
+    moment += bond.weight * bond.xi.norm() * extension;
+    squares += bond.weight * extension * extension;
+  }
+  const double theta = 3 * moment / m;
+  const auto& [bulk, shear] = lattice_.moduli;
+  return 0.5 * bulk * theta * theta + 7.5 * shear * (squares / m - theta * theta / 9);
+}
+
+double SeparatedPoint::correspondence(double opening, double broken) const {
+  Tensor K = Tensor::Zero(), N = Tensor::Zero();
+  double first_trace = 0, squares = 0;
+  const Vector apart(0, 0, -opening);  // of a far end below the plane
+  for (const LatticeBond& bond : family_) {
+    first_trace += bond.weight * bond.xi.squaredNorm();
+    if (crosses(bond) && bond.opening <= broken) continue;
+    K += bond.weight * bond.xi * bond.xi.transpose();
+    if (!crosses(bond)) continue;
+    N += bond.weight * apart * bond.xi.transpose();
+    squares += bond.weight * apart.squaredNorm();
+  }
+  const Tensor gradient = N * K.inverse(), strain = 0.5 * (gradient + gradient.transpose());
+  const auto& [bulk, shear] = lattice_.moduli;
+  const double trace = strain.trace();
+  const double elastic = 0.5 * (bulk - 2 * shear / 3) * trace * trace + shear * strain.squaredNorm();
+  const double C = lattice_.silling * lattice_.moduli.longitudinal() / (first_trace / 3);
+  return elastic + 0.5 * C * (squares - (N.transpose() * gradient).trace());
+}
+
+}  // namespace
+
+double energy_of_separation(const PulledLattice& lattice) {
+  const std::vector<LatticeBond> family = family_of(lattice);
+  std::vector<double> openings;
+  int layers = 0;
+  for (const LatticeBond& bond : family) {
+    if (bond.layers_below <= 0) continue;
+    openings.push_back(bond.opening);
+    layers = std::max(layers, bond.layers_below);
+  }
+  std::sort(openings.begin(), openings.end());
+  double released = 0, before = 0;
+  for (const double opening : openings) {
+    if (opening <= before * (1 + 1e-12)) continue;
+    for (int layer = 0; layer < layers; ++layer) {
+      const SeparatedPoint point(lattice, family, layer);
+      released += point.energy(opening, before) - point.energy(opening, opening * (1 + 1e-12));
+    }
+    before = opening * (1 + 1e-12);
+  }
+  return 2 * lattice.spacing * released;  // of both halves
+}
+
+void set_critical_stretches(Body& body) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    BlockMaterial& material = body.blocks[b].material;
+    if (!material.damage || !(material.damage->fracture_energy > 0)) continue;
+    const BlockHorizons& of_block = body.domain.blocks[b];
+    if (!(of_block.spacing > 0)) continue;  // has no points
+    const auto moduli = std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, material.law);
+    const bool springs = residual_of(material.stabilization) == ResidualKind::own_gradient;
+    const PulledLattice lattice{of_block.spacing, of_block.largest,
+                                body.influence,   material.formulation,
+                                moduli,           springs ? coefficient_of(material.stabilization) : 0};
+    material.damage->critical_stretch =
+        Function(std::sqrt(material.damage->fracture_energy / energy_of_separation(lattice)));
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,25 @@
+// The critical stretch that dissipates a given fracture energy.
+#pragma once
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// A lattice as it is about to be pulled apart.
+struct PulledLattice {
+  double spacing, horizon;  // m
+  Influence influence;
+  Formulation formulation;  // ordinary or correspondence
+  materials::Moduli moduli;
+  double silling = 0;  // c of springs on a point's own gradient
+};
+
+// What is dissipated for each m² of the plane between two halves of a lattice, J/m², as they move apart along its
+// normal without deformation, by bonds whose critical stretch is 1 and in small strains: of s_c it is s_c² times as
+// much. Each break dissipates by how much the energy of the points on both sides falls.
+double energy_of_separation(const PulledLattice& lattice);
+
+// Sets the critical stretch of the blocks whose fracture energy is given, by the lattice of their spacing and horizon.
+void set_critical_stretches(Body& body);
+
+}  // namespace strut

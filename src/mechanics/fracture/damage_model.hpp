@@ -1,0 +1,15 @@
+// When the bonds of a block break.
+#pragma once
+
+#include "base/math/function.hpp"
+
+namespace strut {
+
+// A bond breaks where its stretch, |η|/|ξ| − 1, exceeds a critical one: the lesser of its two ends'.
+struct DamageModel {
+  Function critical_stretch;  // s_c(t); ignored where the fracture energy is given
+  // G_c, J/m²: s_c is such that two halves of the block that are pulled apart dissipate it on the plane between them.
+  double fracture_energy = 0;
+};
+
+}  // namespace strut

@@ -1,0 +1,341 @@
+#include "mechanics/fracture/fracture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/timing.hpp"
+#include "mechanics/fracture/broken_family.hpp"
+#include "mechanics/fracture/critical_stretch.hpp"
+#include "mechanics/kernels/lane_groups.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+namespace {
+
+using small::Lanes;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// A look at several bonds and the decision on each may round differently: below this part of the limit none is cut.
+constexpr double round_off = 1e-9;
+
+// The clusters of a part of a block: the first, and one past the last.
+std::pair<int, int> clusters_of(const Body& body, const MaterialBlock& block, Part part) {
+  const auto [begin, end] = range(block, part);
+  if (begin == end) return {0, 0};
+  const ClusterLists& lists = body.domain.families.lists;
+  return {lists.holding(block.points[begin]), lists.holding(block.points[end - 1]) + 1};
+}
+
+// Calls work(block, first cluster, one past the last) for the blocks that are strained and may break.
+template <class AnyBody, class Work>
+void over_breakable(const Fracture& fracture, AnyBody& body, Part part, const Work& work) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (!fracture.may_break(b) || body.blocks[b].in_rigid_motion) continue;
+    const auto [first, last] = clusters_of(body, body.blocks[b], part);
+    work(body.blocks[b], first, last);
+  }
+}
+
+}  // namespace
+
+// Calls visit(n, (|η|/((1 + s)|ξ|))²) over the n neighbors of a cluster, with the lesser s of the two ends; 0 in the
+// lanes of those who are not bonded to it. Not inlined: whoever asks gets the same digits.
+struct Fracture::Stretches {
+  const Site* sites;
+  const double* limits;
+
+  template <class Visit>
+  void over(const Cluster& cluster, const Visit& visit) const {
+    const bonds::OfCluster family{cluster};
+    const auto y = bonds::own_place(family, sites, &Site::current);
+    const Lanes own = family.own<1>([this](int i) { return &limits[i]; })[0];
+    std::size_t n = 0;
+    bonds::over(family, sites, bonds::One(), [&](int j, const Lanes&, const auto& xi, const auto& present) {
+      const auto eta = bonds::apart(sites[j].current, y);
+      const Lanes squared = bonds::dot(xi, xi) + (1 - present);
+      visit(n++, Lanes(present * bonds::dot(eta, eta) / (own.min(limits[j]) * squared)));
+    });
+  }
+};
+
+Fracture::Fracture(Body& body) {
+  const Domain& domain = body.domain;
+  const auto breaks = [&body](std::size_t b) { return body.blocks[b].material.damage.has_value(); };
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    bool any = false;
+    for (std::size_t other = 0; other < body.blocks.size(); ++other) {
+      any = any || (domain.blocks[other].body == domain.blocks[b].body && breaks(other));
+    }
+    may_break_.push_back(any);
+    by_time_ = by_time_ || (breaks(b) && body.blocks[b].material.damage->critical_stretch.depends_on_time());
+  }
+  set_critical_stretches(body);
+  block_of_.assign(domain.sites.size(), 0);
+  for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
+  body.domain.halo.exchange(block_of_.data(), 1, 1);
+  body.domain.families.broken.resize(domain.owned);
+  dissipated_.assign(domain.owned, 0);
+  for (int i = 0; i < domain.owned; ++i) {
+    double volume = 0;
+    domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+    whole_volume_.push_back(volume);
+  }
+  watched_.resize(domain.families.lists.count());
+  set_shortest(body);
+  set_most_steepness(body);
+  set_limits(body, 0);
+  finish_step(body);
+}
+
+void Fracture::set_limits(const Body& body, double time) {
+  std::vector<double> of_block;
+  for (const MaterialBlock& block : body.blocks) {
+    const auto& damage = block.material.damage;
+    const double s = damage ? damage->critical_stretch(0, 0, 0, time) : never;
+    of_block.push_back((1 + s) * (1 + s));
+  }
+  limits_.resize(block_of_.size());
+  for (std::size_t i = 0; i < limits_.size(); ++i) limits_[i] = of_block[static_cast<std::size_t>(block_of_[i])];
+}
+
+// Of the points of a block, in their spacings, so many times the least, which is that of a point inside: as at a
+// corner, where an eighth of the family is left. So broken families do not make the critical time step smaller than
+// corners do. A point that is steeper from the start may be half as much again.
+void Fracture::set_most_steepness(const Body& body) {
+  constexpr double corner = 8, more_than_first = 1.5;
+  const auto in_spacings = [&body](int i) { return steepness(body, i) * std::pow(body.domain.cloud.spacings[i], 2); };
+  std::vector<double> least;  // of each block, negated
+  for (const MaterialBlock& block : body.blocks) {
+    double most = -never;
+    for (const int i : block.points) most = std::max(most, block.is_quadratic() ? -never : -in_spacings(i));
+    least.push_back(most);
+  }
+  body.domain.communicator.max(least);
+  for (int i = 0; i < body.owned(); ++i) {
+    const double of_block = -corner * least[body.domain.cloud.blocks[i]] / std::pow(body.domain.cloud.spacings[i], 2);
+    most_steepness_.push_back(std::max(of_block, more_than_first * steepness(body, i)));
+  }
+}
+
+void Fracture::set_shortest(const Body& body) {
+  for (std::size_t b = 0; b < watched_.size(); ++b) {
+    const Cluster cluster = body.domain.families.lists[static_cast<int>(b)];
+    double shortest = never;
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+        if (!(cluster.mask[n] >> l & 1)) continue;
+        const Vector xi = body.domain.reference(cluster.near[n]) - body.domain.reference(cluster.points[l]);
+        shortest = std::min(shortest, xi.norm());
+      }
+    }
+    watched_[b].shortest = shortest;
+  }
+}
+
+// By twice the largest motion of the step against the mean of the owned points', whatever that is.
+void Fracture::advance_travel(const Body& body, Part part) {
+  const Domain& domain = body.domain;
+  const auto step = [&](int i) -> Vector { return domain.current(i) - start_[i]; };
+  const auto largest_of = [&](int begin, int end) {
+    return largest(begin, end, 0, [&](int i) {
+      return may_break_[static_cast<std::size_t>(block_of_[i])] ? (step(i) - mean_step_).squaredNorm() : 0.0;
+    });
+  };
+  if (part == Part::interior) {
+    mean_step_.setZero();
+    for (int i = 0; i < domain.owned; ++i) mean_step_ += step(i) / domain.owned;
+    largest_step2_ = largest_of(0, domain.owned);
+    travel_[0] += 2 * std::sqrt(largest_step2_);
+  } else {
+    const int all = static_cast<int>(domain.sites.size());
+    travel_[1] += 2 * std::sqrt(std::max(largest_step2_, largest_of(domain.owned, all)));
+  }
+}
+
+// Whether a bond of a cluster is stretched to its limit, to round-off; and until when none is.
+bool Fracture::is_stretched(const Body& body, int cluster) {
+  Lanes worst = Lanes::Zero();
+  Stretches{body.domain.sites.data(), limits_.data()}.over(
+      body.domain.families.lists[cluster], [&worst](std::size_t, const Lanes& square) { worst = worst.max(square); });
+  const double most = worst.maxCoeff();
+  watched_[cluster].due = watched_[cluster].shortest * std::max(0.0, 1 - std::sqrt(most));  // to go, m
+  return most > 1 - round_off;
+}
+
+void Fracture::break_bonds(Body& body, Part part, double time) {
+  static Teuchos::Time& timer = phase("Fracture");
+  const Timed timed(timer);
+  if (by_time_ && part == Part::interior) set_limits(body, time);
+  advance_travel(body, part);
+  const double travel = travel_[part == Part::boundary];
+  std::vector<char> stretched(watched_.size(), 0);
+  over_breakable(*this, body, part, [&](const MaterialBlock&, int first, int last) {
+    for_each_point(first, last, [&](int c) {
+      if (!by_time_ && travel < watched_[c].due) return;
+      stretched[c] = is_stretched(body, c);
+      watched_[c].due += travel;
+    });
+  });
+  over_breakable(*this, body, part, [&](MaterialBlock& block, int first, int last) {
+    for (int c = first; c < last; ++c) {
+      if (stretched[c]) cut(body, block, c);
+    }
+  });
+}
+
+// Of each neighbor of a cluster, the members whose bonds to it break; returns who of them has any such bond.
+unsigned Fracture::bonds_to_cut(const Body& body, const Cluster& cluster, std::vector<std::uint8_t>& gone) const {
+  const unsigned there = (1u << cluster.points.size()) - 1;
+  unsigned members = 0;
+  gone.assign(cluster.near.size(), 0);
+  Stretches{body.domain.sites.data(), limits_.data()}.over(cluster, [&](std::size_t n, const Lanes& square) {
+    gone[n] = static_cast<std::uint8_t>(small::lanes_below_zero(Lanes(1 - square)) & there);
+    members |= gone[n];
+  });
+  return members;
+}
+
+void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
+  Domain& domain = body.domain;
+  const Cluster cluster = domain.families.lists[cluster_number];
+  std::vector<std::uint8_t> gone;
+  const unsigned members = bonds_to_cut(body, cluster, gone);
+  if (members == 0) return;
+  const auto at = std::lower_bound(block.points.begin(), block.points.end(), cluster.points[0]);
+  const int first = static_cast<int>(at - block.points.begin());
+  const StepEnd start{body, start_, true};
+  affected_.push_back({static_cast<std::size_t>(&block - body.blocks.data()), cluster_number, first, members,
+                       accounts_of(block, first, cluster, start)});
+  for (std::size_t n = 0; n < gone.size(); ++n) {
+    if (gone[n] == 0) continue;
+    domain.families.lists.cut(cluster_number, n, gone[n]);
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      if (!(gone[n] >> l & 1)) continue;
+      domain.families.broken[cluster.points[l]].push_back(cluster.near[n]);
+      ++broken_;
+    }
+  }
+  domain.families.lists.drop_cut(cluster_number);
+  for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+    if (!(members >> l & 1)) continue;
+    refit_in_step(body, block, first + static_cast<int>(l), most_steepness_[cluster.points[l]], start);
+  }
+}
+
+void Fracture::count_dissipation(const Body& body) {
+  const StepEnd end{body, start_, false};
+  for (const Affected& one : affected_) {
+    const Cluster cluster = body.domain.families.lists[one.cluster];
+    const auto after = accounts_of(body.blocks[one.block], one.first, cluster, end);
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      if (!(one.members >> l & 1)) continue;
+      const PointAccount &then = one.before[l], &now = after[l];
+      dissipated_[cluster.points[l]] += 0.5 * (then.work + now.work) - (now.energy - then.energy);
+    }
+  }
+  affected_.clear();
+}
+
+void Fracture::finish_step(const Body& body) {
+  start_.resize(body.domain.sites.size());
+  for_each_point(0, static_cast<int>(start_.size()), [&](int i) { start_[i] = body.domain.current(i); });
+}
+
+double Fracture::damage(const Body& body, int i) const {
+  if (body.domain.families.broken[i].empty()) return 0;
+  double volume = 0;
+  body.domain.families.for_each(i, [&](int j) { volume += body.domain.volume(j); });
+  return 1 - volume / whole_volume_[i];
+}
+
+double Fracture::energy() const { return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0); }
+
+// ---- Checkpoint ----------------------------------------------------------------------------------------------------
+// A bit for each bond that there was, in the order of the ids of the far ends, in words that a double holds.
+
+namespace {
+
+constexpr int bits_a_word = 48;
+
+// Calls visit(place in the order of ids, id) over the family as it was.
+template <class Visit>
+void over_whole_family(const Domain& domain, int i, const Visit& visit) {
+  std::vector<std::int64_t> ids;
+  for (const int j : domain.families.broken[i]) ids.push_back(domain.id(j));
+  domain.families.for_each(i, [&](int j) { ids.push_back(domain.id(j)); });
+  std::sort(ids.begin(), ids.end());
+  for (std::size_t n = 0; n < ids.size(); ++n) visit(static_cast<int>(n), ids[n]);
+}
+
+int words_of(const Domain& domain) {
+  std::size_t most = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    most = std::max(most, domain.families.size(i) + domain.families.broken[i].size());
+  }
+  return (static_cast<int>(domain.communicator.max(static_cast<double>(most))) + bits_a_word - 1) / bits_a_word;
+}
+
+}  // namespace
+
+void Fracture::serialize(Archive& archive, Body& body) {
+  Domain& domain = body.domain;
+  const int words = words_of(domain);
+  std::vector<double> bits(static_cast<std::size_t>(words) * domain.owned, 0);
+  for (int i = 0; i < domain.owned; ++i) {
+    if (domain.families.broken[i].empty()) continue;
+    std::vector<std::int64_t> broken;
+    for (const int j : domain.families.broken[i]) broken.push_back(domain.id(j));
+    std::sort(broken.begin(), broken.end());
+    over_whole_family(domain, i, [&](int n, std::int64_t id) {
+      if (std::binary_search(broken.begin(), broken.end(), id)) {
+        bits[static_cast<std::size_t>(i) * words + n / bits_a_word] += std::ldexp(1.0, n % bits_a_word);
+      }
+    });
+  }
+  archive.field("broken_bonds", words, [&](std::size_t i, int c) -> double& { return bits[i * words + c]; });
+  // A break in the next step asks what they were at its start.
+  const auto states = [&](const char* name, auto& of_points) {
+    using State = std::remove_cvref_t<decltype(of_points[0])>;
+    if (of_points.empty()) return;
+    archive.field(name, sizeof(State) / sizeof(double),
+                  [&](std::size_t i, int c) -> double& { return reinterpret_cast<double*>(&of_points[i])[c]; });
+  };
+  states("tensor_state", body.force_states.tensors);
+  states("scalar_state", body.force_states.scalars);
+  states("quadratic_state", body.force_states.quadratics);
+  archive.field("fracture_energy", 1, [&](std::size_t i, int) -> double& { return dissipated_[i]; });
+  if (archive.loading()) restore(body, bits, words);
+}
+
+void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
+  ClusterLists& lists = body.domain.families.lists;
+  const auto is_gone = [&](int i, int n) {
+    const auto word = static_cast<std::uint64_t>(bits[static_cast<std::size_t>(i) * words + n / bits_a_word]);
+    return (word >> (n % bits_a_word) & 1) != 0;
+  };
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    MaterialBlock& block = body.blocks[b];
+    for (std::size_t k = 0; may_break_[b] && k < block.points.size(); ++k) {
+      const int i = block.points[k], c = lists.holding(i), lane = i - lists[c].points[0];
+      const Cluster cluster = lists[c];  // neighbors in the order of their ids
+      int place = 0, gone = 0;
+      for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+        if (!(cluster.mask[n] >> lane & 1) || !is_gone(i, place++)) continue;
+        lists.cut(c, n, static_cast<std::uint8_t>(1u << lane));
+        body.domain.families.broken[i].push_back(cluster.near[n]);
+        ++gone;
+      }
+      broken_ += gone;
+      lists.drop_cut(c);
+      if (gone > 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
+    }
+  }
+  for (Watched& cluster : watched_) cluster.due = 0;
+  finish_step(body);
+}
+
+}  // namespace strut

@@ -1,0 +1,86 @@
+// Bonds that break, and what they dissipate.
+//
+// A bond breaks for both of its ends in the same step: the criterion is symmetric to the last bit, so the ranks of both
+// ends decide alike without a message. It is looked at where the motion since the last look may have sufficed: of each
+// cluster of points it is known by how much the bond nearest to its limit would have to grow, and two points move apart
+// by at most twice the largest motion against the mean.
+//
+// The energy dissipated by a break is what is missing in the balance of the points whose bonds broke: with the work w
+// of a point's force states along the step's motion of its family, before the break and after it,
+//   D = ½ (w + w') − (E' − E).
+// The kinetic energy of central differences changes by −½ Σ (w + w') over all points, so this is exact.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "mechanics/body.hpp"
+#include "mechanics/fracture/point_account.hpp"
+
+namespace strut {
+
+enum class Part;
+
+class Fracture {
+ public:
+  // Collective. Of a body whose families are whole.
+  explicit Fracture(Body& body);
+
+  // In the stress update at the end of a step, for the points that need no ghost, and, once ghosts are current, for the
+  // others: breaks bonds before their stress is updated, and counts afterwards what that has dissipated.
+  void break_bonds(Body& body, Part part, double time);
+  void count_dissipation(const Body& body);
+  // Before the points move again: where they are.
+  void finish_step(const Body& body);
+
+  bool may_break(std::size_t block) const { return may_break_[block]; }  // or one that it is bonded to
+  // 1 − Σ V_j over the bonds that are left / the same over all that there were; 0 of a point without bonds.
+  double damage(const Body& body, int i) const;
+  double energy() const;                                     // dissipated so far at this rank's points, J
+  double dissipated(int i) const { return dissipated_[i]; }  // at one of them, J
+  std::int64_t broken() const { return broken_; }            // bonds so far, both ends counted, of this rank's points
+
+  void serialize(Archive& archive, Body& body);  // collective
+
+ private:
+  // A cluster with points whose bonds break in this step, as they were before.
+  struct Affected {
+    std::size_t block;
+    int cluster, first;  // first: the place of its first point in the block's
+    unsigned members;    // a bit for each of these points
+    std::array<PointAccount, Cluster::width> before;
+  };
+  // What a cluster's bonds are like.
+  struct Watched {
+    double shortest = 0;  // |ξ|, m
+    double due = 0;       // the travel at which one may have come to break, m
+  };
+  struct Stretches;
+
+  void set_limits(const Body& body, double time);
+  void set_shortest(const Body& body);
+  void set_most_steepness(const Body& body);
+  void advance_travel(const Body& body, Part part);
+  bool is_stretched(const Body& body, int cluster);
+  unsigned bonds_to_cut(const Body& body, const Cluster& cluster, std::vector<std::uint8_t>& gone) const;
+  void cut(Body& body, MaterialBlock& block, int cluster);
+  void restore(Body& body, const std::vector<double>& bits, int words);
+
+  std::vector<char> may_break_;   // of blocks
+  std::vector<double> block_of_;  // of owned points and ghosts
+  std::vector<double> limits_;    // (1 + s_c)² of owned points and ghosts; infinite without
+  bool by_time_ = false;          // they change
+  std::vector<Vector> start_;     // places at the start of the step, of owned points and ghosts, m
+  std::vector<Watched> watched_;  // of clusters
+  double travel_[2] = {0, 0};     // bound of how far two points have moved apart so far, m: owned ones; ghosts, too
+  Vector mean_step_ = Vector::Zero();   // of owned points, m
+  double largest_step2_ = 0;            // of one of them against it, m²
+  std::vector<double> whole_volume_;    // Σ V_j over the family at first, of owned points, m³
+  std::vector<double> most_steepness_;  // of owned points that carry stress, by correspondence, 1/m²
+  std::vector<double> dissipated_;      // by owned points, J
+  std::vector<Affected> affected_;
+  std::int64_t broken_ = 0;
+};
+
+}  // namespace strut

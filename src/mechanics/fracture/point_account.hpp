@@ -1,0 +1,30 @@
+// What points hold of the energy, for the ledger of bonds that break.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+// Places of the points at one end of a step.
+struct StepEnd {
+  const Body& body;
+  const std::vector<Vector>& start;  // places of owned points and ghosts at the start of the step, m
+  bool at_start;
+
+  Vector place(int j) const { return at_start ? start[j] : body.domain.current(j); }
+};
+
+struct PointAccount {
+  double energy = 0;  // elastic, dissipated, of springs on the point's own gradient, J
+  double work = 0;  // of the point's force states along the step's motion of its family, J: V Σ ω V_j T⟨ξ⟩·Δη
+};
+
+// Of a cluster's points, block.points[first] and those that follow, with the families, states and force states that
+// they have now.
+std::array<PointAccount, Cluster::width> accounts_of(const MaterialBlock& block, int first, const Cluster& cluster,
+                                                     const StepEnd& end);
+
+}  // namespace strut

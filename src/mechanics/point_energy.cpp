@@ -1,0 +1,35 @@
+#include "mechanics/point_energy.hpp"
+
+namespace strut {
+
+namespace {
+
+template <class L>
+PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& law, std::size_t k) {
+  const int places = block.places_a_point();
+  PointEnergy sum;
+  for (int q = 0; q < places; ++q) {
+    const MaterialPoint& point = body.law_point(block, k, q);
+    const auto state = block.state_of<L>(block.place(k, q));
+    sum.elastic += point.deformation_gradient.determinant() * law.elastic_energy(point.stress, state) / places;
+    sum.dissipated += law.dissipation(state) / places;
+    if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work / places;
+  }
+  return sum;
+}
+
+}  // namespace
+
+PointEnergy law_energy(const Body& body, const MaterialBlock& block, std::size_t k) {
+  return std::visit([&](const auto& law) { return law_energy(body, block, law, k); }, block.material.law);
+}
+
+// ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)² of a whole family, whose sum is Σ ω V e² − m θ²/9; so it stays the potential of
+// the forces as bonds break, with the m that the family began with.
+double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, double square) {
+  const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
+  const double theta2 = point.dilatation * point.dilatation;
+  return 0.5 * moduli.bulk * theta2 + 7.5 * moduli.shear * (square / point.weighted_volume - theta2 / 9);
+}
+
+}  // namespace strut

@@ -1,0 +1,184 @@
+// Bonds that break: what is dissipated, what is conserved, and that broken pieces touch.
+#include <gtest/gtest.h>
+
+#include "base/archive.hpp"
+#include "contact/contact.hpp"
+#include "mechanics/fracture/critical_stretch.hpp"
+#include "mechanics/fracture/fracture.hpp"
+#include "mechanics/serialize.hpp"
+#include "solvers/explicit/central_difference.hpp"
+#include "verification/probes.hpp"
+
+namespace strut {
+namespace {
+
+constexpr double young = 72e9, poisson = 0.2, density = 2440;  // a glass
+
+struct Kind {
+  const char* name;
+  Formulation formulation;
+  Stabilization stabilization;
+  double horizon;  // in spacings
+};
+
+const std::vector<Kind> kinds = {
+    {"ordinary", Formulation::ordinary, NoStabilization(), 3.015},
+    {"correspondence", Formulation::correspondence, NoStabilization(), 3.015},
+    {"correspondence with springs", Formulation::correspondence, SillingStabilization{0.02}, 3.015},
+    {"quadratic", Formulation::quadratic, NoStabilization(), 1.75},
+};
+
+BlockMaterial glass(const Kind& kind, double critical_stretch) {
+  BlockMaterial material{density, elastic(young, poisson), kind.stabilization, kind.formulation};
+  material.damage = DamageModel{Function(critical_stretch)};
+  return material;
+}
+
+LatticeSpec block_of(const Kind& kind, double critical_stretch) {
+  return {{7, 7, 10}, 1e-3, kind.horizon, 0, Influence::one, glass(kind, critical_stretch), FamilyKind::lists};
+}
+
+// ---- What a flat cut dissipates ------------------------------------------------------------------------------------
+
+// With K = 5/3 G, where the dilatation stores nothing, the bonds alone do: 25/8 G s² δ for a sphere that is a
+// continuum.
+TEST(EnergyOfSeparation, TendsToTheContinuum) {
+  const double shear = 30e9;
+  const auto error = [&](double horizon) {
+    const PulledLattice lattice{1e-3 / horizon, 1e-3, Influence::one, Formulation::ordinary, {5 * shear / 3, shear}};
+    return std::abs(energy_of_separation(lattice) / (25.0 / 8 * shear * 1e-3) - 1);
+  };
+  EXPECT_LT(error(9.1), 0.03);  // some of the sphere's surface is cut differently by each lattice
+  EXPECT_LT(error(9.1), 0.5 * error(3.015));
+}
+
+// A block whose halves are pulled apart without deformation, in steps so small that no bond goes far beyond its limit.
+TEST(EnergyOfSeparation, IsWhatBlocksDissipate) {
+  constexpr double s = 1e-4;  // small strains
+  const Communicator world;
+  for (const Kind& kind : kinds) {
+    if (kind.formulation == Formulation::quadratic) continue;
+    SCOPED_TRACE(kind.name);
+    LatticeSpec spec = block_of(kind, s);
+    spec.cells = {9, 9, 10};
+    Body body = lattice_body(spec, world);
+    advance_stress(body, 0, false);
+    const double largest = 4 * s * kind.horizon * kind.horizon * 1e-3;  // all bonds have broken: ξ²/|ξ_z| s
+    constexpr int steps = 4000;
+    for (int n = 1; n <= steps; ++n) {
+      deform(body, [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > 5e-3 ? largest * n / steps : 0); });
+      advance_stress(body, 1e-9, false, n * 1e-9);
+    }
+    double sum = 0, area = 0;  // of the points far from the sides
+    for (int i = 0; i < body.owned(); ++i) {
+      const Vector X = body.domain.reference(i);
+      if (std::abs(X[0] - 4.5e-3) > 1.6e-3 || std::abs(X[1] - 4.5e-3) > 1.6e-3) continue;
+      sum += body.fracture->dissipated(i);
+      if (std::abs(X[2] - 4.5e-3) < 1e-4) area += 1e-6;
+    }
+    const auto moduli = std::get<materials::Elastic>(body.blocks[0].material.law).moduli();
+    const double springs = coefficient_of(kind.stabilization);
+    const PulledLattice lattice{1e-3, kind.horizon * 1e-3, Influence::one, kind.formulation, moduli, springs};
+    // A bond breaks up to a step beyond its limit, of steps that are some 2000 to the mean one.
+    EXPECT_NEAR(world.sum(sum) / world.sum(area) / (s * s * energy_of_separation(lattice)), 1, 5e-3);
+  }
+}
+
+// ---- What is conserved ---------------------------------------------------------------------------------------------
+
+struct Outcome {
+  double momentum_drift = 0, balance_error = 0, dissipated = 0, damage = 0;
+  std::int64_t broken = 0;
+};
+
+// A block whose ends fly apart so fast that it breaks.
+Outcome tear(const Kind& kind, double crossings, contact::Contact contact = {}) {
+  const Communicator world;
+  Body body = lattice_body(block_of(kind, 5e-4), world);
+  for (int i = 0; i < body.owned(); ++i) {
+    const Vector x = body.domain.reference(i) / 10e-3;
+    body.velocity[i] = Vector(0.75 * x[1], -0.5 * x[2], 10 * (x[2] - 0.5) + 1.25);
+  }
+  CentralDifference solver(body, {}, std::move(contact), {0, 0.5}, 0);
+  const double final_time = crossings * 10e-3 / std::sqrt(young / density);
+  Outcome outcome;
+  Vector start = Vector::Zero();
+  for (;;) {
+    solver.advance_velocity(final_time);
+    const Ledger now = solver.ledger();
+    if (solver.steps() == 0) start = now.momentum;
+    outcome.momentum_drift = std::max(outcome.momentum_drift, (now.momentum - start).norm() / start.norm());
+    outcome.balance_error = std::max(outcome.balance_error, now.balance_error);
+    outcome.dissipated = now.fracture / (now.fracture + now.kinetic + now.elastic);
+    if (solver.time() >= final_time) break;
+    solver.advance_position(true);
+  }
+  outcome.damage = largest_over(body, [&](int i) { return body.fracture->damage(body, i); });
+  outcome.broken = world.sum(body.fracture->broken());
+  return outcome;
+}
+
+TEST(Fracture, ConservesMomentumAndEnergy) {
+  for (const Kind& kind : kinds) {
+    SCOPED_TRACE(kind.name);
+    const Outcome outcome = tear(kind, 6);
+    EXPECT_GT(outcome.broken, 1000);
+    EXPECT_EQ(outcome.broken % 2, 0);  // both ends of each
+    EXPECT_GT(outcome.damage, 0.3);
+    EXPECT_GT(outcome.dissipated, 0.01);
+    EXPECT_LT(outcome.momentum_drift, 1e-12);
+    EXPECT_LT(outcome.balance_error, 1e-3);
+  }
+}
+
+// ---- Cracks that are there from the start --------------------------------------------------------------------------
+
+TEST(Cracks, CutBondsOnce) {
+  const Communicator world;
+  LatticeSpec spec = block_of(kinds[0], 1);
+  const auto bonds = [&](const std::vector<Crack>& cracks) {
+    spec.cracks = cracks;
+    return world.sum(static_cast<std::int64_t>(lattice_body(spec, world).domain.families.bonds()));
+  };
+  const RectangularCrack all{Vector(-1, -1, 5e-3), Vector(0, 0, 1), Vector(0, 1, 0), 2, 2};
+  const std::int64_t whole = bonds({}), halves = bonds({all});
+  LatticeSpec half = spec;
+  half.cells[2] = 5, half.cracks = {};
+  EXPECT_EQ(halves, 2 * world.sum(static_cast<std::int64_t>(lattice_body(half, world).domain.families.bonds())));
+  EXPECT_EQ(bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 1}}), halves);
+  // Of the middle point's column the bonds straight down cross a disk of half a spacing; so do oblique ones.
+  const std::int64_t small = bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 0.4e-3}});
+  EXPECT_LT(small, whole);
+  EXPECT_GT(small, halves);
+}
+
+// ---- Contact of what was bonded ------------------------------------------------------------------------------------
+
+// The halves of a block are torn apart, and pushed into each other.
+TEST(Fracture, PiecesTouch) {
+  const Communicator world;
+  Body body = lattice_body(block_of(kinds[0], 1e-4), world);
+  advance_stress(body, 0, false);
+  contact::Contact contact({{0, 0, {contact::PenaltyLaw{.radius = 1e-3, .penalty = 1e12}, 0}}}, body.domain);
+  const auto forces_at = [&](double gap) {
+    deform(body, [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > 5e-3 ? gap : 0); });
+    advance_stress(body, 1e-9, false, 1e-9);
+    std::vector<Vector> forces(body.owned(), Vector::Zero());
+    contact.add_forces({body.domain, body.velocity, body.density}, 1e-9, forces);
+    std::vector<double> numbers;
+    contact.append_to_agree({body.domain, body.velocity, body.density}, numbers);
+    world.max(numbers);
+    contact.take_agreed(numbers, 1e-9);
+    double upward = 0;
+    for (int i = 0; i < body.owned(); ++i) upward += body.domain.reference(i)[2] > 5e-3 ? forces[i][2] : 0;
+    return world.sum(upward);
+  };
+  EXPECT_EQ(forces_at(0), 0);
+  EXPECT_EQ(forces_at(10e-3), 0);     // torn
+  EXPECT_EQ(forces_at(-0.05e-3), 0);  // pairs touch at 0.9 of their first distance
+  forces_at(-0.1e-3);                 // about to touch: a search is due
+  EXPECT_GT(forces_at(-0.2e-3), 0);
+}
+
+}  // namespace
+}  // namespace strut
