@@ -54,9 +54,9 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
-  contact_pair.broken.clear();
+  contact_pair.broken_counts.clear();
   if (blocks.one_body && !kinematics.domain.families.broken.empty()) {
-    for (const int i : blocks.points) contact_pair.broken.push_back(kinematics.domain.families.broken[i].size());
+    for (const int i : blocks.points) contact_pair.broken_counts.push_back(kinematics.domain.families.broken[i].size());
   }
   contact_pair.used = 0;
   contact_pair.result = {};
@@ -95,10 +95,10 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
   constexpr double about_to_touch = 1.05;
   const Domain& domain = kinematics.domain;
   const double radius = radius_of(contact_pair.model.law);
-  for (std::size_t k = 0; k < contact_pair.broken.size(); ++k) {
+  for (std::size_t k = 0; k < contact_pair.broken_counts.size(); ++k) {
     const int i = contact_pair.blocks.points[k];
     const std::vector<int>& broken = domain.families.broken[i];
-    for (std::size_t n = contact_pair.broken[k]; n < broken.size(); ++n) {
+    for (std::size_t n = contact_pair.broken_counts[k]; n < broken.size(); ++n) {
       if (!may_meet(contact_pair.blocks, domain, i, broken[n])) continue;
       const double apart = (domain.reference(broken[n]) - domain.reference(i)).norm();
       const double touch = about_to_touch * largest_touching_distance(radius, apart, true);

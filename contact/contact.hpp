@@ -1,5 +1,5 @@
-// Public header of contact: between chosen blocks, and within them. It searches when points may have come near, adds the
-// forces of those that touch, and says what this costs the step and the ledger.
+// Public header of contact: between chosen blocks, and within them. It searches when points may have come near, adds
+// the forces of those that touch, and says what this costs the step and the ledger.
 #pragma once
 
 #include <span>
@@ -73,12 +73,12 @@ class Contact {
     SkinDistances skins = {};
     Pairs pairs = {};
     bool searched = false;
-    std::vector<std::size_t> broken = {};  // how many bonds of blocks.points had broken
+    std::vector<std::size_t> broken_counts = {};  // how many bonds of blocks.points had broken
     // As of the last look.
     Vector mean_velocity = Vector::Zero();  // m/s
-    double used = 0;    // a bound of the part of its skin distance that any point has used since the last search
+    double used = 0;     // a bound of the part of its skin distance that any point has used since the last search
     bool meets = false;  // points whose bond has broken since are near each other
-    bool due = true;  // that has come near 1
+    bool due = true;     // that has come near 1
     ForceResult result = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
   };

@@ -23,8 +23,8 @@ const Section& schema() {
       .meaning = "",
       .keys = {verbose_without_effect()},
       .sections = {discretization_section(), node_sets_section(), materials_section(), damage_models_section(),
-                   blocks_section(), contact_section(), conditions_section(), solver_section(), output_section(), history_section(),
-                   restart_section(), watch_section()},
+                   blocks_section(), contact_section(), conditions_section(), solver_section(), output_section(),
+                   history_section(), restart_section(), watch_section()},
       .hints = {{"Interfaces", "unknown section; there are no interfaces between elements"},
                 {"Problem",
                  "unknown section; this is the oldest layout of Peridigm's decks: its sections belong to the "

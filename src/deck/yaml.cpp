@@ -4,6 +4,9 @@
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_YamlParameterListCoreHelpers.hpp>
 #include <algorithm>
+#include <exception>
+#include <string>
+#include <type_traits>
 
 #include "deck/numbers.hpp"
 
@@ -27,10 +30,12 @@ bool read_as(const Teuchos::ParameterEntry& entry, const std::string& type, Para
   }
   if (!entry.isType<Teuchos::Array<T>>()) return false;
   parameter.type = "Array(" + type + ")";
+  const char* between = "{";
   for (const T& one : Teuchos::getValue<Teuchos::Array<T>>(entry)) {
-    parameter.value += (parameter.value.empty() ? "{" : ", ") + text_of(one);
+    parameter.value += between + text_of(one);
+    between = ", ";
   }
-  parameter.value += "}";
+  parameter.value = (parameter.value.empty() ? "{" : parameter.value) + "}";
   return true;
 }
 
@@ -60,8 +65,9 @@ void add_syntax_error(const std::string& what, Problems& problems) {
   const std::string place = begin == std::string::npos
                                 ? "YAML"
                                 : what.substr(begin + mark.size(), what.find(" of ", begin) - begin - mark.size());
-  const std::size_t twice = what.find("already exists"), name = what.rfind('\n', twice);
-  if (twice != std::string::npos) {
+  const std::size_t twice = what.find("already exists"),
+                    name = twice == std::string::npos ? twice : what.rfind('\n', twice);
+  if (twice != std::string::npos && name != std::string::npos) {
     return problems.add(place,
                         std::string(trimmed(what.substr(name, twice - name))) + " is given twice; expected once");
   }

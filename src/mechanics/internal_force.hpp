@@ -9,8 +9,8 @@ namespace strut {
 // dt. Halo exchanges run behind interior points. dt = 0 leaves stress and state alone. `with_diagnostics`: also what
 // forces do not need but a look at the body does, the energy of the stabilization, and F, R and stress of ordinary
 // points, which are a view of their families only. `time`: at the end of the step (s), for bonds that break, as they do
-// in a step of a length. force_density then holds what the points' own states give to the
-// force on them, for the one sum_forces that is to follow.
+// where dt > 0. force_density then holds what the points' own states give to the force on them, for the one sum_forces
+// that is to follow.
 StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time = 0);
 
 // Collective; once after advance_stress. force_density, f = Σ {T − T'} V (internal force, N/m³); of a subcycled

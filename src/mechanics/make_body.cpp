@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "points/parallel_for.hpp"
@@ -60,8 +61,8 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
 void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetric& inverse) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
   MaterialPoint& point = body.points[block.points[k]];
-  inverse = symmetric_part(K.inverse());
-  if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress, or an ordinary point
+  inverse = block.is_ordinary() ? inverse_of(K) : symmetric_part(K.inverse());
+  if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress
   if (block.lattice >= 0) {
     // Of alike families the same. It takes the gradient of displacements there, so this is as small beside strains.
     const double size = trace(inverse);
@@ -221,6 +222,7 @@ double footprint(const Body& body) {
     bytes += static_cast<double>(own_bytes(block, !body.bond_work.empty()) * block.points.size());
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   if (body.fits) bytes += body.fits->bytes();
+  if (body.fracture) bytes += body.fracture->bytes();
   return bytes;
 }
 

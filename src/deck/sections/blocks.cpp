@@ -1,5 +1,6 @@
 #include "deck/sections/blocks.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "deck/sections/two_keys.hpp"
@@ -40,8 +41,9 @@ const OptionalKey<bool> across_voids(
                 "elements that share nodes lead from one to the other within it. Needs hexahedra or "
                 "tetrahedra. Without this key: true, but false for Quadratic Correspondence."});
 
-const OptionalKey<std::string> damage_model(
-    {.name = "Damage Model", .meaning = "The name of a section in Damage Models. Without this key bonds hold."});
+const OptionalKey<std::string> damage_model({.name = "Damage Model",
+                                             .meaning = "The name of a section in Damage Models. Without this key its "
+                                                        "bonds hold, but for those to a block that has one."});
 
 void check_horizon(const Values& values, Problems& problems) {
   check_one_of(values, horizon, horizon_factor, problems);
@@ -81,22 +83,33 @@ Section blocks_section() {
                .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids, damage_model}}}};
 }
 
+// Where bonds of a block may break, its own or those to another of its body, what its springs dissipate must be known.
+void check_stabilizations(const std::vector<Block>& all, const std::vector<Material>& materials, Problems& problems) {
+  const auto breaks = [](const Block& block) { return block.damage_model && !block.separate_body; };
+  const bool common_body_breaks = std::any_of(all.begin(), all.end(), breaks);
+  for (const Block& block : all) {
+    const bool may_break = block.damage_model || (common_body_breaks && !block.separate_body);
+    if (!may_break || block.material >= static_cast<int>(materials.size())) continue;
+    const Material& of_block = materials[block.material];
+    if (of_block.formulation != Formulation::correspondence) continue;
+    if (residual_of(of_block.stabilization) != ResidualKind::both_gradients) continue;
+    problems.add("Blocks > " + block.name + " > " + (block.damage_model ? damage_model.name : material.name),
+                 "bonds with the Stabilization of material '" + of_block.name +
+                     "' cannot break: what its springs dissipate is not known; expected 'Silling' or 'None', or "
+                     "Formulation 'Quadratic Correspondence'");
+  }
+}
+
 std::optional<int> find_damage_model(const Values& section, const Material& material,
                                      const std::vector<NamedDamageModel>& models, Problems& problems) {
   if (!section.has(damage_model)) return std::nullopt;
   const int found = find_named(section, damage_model, *section[damage_model], models, "Damage Models", problems);
-  const auto refuse = [&](const std::string& what) { problems.add(section.path_to(damage_model), what); };
-  if (material.formulation == Formulation::correspondence &&
-      residual_of(material.stabilization) == ResidualKind::both_gradients) {
-    refuse("bonds with the Stabilization of material '" + material.name +
-           "' cannot break: what its springs dissipate is not known; expected 'Silling' or 'None', or Formulation "
-           "'Quadratic Correspondence'");
-  }
   const bool by_energy = found < static_cast<int>(models.size()) && models[found].model.fracture_energy > 0;
   if (material.formulation == Formulation::quadratic && by_energy) {
-    refuse("model '" + models[found].name +
-           "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic Correspondence'; "
-           "expected one with a Critical Stretch");
+    problems.add(section.path_to(damage_model),
+                 "model '" + models[found].name +
+                     "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic "
+                     "Correspondence'; expected one with a Critical Stretch");
   }
   return found;
 }
@@ -118,6 +131,7 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
                    .damage_model = find_damage_model(section, made_of, damage_models, problems)});
   }
   check_overlaps(all, problems);
+  check_stabilizations(all, materials, problems);
   return all;
 }
 

@@ -1,6 +1,7 @@
 #include "deck/sections/bond_filters.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "deck/problems.hpp"
 #include "deck/values.hpp"

@@ -3,6 +3,7 @@
 #include "mechanics/formulation/correspondence.hpp"
 
 #include "mechanics/formulation/stress_update.hpp"
+#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -48,6 +49,12 @@ struct Update {
   void store_failed(const LaneGroup& g, int l) const {
     body().points[g.i[l]].stabilization = 0;
     drop_forces(g, l);
+  }
+
+  // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
+  void report(const LaneGroup& g, int l, double J) const {
+    if (std::isnan(J)) return law.failure.report(g.k[l], Failure::Kind::not_finite);
+    if (!has_lost_bonds(body(), g.i[l])) law.failure.report(g.k[l], Failure::Kind::inverted);
   }
 
   void drop_forces(const LaneGroup& g, int l) const {
@@ -101,7 +108,7 @@ struct Update {
         continue;
       }
       if (!(now.J[l] > 0)) {  // NaN too
-        law.failure.report(group.k[l], std::isnan(now.J[l]) ? Failure::Kind::not_finite : Failure::Kind::inverted);
+        report(group, l, now.J[l]);
         drop_forces(group, l);
         continue;
       }

@@ -41,10 +41,7 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
 
 // Of the bonds that are left; zero where they do not span space.
 Symmetric present_shape_inverse(const Body& body, int i) {
-  const auto& broken = body.domain.families.broken;
-  if (broken.empty() || broken[i].empty()) return body.shape_inverse[i];
-  const Symmetric inverse = symmetric_part(shape_tensor(body, i).inverse());
-  return inverse.allFinite() ? inverse : Symmetric(Symmetric::Zero());
+  return has_lost_bonds(body, i) ? inverse_of(shape_tensor(body, i)) : body.shape_inverse[i];
 }
 
 template <class Weight>

@@ -7,6 +7,7 @@
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
 #include "mechanics/formulation/stress_update.hpp"
+#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -98,8 +99,10 @@ struct Update {
       if (determinant[l] > 0) {
         fastest = std::max(fastest, bound2[l]);
       } else {
+        // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
         const bool is_number = !std::isnan(determinant[l]);
-        law.failure.report(group.k[l], is_number ? Failure::Kind::inverted : Failure::Kind::not_finite);
+        if (!is_number) law.failure.report(group.k[l], Failure::Kind::not_finite);
+        if (is_number && !has_lost_bonds(body(), group.i[l])) law.failure.report(group.k[l], Failure::Kind::inverted);
         body().force_states.quadratics[group.i[l]] = {};
         body().force_density[group.i[l]].setZero();
       }

@@ -1,5 +1,6 @@
 #include "mechanics/fracture/broken_family.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "base/math/rotation.hpp"
@@ -20,6 +21,13 @@ Tensor shape_tensor(const Body& body, int i) {
   return K;
 }
 
+Symmetric inverse_of(const Tensor& K) {
+  constexpr double flattest = 1e-8;  // round-off leaves some 1e-16 of an exact plane
+  const Eigen::SelfAdjointEigenSolver<Tensor> eigen(K, Eigen::EigenvaluesOnly);
+  const bool spans = eigen.eigenvalues()[0] > flattest * eigen.eigenvalues()[2];
+  return spans ? symmetric_part(K.inverse()) : Symmetric(Symmetric::Zero());
+}
+
 namespace {
 
 // The plastic part of its state stays.
@@ -37,8 +45,8 @@ void refit_cell(Body& body, MaterialBlock& block, int k) {
 
 void refit_shape(Body& body, MaterialBlock& block, int k, double most) {
   const int i = block.points[k];
-  const Symmetric inverse = symmetric_part(shape_tensor(body, i).inverse());
-  const bool holds = inverse.allFinite() && body.domain.volume(i) * trace(inverse) <= most;
+  const Symmetric inverse = inverse_of(shape_tensor(body, i));
+  const bool holds = trace(inverse) > 0 && body.domain.volume(i) * trace(inverse) <= most;
   body.shape_inverse.set(i, holds ? inverse : Symmetric(Symmetric::Zero()));
   bonds::with_influence(body.influence, [&](auto weight) {
     const bonds::OfPoint family{body.domain.families, i};

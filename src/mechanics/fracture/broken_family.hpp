@@ -9,13 +9,21 @@ namespace strut {
 // K = Σ ω V ξ⊗ξ over the family that a point has now, m⁵.
 Tensor shape_tensor(const Body& body, int i);
 
+// K⁻¹; zero where the bonds do not span space, to round-off.
+Symmetric inverse_of(const Tensor& K);
+
+// Whether bonds of an owned point have broken.
+inline bool has_lost_bonds(const Body& body, int i) {
+  const auto& broken = body.domain.families.broken;
+  return !broken.empty() && !broken[i].empty();
+}
+
 // V tr K⁻¹ of an owned point that is not by quadratic correspondence, 1/m²: its share in ω², by correspondence.
 double steepness(const Body& body, int i);
 
 // Computes anew what block.points[k] knows of its family: shape tensor and first moment, or the fit of its cell; of an
-// ordinary point nothing. Where
-// the bonds that are left cannot hold a deformation gradient, or only a steeper one than `most` (by correspondence), it
-// carries no stress from now on, and goes on as a mass.
+// ordinary point nothing. Where the bonds that are left cannot hold a deformation gradient, or only a steeper one than
+// `most` (by correspondence), it carries no stress, and goes on as a mass.
 void refit(Body& body, MaterialBlock& block, int k, double most);
 
 // The same as bonds break in a step. The gradient of the bonds that are left differs by ΔF from that of all. Stress

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.hpp"
 #include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
@@ -126,8 +127,13 @@ void set_critical_stretches(Body& body) {
     const PulledLattice lattice{of_block.spacing, of_block.largest,
                                 body.influence,   material.formulation,
                                 moduli,           springs ? coefficient_of(material.stabilization) : 0};
-    material.damage->critical_stretch =
-        Function(std::sqrt(material.damage->fracture_energy / energy_of_separation(lattice)));
+    const double energy = energy_of_separation(lattice);
+    if (!(energy > 0)) {  // the same on all ranks
+      throw Error("Damage Models: block '" + body.blocks[b].name +
+                  "' has a Fracture Energy, but no bonds from one layer of points to the next; expected a horizon of "
+                  "more than a spacing");
+    }
+    material.damage->critical_stretch = Function(std::sqrt(material.damage->fracture_energy / energy));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/critical_stretch.hpp"
@@ -43,7 +44,8 @@ void over_breakable(const Fracture& fracture, AnyBody& body, Part part, const Wo
 }  // namespace
 
 // Calls visit(n, (|η|/((1 + s)|ξ|))²) over the n neighbors of a cluster, with the lesser s of the two ends; 0 in the
-// lanes of those who are not bonded to it. Not inlined: whoever asks gets the same digits.
+// lanes of those who are not bonded to it. Two callers may get other last digits (round_off): bonds_to_cut alone
+// decides, the same on all ranks.
 struct Fracture::Stretches {
   const Site* sites;
   const double* limits;
@@ -96,6 +98,10 @@ void Fracture::set_limits(const Body& body, double time) {
   for (const MaterialBlock& block : body.blocks) {
     const auto& damage = block.material.damage;
     const double s = damage ? damage->critical_stretch(0, 0, 0, time) : never;
+    if (!(s > 0)) {  // the same on all ranks
+      throw Error("the critical stretch of block '" + block.name + "' is " + std::to_string(s) +
+                  " at t = " + std::to_string(time) + " s; expected a number > 0");
+    }
     of_block.push_back((1 + s) * (1 + s));
   }
   limits_.resize(block_of_.size());
@@ -250,6 +256,12 @@ double Fracture::damage(const Body& body, int i) const {
   double volume = 0;
   body.domain.families.for_each(i, [&](int j) { volume += body.domain.volume(j); });
   return 1 - volume / whole_volume_[i];
+}
+
+double Fracture::bytes() const {
+  return static_cast<double>(start_.size() * (sizeof(Vector) + 2 * sizeof(double)) + watched_.size() * sizeof(Watched) +
+                             whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>))) +
+         static_cast<double>(broken_) * sizeof(int);
 }
 
 double Fracture::energy() const { return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0); }

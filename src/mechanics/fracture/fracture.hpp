@@ -11,6 +11,7 @@
 // The kinetic energy of central differences changes by −½ Σ (w + w') over all points, so this is exact.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -40,6 +41,8 @@ class Fracture {
   double energy() const;                                     // dissipated so far at this rank's points, J
   double dissipated(int i) const { return dissipated_[i]; }  // at one of them, J
   std::int64_t broken() const { return broken_; }            // bonds so far, both ends counted, of this rank's points
+
+  double bytes() const;
 
   void serialize(Archive& archive, Body& body);  // collective
 

@@ -11,9 +11,9 @@
 
 namespace strut {
 
-// SIMD: points that kernels take side by side, one per lane, with one list for all of them: who is in the family of any, and in
-// whose. Points of a cluster lie close together, so that most bonds of most of them share their far ends, each of which
-// is read once.
+// SIMD: points that kernels take side by side, one per lane, with one list for all of them: who is in the family of
+// any, and in whose. Points of a cluster lie close together, so that most bonds of most of them share their far ends,
+// each of which is read once.
 struct Cluster {
   static constexpr int width = small::lane_count;
 
@@ -34,7 +34,7 @@ class ClusterLists {
   std::size_t entries() const { return near_.size(); }
   double bytes() const {
     return static_cast<double>(points_.size() * sizeof(int) + near_.size() * (sizeof(int) + sizeof(std::uint8_t)) +
-                               first_.size() * (sizeof(int) + sizeof(std::size_t)));
+                               first_.size() * (sizeof(int) + 2 * sizeof(std::size_t)));
   }
 
   // Where points are numbered in a row: the cluster of point i.

@@ -264,10 +264,7 @@ void CentralDifference::check(const StepReport& report) {
 // A point that only is turned inside out has a place; others take their neighbors with them.
 CentralDifference::Severity CentralDifference::severity(const StepReport& report) const {
   if (!report.failure) return harmless;
-  if (report.failure->kind != Failure::Kind::inverted) return fatal;
-  const auto& broken = body_.domain.families.broken;  // a point that has lost bonds may be crushed between others
-  const bool is_damaged = !broken.empty() && !broken[report.failure->point].empty();
-  return control_.continue_with_inverted || is_damaged ? passable : fatal;
+  return control_.continue_with_inverted && report.failure->kind == Failure::Kind::inverted ? passable : fatal;
 }
 
 void CentralDifference::serialize(Archive& archive) {
@@ -311,9 +308,7 @@ void CentralDifference::serialize_work(Archive& archive) {
 namespace {
 
 // What the body holds and has dissipated.
-double held(const Ledger& now) {
-  return now.kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
-}
+double held(const Ledger& now) { return now.kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture; }
 
 }  // namespace
 
