@@ -49,6 +49,7 @@ struct Update {
   void store_failed(const LaneGroup& g, int l) const {
     body().points[g.i[l]].stabilization = 0;
     drop_forces(g, l);
+    body().force_states.tensors[g.i[l]].failed() = 1;
   }
 
   // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.

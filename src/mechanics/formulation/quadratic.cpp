@@ -68,7 +68,7 @@ struct Update {
     share_traces(J, {&at[0].rates, &at[1].rates, &at[2].rates, &at[3].rates}, has_flowed);
     for (int q = 0; q < 4; ++q) law.set_stress(points[q], share, at[q]);
     share_traces(J, {&at[0].stress, &at[1].stress, &at[2].stress, &at[3].stress}, has_flowed);
-    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
+    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1), stiffest = Lanes::Zero();
     for (int q = 0; q < 4; ++q) {
       const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
@@ -82,10 +82,12 @@ struct Update {
       }
       cells.add_stress(q, P);
       speed2 = speed2.max(squared_speed(now));
+      stiffest = stiffest.max(now.stiffness);
     }
     cells.store(group, share, body().force_states.quadratics);
     for (int l = 0; l < group.count; ++l) {
       const int i = group.i[l];
+      body().force_states.quadratics[i].failed = stiffest[l] > 0 ? 0 : 1;
       body().force_density[i] = bonds::quadratic_own_force(body().force_states.quadratics[i], (*body().fits)[i]);
     }
     return report(group, determinant, share * share * cells.volume() * cells.steepness() * speed2);

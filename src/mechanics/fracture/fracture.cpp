@@ -19,6 +19,7 @@ namespace {
 using small::Lanes;
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double of_failed = 1e-200;  // a limit that every bond exceeds
 
 // A look at several bonds and the decision on each may round differently: below this part of the limit none is cut.
 constexpr double round_off = 1e-9;
@@ -73,9 +74,15 @@ Fracture::Fracture(Body& body) {
       any = any || (domain.blocks[other].body == domain.blocks[b].body && breaks(other));
     }
     may_break_.push_back(any);
-    by_time_ = by_time_ || (breaks(b) && body.blocks[b].material.damage->critical_stretch.depends_on_time());
   }
   set_critical_stretches(body);
+  set_failing_lengths(body);
+  for (const MaterialBlock& block : body.blocks) {
+    const auto& damage = block.material.damage;
+    if (!damage) continue;
+    by_time_ = by_time_ || (damage->critical_stretch && damage->critical_stretch->depends_on_time());
+    fails_ = fails_ || damage->ductility;
+  }
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
   body.domain.halo.exchange(block_of_.data(), 1, 1);
@@ -97,15 +104,38 @@ void Fracture::set_limits(const Body& body, double time) {
   std::vector<double> of_block;
   for (const MaterialBlock& block : body.blocks) {
     const auto& damage = block.material.damage;
-    const double s = damage ? damage->critical_stretch(0, 0, 0, time) : never;
+    const double s = damage && damage->critical_stretch ? (*damage->critical_stretch)(0, 0, 0, time) : never;
     if (!(s > 0)) {  // the same on all ranks
       throw Error("the critical stretch of block '" + block.name + "' is " + std::to_string(s) +
                   " at t = " + std::to_string(time) + " s; expected a number > 0");
     }
     of_block.push_back((1 + s) * (1 + s));
   }
-  limits_.resize(block_of_.size());
-  for (std::size_t i = 0; i < limits_.size(); ++i) limits_[i] = of_block[static_cast<std::size_t>(block_of_[i])];
+  limits_.resize(block_of_.size(), 0);
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    if (limits_[i] != of_failed) limits_[i] = of_block[static_cast<std::size_t>(block_of_[i])];
+  }
+}
+
+// Points that have failed in the last step: all of their bonds are to break, and who has such bonds is to look.
+void Fracture::take_failed(const Body& body) {
+  const ForceStates& states = body.force_states;
+  std::vector<char> is_new(limits_.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    const bool failed = (!states.tensors.empty() && states.tensors[i].failed() > 0) ||
+                        (!states.quadratics.empty() && states.quadratics[i].failed > 0);
+    if (!failed || limits_[i] == of_failed) continue;
+    limits_[i] = of_failed;
+    is_new[i] = any = true;
+  }
+  const auto is = [&is_new](int i) { return is_new[i] != 0; };
+  for (std::size_t c = 0; any && c < watched_.size(); ++c) {
+    const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
+    const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
+                       std::any_of(cluster.points.begin(), cluster.points.end(), is);
+    if (meets) watched_[c].due = 0;
+  }
 }
 
 // Of the points of a block, in their spacings, so many times the least, which is that of a point inside: as at a
@@ -176,6 +206,7 @@ void Fracture::break_bonds(Body& body, Part part, double time) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
   if (by_time_ && part == Part::interior) set_limits(body, time);
+  if (fails_ && part == Part::interior) take_failed(body);
   advance_travel(body, part);
   const double travel = travel_[part == Part::boundary];
   std::vector<char> stretched(watched_.size(), 0);

@@ -62,6 +62,7 @@ class Fracture {
   struct Stretches;
 
   void set_limits(const Body& body, double time);
+  void take_failed(const Body& body);
   void set_shortest(const Body& body);
   void set_most_steepness(const Body& body);
   void advance_travel(const Body& body, Part part);
@@ -74,6 +75,7 @@ class Fracture {
   std::vector<double> block_of_;  // of owned points and ghosts
   std::vector<double> limits_;    // (1 + s_c)² of owned points and ghosts; infinite without
   bool by_time_ = false;          // they change
+  bool fails_ = false;            // points may fail
   std::vector<Vector> start_;     // places at the start of the step, of owned points and ghosts, m
   std::vector<Watched> watched_;  // of clusters
   double travel_[2] = {0, 0};     // bound of how far two points have moved apart so far, m: owned ones; ghosts, too
