@@ -446,14 +446,15 @@ QuadraticFits::QuadraticFits(Body& body)
   });
 }
 
-bool QuadraticFits::refit(const Body& body, int i) {
+bool QuadraticFits::refit(const Body& body, int i, double most) {
   QuadraticFit fresh;
   set_cell(shape_of(body, i), fresh);
-  const bool spans = fit_motion(body, i, fresh);
+  bool spans = fit_motion(body, i, fresh);
   if (spans) {
     add_correction(linear_fit(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
     set_sums(body, i, multipliers(), fresh);
     fresh.steepness = steepness_of(body, i, multipliers(), fresh);
+    spans = body.domain.volume(i) * fresh.steepness <= most;
   }
   fit(i) = spans ? fresh : QuadraticFit{};
   return spans;

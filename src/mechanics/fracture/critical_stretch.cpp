@@ -140,8 +140,7 @@ void set_critical_stretches(Body& body) {
 void set_failing_lengths(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     auto* law = std::get_if<materials::Ductile>(&body.blocks[b].material.law);
-    const double spacing = body.domain.blocks[b].spacing;
-    if (law && spacing > 0) law->length = spacing;
+    if (law) law->length = 2 * body.domain.blocks[b].largest;
   }
 }
 

@@ -81,8 +81,10 @@ Fracture::Fracture(Body& body) {
     const auto& damage = block.material.damage;
     if (!damage) continue;
     by_time_ = by_time_ || (damage->critical_stretch && damage->critical_stretch->depends_on_time());
-    fails_ = fails_ || damage->ductility;
+    const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
+    fails_ = fails_ || std::visit(may_fail, block.material.law);
   }
+  for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
   body.domain.halo.exchange(block_of_.data(), 1, 1);
@@ -147,7 +149,7 @@ void Fracture::set_most_steepness(const Body& body) {
   std::vector<double> least;  // of each block, negated
   for (const MaterialBlock& block : body.blocks) {
     double most = -never;
-    for (const int i : block.points) most = std::max(most, block.is_quadratic() ? -never : -in_spacings(i));
+    for (const int i : block.points) most = std::max(most, in_spacings(i) > 0 ? -in_spacings(i) : -never);
     least.push_back(most);
   }
   body.domain.communicator.max(least);
@@ -263,7 +265,35 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   }
 }
 
-void Fracture::count_dissipation(const Body& body) {
+// The part of the springs of block.points[k] that goes on with its stress.
+double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
+  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
+  if (!std::holds_alternative<materials::Ductile>(block.material.law)) return 1;
+  return 1 - block.state_of<materials::Ductile>(k).damage;
+}
+
+// What the springs of a point that softens or fails no longer hold.
+void Fracture::soften_springs(Body& body, Part part) {
+  for (std::size_t b = 0; fails_ && b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    if (!may_break_[b] || block.in_rigid_motion || !block.has_springs(ResidualKind::own_gradient)) continue;
+    const auto [begin, end] = range(block, part);
+    for (int k = begin; k < end; ++k) {
+      const int i = block.points[k];
+      const double left = whole_springs_[i] * part_of_springs(body, block, k);
+      double& springs = body.points[i].stabilization;
+      if (!(left < springs)) continue;
+      bonds::with_influence(body.influence, [&](auto weight) {
+        const bonds::OfPoint family{body.domain.families, i};
+        const double square = bonds::squared_residual(family, body.domain.sites.data(), body.points.data(), weight);
+        dissipated_[i] += 0.5 * (springs - left) * square * body.domain.volume(i);
+      });
+      springs = left;
+    }
+  }
+}
+
+void Fracture::count_dissipation(Body& body, Part part) {
   const StepEnd end{body, start_, false};
   for (const Affected& one : affected_) {
     const Cluster cluster = body.domain.families.lists[one.cluster];
@@ -275,6 +305,7 @@ void Fracture::count_dissipation(const Body& body) {
     }
   }
   affected_.clear();
+  soften_springs(body, part);
 }
 
 void Fracture::finish_step(const Body& body) {
@@ -291,7 +322,7 @@ double Fracture::damage(const Body& body, int i) const {
 
 double Fracture::bytes() const {
   return static_cast<double>(start_.size() * (sizeof(Vector) + 2 * sizeof(double)) + watched_.size() * sizeof(Watched) +
-                             whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>))) +
+                             whole_volume_.size() * (4 * sizeof(double) + sizeof(std::vector<int>))) +
          static_cast<double>(broken_) * sizeof(int);
 }
 
