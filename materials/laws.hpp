@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "materials/deshpande_fleck.hpp"
+#include "materials/ductile.hpp"
 #include "materials/elastic.hpp"
 #include "materials/j2.hpp"
 #include "materials/law.hpp"
@@ -11,6 +12,6 @@
 
 namespace strut::materials {
 
-using AnyLaw = std::variant<Elastic, J2, DeshpandeFleck, PolymerFoam>;
+using AnyLaw = std::variant<Elastic, J2, Ductile, DeshpandeFleck, PolymerFoam>;
 
 }  // namespace strut::materials

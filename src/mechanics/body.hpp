@@ -29,10 +29,12 @@ struct alignas(32) TensorRecord {
   Eigen::Array4d column[3];
 };
 
-// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none).
+// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none); 1 if the end has failed.
 struct ForceState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }
+  double& failed() { return column[1][3]; }
+  double failed() const { return column[1][3]; }
 };
 
 // F, and of the springs on the residual of both ends' gradients C, the share of the step at whose end they act, and
@@ -50,9 +52,9 @@ struct alignas(16) ScalarState {
 };
 
 // The same of an end by quadratic correspondence (quadratic_bonds.hpp): first and second force state, the part of the
-// consistency correction, and padding.
+// consistency correction, and 1 if all places of the end have failed.
 struct alignas(64) QuadraticState {
-  double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, padding = 0;
+  double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, failed = 0;
 };
 
 // One entry a point, ghosts too, in every formulation that the scene has: zero where the point is of another, so that a
@@ -175,11 +177,11 @@ struct Body {
 
   // Owned points.
   std::vector<MaterialPoint> points;
-  Deduplicated<Symmetric> shape_inverse;      // K⁻¹, 1/m⁵
-  std::shared_ptr<QuadraticFits> fits;        // of owned points by quadratic correspondence, where there are any
-  std::vector<double> density;                // kg/m³
-  std::vector<Vector> velocity;               // at mid-step, m/s
-  std::vector<Vector> previous_velocity;      // at the mid-step before, m/s
+  Deduplicated<Symmetric> shape_inverse;  // K⁻¹, 1/m⁵
+  std::shared_ptr<QuadraticFits> fits;    // of owned points by quadratic correspondence, where there are any
+  std::vector<double> density;            // kg/m³
+  std::vector<Vector> velocity;           // at mid-step, m/s
+  std::vector<Vector> previous_velocity;  // at the mid-step before, m/s
   // N/m³ of reference volume. From a stress update to the sum of forces that follows: what the points' own states give,
   // to which the sum adds what the far ends of their bonds give.
   std::vector<Vector> force_density;

@@ -31,7 +31,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
         advance);
-    if (fracture) fracture->count_dissipation(body);
+    if (fracture) fracture->count_dissipation(body, part);
     if (!with_diagnostics) return;
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },

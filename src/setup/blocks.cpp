@@ -44,18 +44,25 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
   return deck.damage_models[*section.damage_model].model;
 }
 
+// The metal of a block whose points may fail is a law of its own.
+materials::AnyLaw law_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
+  if (!damage || !damage->ductility) return material.law;
+  return materials::Ductile{std::get<materials::J2>(material.law), *damage->ductility};
+}
+
 }  // namespace
 
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
     const deck::Material& material = deck.materials[section_of(deck, name)->material];
+    const std::optional<DamageModel> damage = damage_of(deck, *section_of(deck, name));
     materials.push_back({material.density,
-                         material.law,
+                         law_of(material, damage),
                          material.stabilization,
                          material.formulation,
                          {material.linear_viscosity, material.quadratic_viscosity},
-                         damage_of(deck, *section_of(deck, name))});
+                         damage});
   }
   return materials;
 }

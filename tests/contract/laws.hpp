@@ -84,6 +84,10 @@ inline std::vector<NamedLaw> table_of_laws() {
           {"j2_" + hardening_name + "_" + rate_name, materials::J2{bulk, shear, {yield_stress, hardening, rate}}});
     }
   }
+  // Not yet failing; what it does then: test_ductile.cpp.
+  const materials::J2 metal{bulk, shear, {yield_stress, materials::VoceHardening{150e6, 8}, materials::NoRate{}}};
+  table.push_back(
+      {"ductile", materials::Ductile{metal, {materials::JohnsonCookFailure{{1e3, 0, 0, 0}, 1}, 1e3}, 1e-3}});
   for (const double growth : {1.0, 4.0}) {
     for (const double alpha : {0.0, 1.0, 2.1}) {
       materials::DeshpandeFleck foam{.initial = {bulk, shear}, .compacted = {growth * bulk, growth * shear}};

@@ -104,8 +104,15 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
                                      const std::vector<NamedDamageModel>& models, Problems& problems) {
   if (!section.has(damage_model)) return std::nullopt;
   const int found = find_named(section, damage_model, *section[damage_model], models, "Damage Models", problems);
-  const bool by_energy = found < static_cast<int>(models.size()) && models[found].model.fracture_energy > 0;
-  if (material.formulation == Formulation::quadratic && by_energy) {
+  if (found >= static_cast<int>(models.size())) return found;
+  const DamageModel& model = models[found].model;
+  const bool is_known = !material.name.empty();
+  if (is_known && model.ductility && !std::holds_alternative<materials::J2>(material.law)) {
+    problems.add(section.path_to(damage_model), "points of material '" + material.name + "' cannot fail by model '" +
+                                                    models[found].name +
+                                                    "': expected the Material Model 'Elastic Plastic Correspondence'");
+  }
+  if (material.formulation == Formulation::quadratic && model.fracture_energy > 0) {
     problems.add(section.path_to(damage_model),
                  "model '" + models[found].name +
                      "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic "

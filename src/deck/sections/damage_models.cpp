@@ -28,6 +28,41 @@ const ExpressionKey stretch_over_time({.name = "Time Dependent Critical Stretch"
                                        .range = positive,
                                        .meaning = "s_c as a function of the time t (s)."});
 
+const RealKey tearing_energy({.name = "Fracture Energy",
+                              .unit = "J/m²",
+                              .range = not_negative,
+                              .fallback = "0",
+                              .meaning = "G_c: what a crack takes for each area from where the criterion is met; the "
+                                         "stress falls meanwhile. With 0 a point fails at once, which dissipates less "
+                                         "the smaller the spacing."});
+
+const RealKey failure_strain({.name = "Failure Strain",
+                              .range = positive,
+                              .meaning = "ε_f, an equivalent plastic strain."});
+
+const RealKey d1({.name = "D1", .meaning = "D₁ of ε_f = (D₁ + D₂ exp(D₃ σ*)) (1 + D₄ ln max(ε̇/ε̇₀, 1))."});
+const RealKey d2({.name = "D2", .range = not_negative, .meaning = "D₂."});
+const RealKey d3({.name = "D3", .meaning = "D₃, negative where a metal tears earlier in tension."});
+const RealKey d4({.name = "D4", .range = not_negative, .fallback = "0", .meaning = "D₄."});
+const RealKey reference_rate(
+    {.name = "Reference Strain Rate", .unit = "1/s", .range = positive, .fallback = "1", .meaning = "ε̇₀."});
+
+const RealKey critical_work({.name = "Critical Work",
+                             .unit = "Pa",
+                             .range = positive,
+                             .meaning = "W_c = ∫ max(σ₁, 0) dε̄, σ₁ the largest principal stress."});
+
+DamageModel ductile(materials::FailureCriterion criterion, const Values& values) {
+  return {.ductility = materials::Ductility{criterion, values[tearing_energy]}};
+}
+
+DamageModel read_johnson_cook(const Values& v, Problems& problems) {
+  if (!(v[d1] + v[d2] > 0)) {
+    problems.add(v.path_to(d1), "D1 + D2 is not positive: there is no plastic strain at failure in pure shear");
+  }
+  return ductile(materials::JohnsonCookFailure{{v[d1], v[d2], v[d3], v[d4]}, v[reference_rate]}, v);
+}
+
 DamageModel read_critical_stretch(const Values& values, Problems& problems) {
   check_one_of(values, critical_stretch, fracture_energy, problems);
   if (!values.given(critical_stretch) && !values.given(fracture_energy)) {
@@ -62,7 +97,23 @@ const std::vector<ModelEntry>& entries() {
       {{.name = "Time Dependent Critical Stretch",
         .meaning = "The same, with an s_c that changes.",
         .keys = {stretch_over_time}},
-       read_stretch_over_time}};
+       read_stretch_over_time},
+      {{.name = "Plastic Strain",
+        .meaning =
+            "A point of a block whose metal flows (J2) fails where its plastic strain reaches ε_f, and all of its "
+            "bonds break.",
+        .keys = {failure_strain, tearing_energy}},
+       [](const Values& v, Problems&) { return ductile(materials::FailureStrain{v[failure_strain]}, v); }},
+      {{.name = "Johnson-Cook",
+        .meaning = "The same where ∫ dε̄/ε_f = 1 with the ε_f of Johnson and Cook (1985) without temperature; σ* is the "
+                   "mean stress over von Mises', 1.5 at most.",
+        .keys = {d1, d2, d3, d4, reference_rate, tearing_energy},
+        .hints = {{"D5", "unknown key; there is no temperature here"}}},
+       read_johnson_cook},
+      {{.name = "Cockcroft-Latham",
+        .meaning = "The same where the plastic work of the largest principal stress in tension reaches W_c.",
+        .keys = {critical_work, tearing_energy}},
+       [](const Values& v, Problems&) { return ductile(materials::CockcroftLatham{v[critical_work]}, v); }}};
   return all;
 }
 
@@ -74,7 +125,7 @@ Section damage_models_section() {
               .meaning = "One model.",
               .hints = {{"Thermal Expansion Coefficient", "unknown key; there is no temperature here"}}};
   return {.name = name,
-          .meaning = "When the bonds of a block break (Blocks > Damage Model).",
+          .meaning = "When the bonds of a block break, or its points fail (Blocks > Damage Model).",
           .sections = {with_cases(std::move(one),
                                   {.name = "Damage Model", .meaning = "The criterion; it decides on further keys."},
                                   schemas_of(entries()))}};

@@ -45,10 +45,15 @@ struct Update {
     return g;
   }
 
-  // A failed point goes on as a mass. F and R stay as they were.
-  void store_failed(const LaneGroup& g, int l) const {
-    body().points[g.i[l]].stabilization = 0;
-    drop_forces(g, l);
+  // A failed point goes on as a mass. F and R stay as they were when it failed. Where bonds may break, what its springs
+  // held then is counted before they are gone.
+  void store_failed(const LawPoints& g, int l, const Deformed& now) const {
+    const int i = g.group.i[l];
+    double& failed = body().force_states.tensors[i].failed();
+    if (!body().fracture) body().points[i].stabilization = 0;
+    if (!(failed > 0) && now.J[l] > 0) law.store(g, l, now);
+    drop_forces(g.group, l);
+    failed = 1;
   }
 
   // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
@@ -104,7 +109,7 @@ struct Update {
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (!(now.stiffness[l] > 0)) {  // has failed
-        store_failed(group, l);
+        store_failed(g, l, now);
         continue;
       }
       if (!(now.J[l] > 0)) {  // NaN too

@@ -68,16 +68,19 @@ struct Update {
     share_traces(J, {&at[0].rates, &at[1].rates, &at[2].rates, &at[3].rates}, has_flowed);
     for (int q = 0; q < 4; ++q) law.set_stress(points[q], share, at[q]);
     share_traces(J, {&at[0].stress, &at[1].stress, &at[2].stress, &at[3].stress}, has_flowed);
+    Lanes stiffest = at[0].stiffness, softest = at[0].stiffness;
+    for (const Deformed& now : at) stiffest = stiffest.max(now.stiffness), softest = softest.min(now.stiffness);
     Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
     for (int q = 0; q < 4; ++q) {
       const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
       for (int l = 0; l < group.count; ++l) {
-        if (now.J[l] > 0 && now.stiffness[l] > 0) {
+        // A failed place beside others bears its share of their pressure, as their strains have it.
+        if (now.J[l] > 0 && stiffest[l] > 0) {
           law.store(points[q], l, now);
           continue;
         }
-        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // failed, or NaN
+        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // all have failed, or NaN
         if (!(now.J[l] > 0)) determinant[l] = now.J[l];
       }
       cells.add_stress(q, P);
@@ -86,23 +89,25 @@ struct Update {
     cells.store(group, share, body().force_states.quadratics);
     for (int l = 0; l < group.count; ++l) {
       const int i = group.i[l];
+      body().force_states.quadratics[i].failed = stiffest[l] > 0 ? 0 : 1;
       body().force_density[i] = bonds::quadratic_own_force(body().force_states.quadratics[i], (*body().fits)[i]);
     }
-    return report(group, determinant, share * share * cells.volume() * cells.steepness() * speed2);
+    return report(group, determinant, softest, share * share * cells.volume() * cells.steepness() * speed2);
   }
 
  private:
-  // Reports points that are turned inside out at a place, and returns the largest frequency bound² of the others.
-  double report(const LaneGroup& group, const Lanes& determinant, const Lanes& bound2) const {
+  // Reports points that are turned inside out at a place, and returns the largest frequency bound² of the others. One
+  // that has lost bonds, or failed at a place, may be crushed between others: it only carries no stress meanwhile.
+  double report(const LaneGroup& group, const Lanes& determinant, const Lanes& softest, const Lanes& bound2) const {
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (determinant[l] > 0) {
         fastest = std::max(fastest, bound2[l]);
       } else {
-        // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
         const bool is_number = !std::isnan(determinant[l]);
+        const bool is_broken = has_lost_bonds(body(), group.i[l]) || !(softest[l] > 0);
         if (!is_number) law.failure.report(group.k[l], Failure::Kind::not_finite);
-        if (is_number && !has_lost_bonds(body(), group.i[l])) law.failure.report(group.k[l], Failure::Kind::inverted);
+        if (is_number && !is_broken) law.failure.report(group.k[l], Failure::Kind::inverted);
         body().force_states.quadratics[group.i[l]] = {};
         body().force_density[group.i[l]].setZero();
       }

@@ -49,8 +49,8 @@ class QuadraticFits {
   explicit QuadraticFits(Body& body);
 
   // Of an owned point that has lost bonds, whose μ and those of its neighbors stay. False where those that are left do
-  // not span space: it carries no stress any more.
-  bool refit(const Body& body, int i);
+  // not span space, or only with a steepness times volume (1/m²) above `most`: it carries no stress.
+  bool refit(const Body& body, int i, double most);
 
   // F at a place of the cell of an owned point that carries stress, of points at place(j).
   Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;

@@ -1,9 +1,8 @@
-#include "mechanics/formulation/quadratic_fit.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "points/parallel_for.hpp"
 
@@ -271,7 +270,7 @@ void ConsistencyCorrection::set_missing() {
     const Tensor mean = Tensor::Identity() - shapes[i].surface_moments / body_.domain.volume(i);
     const QuadraticFit& fit = fits_[i];
     states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
-    states[i].padding = 1;  // is by quadratic correspondence
+    states[i].failed = 1;  // a mark, here of points by quadratic correspondence
   }
   halo().exchange(reinterpret_cast<double*>(states.data()), state_width, state_width);
   missing_.assign(body_.owned(), Vector::Zero());
@@ -283,7 +282,7 @@ void ConsistencyCorrection::set_missing() {
           bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
       const Vector force = Vector(far.c[0], far.c[1], far.c[2]) + bonds::quadratic_own_force(states[i], fits_[i]);
       bool all = true;  // beside a block of another formulation the surface is not all of it
-      body_.domain.families.for_each(i, [&](int j) { all = all && states[j].padding > 0; });
+      body_.domain.families.for_each(i, [&](int j) { all = all && states[j].failed > 0; });
       if (all) missing_[i] = shapes[i].surface + body_.domain.volume(i) * force;
     });
   });
@@ -447,14 +446,15 @@ QuadraticFits::QuadraticFits(Body& body)
   });
 }
 
-bool QuadraticFits::refit(const Body& body, int i) {
+bool QuadraticFits::refit(const Body& body, int i, double most) {
   QuadraticFit fresh;
   set_cell(shape_of(body, i), fresh);
-  const bool spans = fit_motion(body, i, fresh);
+  bool spans = fit_motion(body, i, fresh);
   if (spans) {
     add_correction(linear_fit(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
     set_sums(body, i, multipliers(), fresh);
     fresh.steepness = steepness_of(body, i, multipliers(), fresh);
+    spans = body.domain.volume(i) * fresh.steepness <= most;
   }
   fit(i) = spans ? fresh : QuadraticFit{};
   return spans;

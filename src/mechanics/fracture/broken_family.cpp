@@ -38,8 +38,8 @@ void release(MaterialPoint& point) {
   point.stabilization = 0;
 }
 
-void refit_cell(Body& body, MaterialBlock& block, int k) {
-  if (body.fits->refit(body, block.points[k])) return;
+void refit_cell(Body& body, MaterialBlock& block, int k, double most) {
+  if (body.fits->refit(body, block.points[k], most)) return;
   for (int q = 0; q < block.places_a_point(); ++q) release(block.cells[block.place(k, q)]);
 }
 
@@ -91,11 +91,14 @@ void set_start(MaterialPoint& point, const materials::Moduli& moduli, const Tens
 
 }  // namespace
 
-double steepness(const Body& body, int i) { return body.domain.volume(i) * trace(body.shape_inverse[i]); }
+double steepness(const Body& body, int i) {
+  const bool is_cell = body.block_of(i).is_quadratic();
+  return body.domain.volume(i) * (is_cell ? (*body.fits)[i].steepness : trace(body.shape_inverse[i]));
+}
 
 void refit(Body& body, MaterialBlock& block, int k, double most) {
   if (block.is_ordinary()) return;
-  block.is_quadratic() ? refit_cell(body, block, k) : refit_shape(body, block, k, most);
+  block.is_quadratic() ? refit_cell(body, block, k, most) : refit_shape(body, block, k, most);
 }
 
 void refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {

@@ -18,12 +18,12 @@ inline bool has_lost_bonds(const Body& body, int i) {
   return !broken.empty() && !broken[i].empty();
 }
 
-// V tr K⁻¹ of an owned point that is not by quadratic correspondence, 1/m²: its share in ω², by correspondence.
+// Of an owned point, 1/m²: V tr K⁻¹, its share in ω² by correspondence; by quadratic correspondence that of its cell.
 double steepness(const Body& body, int i);
 
 // Computes anew what block.points[k] knows of its family: shape tensor and first moment, or the fit of its cell; of an
 // ordinary point nothing. Where the bonds that are left cannot hold a deformation gradient, or only a steeper one than
-// `most` (by correspondence), it carries no stress, and goes on as a mass.
+// `most`, it carries no stress, and goes on as a mass.
 void refit(Body& body, MaterialBlock& block, int k, double most);
 
 // The same as bonds break in a step. The gradient of the bonds that are left differs by ΔF from that of all. Stress

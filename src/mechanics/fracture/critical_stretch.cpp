@@ -137,4 +137,11 @@ void set_critical_stretches(Body& body) {
   }
 }
 
+void set_failing_lengths(Body& body) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    auto* law = std::get_if<materials::Ductile>(&body.blocks[b].material.law);
+    if (law) law->length = 2 * body.domain.blocks[b].largest;
+  }
+}
+
 }  // namespace strut

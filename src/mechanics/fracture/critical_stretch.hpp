@@ -1,4 +1,4 @@
-// The critical stretch that dissipates a given fracture energy.
+// What of a damage model depends on the spacing, so that a crack dissipates a given fracture energy.
 #pragma once
 
 #include "mechanics/body.hpp"
@@ -21,5 +21,9 @@ double energy_of_separation(const PulledLattice& lattice);
 
 // Sets the critical stretch of the blocks whose fracture energy is given, by the lattice of their spacing and horizon.
 void set_critical_stretches(Body& body);
+
+// Sets over which length a crack smears its opening, of the blocks whose points may fail: twice the horizon, as all
+// points within it on both sides of a jump of places see it in their deformation gradients.
+void set_failing_lengths(Body& body);
 
 }  // namespace strut

@@ -19,6 +19,7 @@ namespace {
 using small::Lanes;
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double of_failed = 1e-200;  // a limit that every bond exceeds
 
 // A look at several bonds and the decision on each may round differently: below this part of the limit none is cut.
 constexpr double round_off = 1e-9;
@@ -73,9 +74,17 @@ Fracture::Fracture(Body& body) {
       any = any || (domain.blocks[other].body == domain.blocks[b].body && breaks(other));
     }
     may_break_.push_back(any);
-    by_time_ = by_time_ || (breaks(b) && body.blocks[b].material.damage->critical_stretch.depends_on_time());
   }
   set_critical_stretches(body);
+  set_failing_lengths(body);
+  for (const MaterialBlock& block : body.blocks) {
+    const auto& damage = block.material.damage;
+    if (!damage) continue;
+    by_time_ = by_time_ || (damage->critical_stretch && damage->critical_stretch->depends_on_time());
+    const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
+    fails_ = fails_ || std::visit(may_fail, block.material.law);
+  }
+  for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
   body.domain.halo.exchange(block_of_.data(), 1, 1);
@@ -97,15 +106,38 @@ void Fracture::set_limits(const Body& body, double time) {
   std::vector<double> of_block;
   for (const MaterialBlock& block : body.blocks) {
     const auto& damage = block.material.damage;
-    const double s = damage ? damage->critical_stretch(0, 0, 0, time) : never;
+    const double s = damage && damage->critical_stretch ? (*damage->critical_stretch)(0, 0, 0, time) : never;
     if (!(s > 0)) {  // the same on all ranks
       throw Error("the critical stretch of block '" + block.name + "' is " + std::to_string(s) +
                   " at t = " + std::to_string(time) + " s; expected a number > 0");
     }
     of_block.push_back((1 + s) * (1 + s));
   }
-  limits_.resize(block_of_.size());
-  for (std::size_t i = 0; i < limits_.size(); ++i) limits_[i] = of_block[static_cast<std::size_t>(block_of_[i])];
+  limits_.resize(block_of_.size(), 0);
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    if (limits_[i] != of_failed) limits_[i] = of_block[static_cast<std::size_t>(block_of_[i])];
+  }
+}
+
+// Points that have failed in the last step: all of their bonds are to break, and who has such bonds is to look.
+void Fracture::take_failed(const Body& body) {
+  const ForceStates& states = body.force_states;
+  std::vector<char> is_new(limits_.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    const bool failed = (!states.tensors.empty() && states.tensors[i].failed() > 0) ||
+                        (!states.quadratics.empty() && states.quadratics[i].failed > 0);
+    if (!failed || limits_[i] == of_failed) continue;
+    limits_[i] = of_failed;
+    is_new[i] = any = true;
+  }
+  const auto is = [&is_new](int i) { return is_new[i] != 0; };
+  for (std::size_t c = 0; any && c < watched_.size(); ++c) {
+    const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
+    const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
+                       std::any_of(cluster.points.begin(), cluster.points.end(), is);
+    if (meets) watched_[c].due = 0;
+  }
 }
 
 // Of the points of a block, in their spacings, so many times the least, which is that of a point inside: as at a
@@ -117,7 +149,7 @@ void Fracture::set_most_steepness(const Body& body) {
   std::vector<double> least;  // of each block, negated
   for (const MaterialBlock& block : body.blocks) {
     double most = -never;
-    for (const int i : block.points) most = std::max(most, block.is_quadratic() ? -never : -in_spacings(i));
+    for (const int i : block.points) most = std::max(most, in_spacings(i) > 0 ? -in_spacings(i) : -never);
     least.push_back(most);
   }
   body.domain.communicator.max(least);
@@ -176,6 +208,7 @@ void Fracture::break_bonds(Body& body, Part part, double time) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
   if (by_time_ && part == Part::interior) set_limits(body, time);
+  if (fails_ && part == Part::interior) take_failed(body);
   advance_travel(body, part);
   const double travel = travel_[part == Part::boundary];
   std::vector<char> stretched(watched_.size(), 0);
@@ -232,7 +265,35 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   }
 }
 
-void Fracture::count_dissipation(const Body& body) {
+// The part of the springs of block.points[k] that goes on with its stress.
+double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
+  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
+  if (!std::holds_alternative<materials::Ductile>(block.material.law)) return 1;
+  return 1 - block.state_of<materials::Ductile>(k).damage;
+}
+
+// What the springs of a point that softens or fails no longer hold.
+void Fracture::soften_springs(Body& body, Part part) {
+  for (std::size_t b = 0; fails_ && b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    if (!may_break_[b] || block.in_rigid_motion || !block.has_springs(ResidualKind::own_gradient)) continue;
+    const auto [begin, end] = range(block, part);
+    for (int k = begin; k < end; ++k) {
+      const int i = block.points[k];
+      const double left = whole_springs_[i] * part_of_springs(body, block, k);
+      double& springs = body.points[i].stabilization;
+      if (!(left < springs)) continue;
+      bonds::with_influence(body.influence, [&](auto weight) {
+        const bonds::OfPoint family{body.domain.families, i};
+        const double square = bonds::squared_residual(family, body.domain.sites.data(), body.points.data(), weight);
+        dissipated_[i] += 0.5 * (springs - left) * square * body.domain.volume(i);
+      });
+      springs = left;
+    }
+  }
+}
+
+void Fracture::count_dissipation(Body& body, Part part) {
   const StepEnd end{body, start_, false};
   for (const Affected& one : affected_) {
     const Cluster cluster = body.domain.families.lists[one.cluster];
@@ -244,6 +305,7 @@ void Fracture::count_dissipation(const Body& body) {
     }
   }
   affected_.clear();
+  soften_springs(body, part);
 }
 
 void Fracture::finish_step(const Body& body) {
@@ -260,7 +322,7 @@ double Fracture::damage(const Body& body, int i) const {
 
 double Fracture::bytes() const {
   return static_cast<double>(start_.size() * (sizeof(Vector) + 2 * sizeof(double)) + watched_.size() * sizeof(Watched) +
-                             whole_volume_.size() * (3 * sizeof(double) + sizeof(std::vector<int>))) +
+                             whole_volume_.size() * (4 * sizeof(double) + sizeof(std::vector<int>))) +
          static_cast<double>(broken_) * sizeof(int);
 }
 

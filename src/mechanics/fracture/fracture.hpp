@@ -31,7 +31,7 @@ class Fracture {
   // In the stress update at the end of a step, for the points that need no ghost, and, once ghosts are current, for the
   // others: breaks bonds before their stress is updated, and counts afterwards what that has dissipated.
   void break_bonds(Body& body, Part part, double time);
-  void count_dissipation(const Body& body);
+  void count_dissipation(Body& body, Part part);
   // Before the points move again: where they are.
   void finish_step(const Body& body);
 
@@ -62,6 +62,8 @@ class Fracture {
   struct Stretches;
 
   void set_limits(const Body& body, double time);
+  void take_failed(const Body& body);
+  void soften_springs(Body& body, Part part);
   void set_shortest(const Body& body);
   void set_most_steepness(const Body& body);
   void advance_travel(const Body& body, Part part);
@@ -74,13 +76,15 @@ class Fracture {
   std::vector<double> block_of_;  // of owned points and ghosts
   std::vector<double> limits_;    // (1 + s_c)² of owned points and ghosts; infinite without
   bool by_time_ = false;          // they change
+  bool fails_ = false;            // points may fail
   std::vector<Vector> start_;     // places at the start of the step, of owned points and ghosts, m
   std::vector<Watched> watched_;  // of clusters
   double travel_[2] = {0, 0};     // bound of how far two points have moved apart so far, m: owned ones; ghosts, too
   Vector mean_step_ = Vector::Zero();   // of owned points, m
   double largest_step2_ = 0;            // of one of them against it, m²
   std::vector<double> whole_volume_;    // Σ V_j over the family at first, of owned points, m³
-  std::vector<double> most_steepness_;  // of owned points that carry stress, by correspondence, 1/m²
+  std::vector<double> whole_springs_;   // C of owned points at first, Pa/m⁵
+  std::vector<double> most_steepness_;  // of owned points that carry stress, 1/m²
   std::vector<double> dissipated_;      // by owned points, J
   std::vector<Affected> affected_;
   std::int64_t broken_ = 0;

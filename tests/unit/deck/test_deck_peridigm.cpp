@@ -273,8 +273,8 @@ TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   const Deck deck = folder.read(fracturing);
   EXPECT_EQ(deck.materials[0].density, 2440);
   ASSERT_EQ(deck.damage_models.size(), 2u);
-  EXPECT_EQ(deck.damage_models[0].model.critical_stretch(0, 0, 0, 7), 0.001);
-  EXPECT_EQ(deck.damage_models[1].model.critical_stretch(0, 0, 0, 7), 7.001);
+  EXPECT_EQ((*deck.damage_models[0].model.critical_stretch)(0, 0, 0, 7), 0.001);
+  EXPECT_EQ((*deck.damage_models[1].model.critical_stretch)(0, 0, 0, 7), 7.001);
   EXPECT_EQ(deck.blocks[0].damage_model, 1);
   ASSERT_EQ(deck.discretization.cracks.size(), 1u);
   const DiskCrack disk = std::get<DiskCrack>(deck.discretization.cracks[0]);
@@ -301,6 +301,41 @@ TEST(DeckOfPeridigm, DamageThatIsNotKnownIsRefused) {
           "Blocks > all of it > Damage Model: bonds with the Stabilization");
   refused("Verlet: {Safety Factor: 0.7}", "QuasiStatic: {Number of Load Steps: 1}",
           "Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic");
+}
+
+// Metals whose points fail: ours, in the same deck.
+TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
+  const DeckFolder folder;
+  const std::string glass = "Material Model: \"Elastic\",", growing =
+                                                                "\"Time Dependent Critical Stretch\", Time "
+                                                                "Dependent Critical Stretch: \"0.001 + t\"";
+  const auto with = [&](const std::string& material, const std::string& model) {
+    return changed(changed(fracturing, glass, material), growing, model);
+  };
+  const std::string metal =
+      "Material Model: \"Elastic Plastic Correspondence\", Formulation: \"Quadratic "
+      "Correspondence\", Yield Stress: 2.0e8,";
+  const Deck deck = folder.read(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 4.9, D3: -3.0, D4: 0.01"));
+  const auto& ductility = deck.damage_models[1].model.ductility;
+  ASSERT_TRUE(ductility);
+  const auto& criterion = std::get<materials::JohnsonCookFailure>(ductility->criterion);
+  EXPECT_EQ(criterion.constants[2], -3);
+  EXPECT_EQ(criterion.reference_rate, 1);
+  EXPECT_EQ(ductility->fracture_energy, 0);
+  const auto refused = [&](const std::string& text, const std::string& problem) {
+    const std::string error = folder.error(text);
+    EXPECT_NE(error.find("\n  " + problem), std::string::npos) << problem << "\nin " << error;
+  };
+  refused(with(glass, "\"Plastic Strain\", Failure Strain: 0.2"),
+          "Blocks > all of it > Damage Model: points of material 'glass' cannot fail by model 'growing': expected the "
+          "Material Model 'Elastic Plastic Correspondence'");
+  refused(with(metal, "\"Plastic Strain\", Failure Stain: 0.2"),
+          "Damage Models > growing > Failure Stain: unknown key");
+  refused(with(metal, "\"Cockcroft-Latham\", Critical Work: 0.0"), "Damage Models > growing > Critical Work: ");
+  refused(with(metal, "\"Johnson-Cook\", D1: -0.5, D2: 0.4, D3: -3.0"),
+          "Damage Models > growing > D1: D1 + D2 is not positive");
+  refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: -3.0, D5: 1.0"),
+          "Damage Models > growing > D5: unknown key; there is no temperature here");
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+// When a metal that flows begins to fail: criteria that grow with the plastic strain and are met at 1,
+//   D = ∫ growth(σ, ε̇) dε̄.
+// Each is a plain value whose growth is written for a point or several of them, one per SIMD lane. To add one: a struct
+// here and its word in the variant. Units: Pa, 1/s, strain -.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/math/tensors.hpp"
+#include "materials/side_by_side.hpp"
+
+namespace strut::materials {
+
+// D = ε̄/ε_f
+struct FailureStrain {
+  double strain = 1;  // ε_f
+  template <class T>
+  T growth(const SymmetricOf<T>&, const T&) const {
+    return same<T>(1 / strain);
+  }
+};
+
+// D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)),  σ* = mean/von Mises stress, 1.5 at most
+//     (Johnson & Cook 1985; isothermal: the factor 1 + D5 T* is 1)
+struct JohnsonCookFailure {
+  double constants[4] = {1, 0, 0, 0};  // D1 … D4
+  double reference_rate = 1;           // ε̇₀, 1/s
+  static constexpr double most_triaxial = 1.5;
+  static constexpr double least_strain = 1e-6;  // where the fit would give less, or none
+
+  template <class T>
+  T growth(const SymmetricOf<T>& stress, const T& rate) const {
+    const SymmetricOf<T> s = deviator(stress);
+    const T mean = trace(stress) / 3, mises = sqrt(T(1.5 * double_dot(s, s)));
+    const T triaxiality = mean < most_triaxial * mises ? T(mean / mises) : same<T>(most_triaxial);
+    const T slow = constants[0] + constants[1] * exp(T(constants[2] * triaxiality));
+    const T relative = rate / reference_rate, log_rate = log(relative < 1 ? same<T>(1) : relative);
+    const T strain = slow * (1 + constants[3] * log_rate);
+    return 1 / (strain < least_strain ? same<T>(least_strain) : strain);
+  }
+};
+
+// D = ∫ max(σ₁, 0) dε̄ / W_c,  σ₁ the largest principal stress     (Cockcroft & Latham 1968)
+struct CockcroftLatham {
+  double work = 1;  // W_c, Pa
+  double growth(const Symmetric& stress, double) const { return std::max(0.0, largest_principal(stress)) / work; }
+  RawLanes growth(const SymmetricOf<RawLanes>& stress, const RawLanes& rate) const {
+    RawLanes result{};
+    for (int l = 0; l < small::lane_count; ++l) {
+      Symmetric of_one;
+      for (int c = 0; c < 6; ++c) of_one[c] = stress[c][l];
+      result[l] = growth(of_one, rate[l]);
+    }
+    return result;
+  }
+
+  // By the invariants of the deviator: σ_m + ⅔ σ̄ cos θ with cos 3θ = 27/2 det s/σ̄³.
+  static double largest_principal(const Symmetric& stress) {
+    const Symmetric s = deviator(stress);
+    const double q = std::sqrt(1.5 * double_dot(s, s)), mean = trace(stress) / 3;
+    if (!(q > 0)) return mean;
+    const double cosine = std::clamp(13.5 * to_tensor(s).determinant() / (q * q * q), -1.0, 1.0);
+    return mean + 2 * q / 3 * std::cos(std::acos(cosine) / 3);
+  }
+};
+
+using FailureCriterion = std::variant<FailureStrain, JohnsonCookFailure, CockcroftLatham>;
+
+// What a metal is like once it fails.
+struct Ductility {
+  FailureCriterion criterion;
+  double fracture_energy = 0;  // G_c, J/m²: what a crack takes for each area from then on; 0: it fails at once
+};
+
+}  // namespace strut::materials
