@@ -42,6 +42,18 @@ void over_breakable(const Fracture& fracture, AnyBody& body, Part part, const Wo
   }
 }
 
+bool has_failed(const ForceStates& states, std::size_t i) {
+  return (!states.tensors.empty() && states.tensors[i].failed() > 0) ||
+         (!states.quadratics.empty() && states.quadratics[i].failed > 0);
+}
+
+// The part of the springs of block.points[k] that goes on with its stress.
+double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
+  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
+  if (!std::holds_alternative<materials::Ductile>(block.material.law)) return 1;
+  return 1 - block.state_of<materials::Ductile>(k).damage;
+}
+
 }  // namespace
 
 // Calls visit(n, (|η|/((1 + s)|ξ|))²) over the n neighbors of a cluster, with the lesser s of the two ends; 0 in the
@@ -121,13 +133,10 @@ void Fracture::set_limits(const Body& body, double time) {
 
 // Points that have failed in the last step: all of their bonds are to break, and who has such bonds is to look.
 void Fracture::take_failed(const Body& body) {
-  const ForceStates& states = body.force_states;
   std::vector<char> is_new(limits_.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    const bool failed = (!states.tensors.empty() && states.tensors[i].failed() > 0) ||
-                        (!states.quadratics.empty() && states.quadratics[i].failed > 0);
-    if (!failed || limits_[i] == of_failed) continue;
+    if (!has_failed(body.force_states, i) || limits_[i] == of_failed) continue;
     limits_[i] = of_failed;
     is_new[i] = any = true;
   }
@@ -265,13 +274,6 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   }
 }
 
-// The part of the springs of block.points[k] that goes on with its stress.
-double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
-  if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
-  if (!std::holds_alternative<materials::Ductile>(block.material.law)) return 1;
-  return 1 - block.state_of<materials::Ductile>(k).damage;
-}
-
 // What the springs of a point that softens or fails no longer hold.
 void Fracture::soften_springs(Body& body, Part part) {
   for (std::size_t b = 0; fails_ && b < body.blocks.size(); ++b) {
@@ -385,6 +387,23 @@ void Fracture::serialize(Archive& archive, Body& body) {
   if (archive.loading()) restore(body, bits, words);
 }
 
+namespace {
+
+// The next step asks who has failed, before force states are exchanged.
+void exchange_failed(Body& body) {
+  ForceStates& states = body.force_states;
+  const Domain& domain = body.domain;
+  std::vector<double> failed(domain.sites.size(), 0);
+  for (int i = 0; i < domain.owned; ++i) failed[i] = has_failed(states, i);
+  domain.halo.exchange(failed.data(), 1, 1);
+  for (std::size_t i = domain.owned; i < failed.size(); ++i) {
+    if (!states.tensors.empty()) states.tensors[i].failed() = failed[i];
+    if (!states.quadratics.empty()) states.quadratics[i].failed = failed[i];
+  }
+}
+
+}  // namespace
+
 void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
   ClusterLists& lists = body.domain.families.lists;
   const auto is_gone = [&](int i, int n) {
@@ -409,6 +428,7 @@ void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
     }
   }
   for (Watched& cluster : watched_) cluster.due = 0;
+  exchange_failed(body);
   finish_step(body);
 }
 

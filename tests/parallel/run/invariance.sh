@@ -71,18 +71,19 @@ problem() {
     cells)
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"' speed=200
       formulation="Quadratic Correspondence" blocks=$(block bar all copper) ;;
-    mixed | mixed-cells | meeting | breaking)
+    mixed | mixed-cells | meeting | breaking | tearing)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
       </ParameterList>'
       blocks=$(block lower block_1 copper; block upper block_2 steel) ;;
   esac
-  case $1 in mixed-cells | breaking) formulation="Quadratic Correspondence" viscosity=0.06 ;; esac
+  case $1 in mixed-cells | breaking | tearing) formulation="Quadratic Correspondence" viscosity=0.06 ;; esac
   case $1 in mixed | mixed-cells | bar | fast | nodes | cells) return 0 ;; esac
   [ $1 = breaking ] && speed=100 damage='<Parameter name="Damage Model" type="string" value="brittle"/>'
+  [ $1 = tearing ] && speed=100 damage='<Parameter name="Damage Model" type="string" value="ductile"/>'
   mesh_file=apart.txt contact=$contact_section viscosity=0.06
-  blocks=$(block lower block_1 copper true; block upper block_2 steel true)
+  blocks=$(block lower block_1 copper true; [ $1 = tearing ] && damage=; block upper block_2 steel true)
 }
 
 # deck NAME: a deck that writes NAME.e and NAME.csv. The step follows the deformation, so that its estimate is under
@@ -127,6 +128,11 @@ deck() {
     <ParameterList name="brittle">
       <Parameter name="Damage Model" type="string" value="Critical Stretch"/>
       <Parameter name="Critical Stretch" type="double" value="0.02"/>
+    </ParameterList>
+    <ParameterList name="ductile">
+      <Parameter name="Damage Model" type="string" value="Plastic Strain"/>
+      <Parameter name="Failure Strain" type="double" value="0.02"/>
+      <Parameter name="Fracture Energy" type="double" value="17.0e3"/>
     </ParameterList>
   </ParameterList>
   <ParameterList name="Blocks">
@@ -181,7 +187,7 @@ END
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
-for name in bar fast nodes cells mixed mixed-cells meeting breaking; do
+for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing; do
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml
@@ -195,7 +201,7 @@ for name in bar fast nodes cells mixed mixed-cells meeting breaking; do
       echo "FAILED: no point of the bar $name is subcycled"
       exit 1
     fi
-    if [ $name = breaking ] && ! grep -q 'bonds broke' log; then
+    if { [ $name = breaking ] || [ $name = tearing ]; } && ! grep -q 'bonds broke' log; then
       echo "FAILED: no bond broke"
       exit 1
     fi

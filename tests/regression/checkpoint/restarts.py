@@ -161,7 +161,17 @@ def breaking():
     return [text, section("Damage Models", section("brittle", keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)))]
 
 
-SCENES = {"impact": impact, "press": press, "cells": cells, "breaking": breaking}
+def tearing():
+    """The same, with points that fail."""
+    text, model = breaking()
+    stretch = keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)
+    strain = keys(Damage_Model="Plastic Strain", Failure_Strain=0.02, Fracture_Energy=10e3)
+    of_steel = '<Parameter name="Material" type="string" value="steel"'
+    text = text.replace(keys(Damage_Model="brittle") + of_steel, of_steel).replace("breaking.", "tearing.")
+    return [text, model.replace(stretch, strain)]
+
+
+SCENES = {"impact": impact, "press": press, "cells": cells, "breaking": breaking, "tearing": tearing}
 
 
 class Test:
@@ -247,7 +257,7 @@ class Test:
         self.run(Path(elsewhere), "--continue", ranks=2)
         # Equilibria are found to 1e-6 of the forces, by preconditioners that differ with the ranks.
         tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "cells": (1e-12, 1e-9),
-                      "breaking": (1e-12, 1e-9)}
+                      "breaking": (1e-12, 1e-9), "tearing": (1e-12, 1e-9)}
         self.same(whole, elsewhere, scene, *tolerances[scene])
 
     def killed(self, scene, whole, kills):
@@ -389,7 +399,7 @@ class Test:
         self.seconds[name] = time.monotonic() - began
         if name in ("impact", "cells") and "subcycled" not in log:
             self.fail("no point of the impact is subcycled", whole / "log")
-        if name == "breaking" and "bonds broke" not in log:
+        if name in ("breaking", "tearing") and "bonds broke" not in log:
             self.fail("no bond broke", whole / "log")
         self.setup[name] = 0.1
         self.terminated(name, whole)
