@@ -20,9 +20,9 @@ class Wanted:
     """What the command line asks for."""
 
     def __init__(self, variables=None, view=(1, -2.2, 0.6), zoom=1, times=None, frames=None, blocks=None, clip=None,
-                 glass=None, limits=None):
+                 glass=None, limits=None, hide=None):
         self.variables, self.view, self.zoom, self.times, self.frames = variables, view, zoom, times, frames
-        self.blocks, self.clip, self.glass, self.limits = blocks, clip, glass, limits
+        self.blocks, self.clip, self.glass, self.limits, self.hide = blocks, clip, glass, limits, hide
 
 
 def variables_of(result, wanted):
@@ -62,10 +62,19 @@ def kept(result, block, clip, towards):
     return block.nodes[here <= plane if towards[axis] > 0 else here >= plane]
 
 
-def surface_of_blocks(result, blocks, wanted):
-    parts = []
+def hidden_points(result, frame, hide):
+    """Of all points, whether a variable is above a value there; such as damage, to see into cracks."""
+    if not hide:
+        return np.zeros(len(result.reference), bool)
+    name, most = hide
+    return np.nan_to_num(result.values(name, frame)) > most
+
+
+def surface_of_blocks(result, blocks, wanted, frame):
+    parts, hidden = [], hidden_points(result, frame, wanted.hide)
     for block in blocks:
         nodes = kept(result, block, wanted.clip, wanted.view)
+        nodes = nodes[~hidden[nodes]]
         if len(nodes):
             volumes = block.volumes[np.isin(block.nodes, nodes)] if block.volumes is not None else None
             parts.append(surface_of(result.reference[nodes], volumes, nodes))
@@ -162,14 +171,18 @@ class Scene:
         self._draw(result, [[b for b in blocks if (b.name in glass) == see_through] for see_through in (0, 1)], wanted)
 
     def _draw(self, result, layers, wanted):
-        surfaces = [surface_of_blocks(result, layer, wanted) for layer in layers]
-        if not any(surfaces):
-            fail("nothing is left to draw: the plane of --clip cuts all away")
+        frames = self.frames if wanted.hide else self.frames[:1] * len(self.frames)
+        found = {f: [surface_of_blocks(result, layer, wanted, f) for layer in layers] for f in set(frames)}
+        surfaces = [found[f] for f in frames]
+        if not all(any(both) for both in surfaces):
+            fail("nothing is left to draw: " + ("--hide hides all of it" if wanted.hide else
+                                                "the plane of --clip cuts all away"))
         self.camera = painter.Camera(wanted.view)
-        moved = [[s and self.camera.seen(s.moved(result.displacement(f))) for s in surfaces] for f in self.frames]
+        moved = [[s and self.camera.seen(s.moved(result.displacement(f))) for s in both]
+                 for f, both in zip(self.frames, surfaces)]
         corners = np.concatenate([c for layers in moved for c in layers if c is not None])
         self.camera.frame(corners.min(axis=0), corners.max(axis=0), *PANEL, wanted.zoom)
-        self.drawn = [[s and Drawn(s, c, self.camera) for s, c in zip(surfaces, both)] for both in moved]
+        self.drawn = [[s and Drawn(s, c, self.camera) for s, c in zip(*pair)] for pair in zip(surfaces, moved)]
 
     def image(self, row, column):
         solid, glass = self.drawn[column]

@@ -184,6 +184,17 @@ class Pictures(unittest.TestCase):
             right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
             np.testing.assert_allclose(hue(scene.image(scene.rows[0], 0)[down, right]), hue(view.SCALE(expected)), atol=1e-6)
 
+    def test_hidden_points_show_what_is_behind_them(self):
+        places = box(6, 6, 6)
+        front = (places[:, 1] < H) * 1.0
+        write_result(self.folder / "crack.e", {"body": places}, np.zeros((2, len(places), 3)),
+                     {"Damage": np.stack([0 * front, front]), "Behind": np.stack([1 - front] * 2)})
+        scene = self.scene("crack.e", view=(0, -1, 0), frames=2, variables=["Behind"], hide=("Damage", 0.5))
+        right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
+        for column, expected in ((0, 0.0), (1, 1.0)):
+            np.testing.assert_allclose(hue(scene.image(scene.rows[0], column)[down, right]), hue(view.SCALE(expected)),
+                                       atol=1e-6)
+
     def test_errors_are_one_line_that_helps(self):
         self.bar()
         self.assertIn("no variable 'Von_Mises_Stres' (did you mean 'Von_Mises_Stress'?)",
@@ -193,6 +204,9 @@ class Pictures(unittest.TestCase):
         self.assertIn("no block 'plate'; it has bar", self.error("bar.e", "a.png", "--blocks", "plate"))
         self.assertIn("times from 0 s to 0.001 s; found 5", self.error("bar.e", "a.png", "--times", 5))
         self.assertIn("--clip takes", self.error("bar.e", "a.png", "--clip", "q", 0.5))
+        self.assertIn("--hide takes", self.error("bar.e", "a.png", "--hide", "Damage", "much"))
+        self.assertIn("no variable 'Damag'", self.error("bar.e", "a.png", "--hide", "Damag", 0.5))
+        self.assertIn("--hide hides all", self.error("bar.e", "a.png", "--hide", "Von_Mises_Stress", -1))
         self.assertIn("ends in .png", self.error("bar.e", "a.bmp"))
         (self.folder / "text.e").write_text("not a result")
         self.assertIn("text.e is not an Exodus file", self.error("text.e", "a.png"))
