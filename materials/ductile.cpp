@@ -19,7 +19,7 @@ Symmetric scaled(const Symmetric& stress, double x) {
 
 // x at the end of a step from that at its start: G_c/L (x² − x'²) = x · (flow of the effective stress) + W (x − x'),
 // W the elastic energy of what falls. 0 below x = W L/(2 G_c), where the energy that x frees is more than it takes.
-double Ductile::part_left(double x, double flowed, double elastic) const {
+double Ductile::reduced(double x, double flowed, double elastic) const {
   const double whole = ductility.fracture_energy / length;
   if (!(whole > 0)) return 0;
   const double half = 0.5 * elastic / whole, discriminant = (x - half) * (x - half) - x * flowed / whole;
@@ -35,8 +35,9 @@ PointStress Ductile::soften(const PointStep& step, const Symmetric& stress, Stat
   if (!converged) return {stress, false};
   const double flowed = reached.metal.plastic_work - state.metal.plastic_work;
   const Symmetric falls = trace(effective) > 0 ? effective : deviator(effective);
-  reached.damage = 1 - part_left(x, flowed, step.J * metal.elastic_energy(falls, {}));
+  reached.damage = 1 - reduced(x, flowed, step.J * metal.elastic_energy(falls, {}));
   const bool holds = reached.damage < 1;
+  if (!holds) reached.metal.plastic_strain_rate = 0;
   const Symmetric next = holds ? scaled(effective, 1 - reached.damage) : Symmetric(Symmetric::Zero());
   const double old_J = old_determinant(step);
   const double stored_more = step.J * elastic_energy(next, reached) - old_J * elastic_energy(stress, state);

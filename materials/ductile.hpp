@@ -2,15 +2,17 @@
 //   σ = x dev σ̃ + (x if σ̃_m > 0, else 1) σ̃_m I,   σ̃ by J2,   d = 1 − x     (Lemaitre's effective stress σ̃)
 //   G_c/L d(1 − x²) = dissipation per volume from then on     (G_c over a length: Hillerborg, Modéer & Petersson 1976)
 // With perfect plasticity the stress falls linearly with the plastic strain. However the metal hardens or is strained,
-// it has dissipated G_c/L when x = 0; then, or where the elastic energy alone would do it, it fails: it carries no
-// stress from then on. In compression it closes at once. Method: J2's step on the effective stress, then a quadratic
-// equation for x. Units: Pa, 1/s, s.
+// it has dissipated G_c/L when x = 0, or more where its elastic energy W is: at x = W L/(2 G_c) that does the rest.
+// Then it has failed, and carries no stress. In compression it closes at once. Method: J2's step on the effective
+// stress, then a quadratic equation for x. Units: Pa, 1/s, s.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "materials/failure_criterion.hpp"
 #include "materials/j2.hpp"
@@ -58,6 +60,8 @@ struct Ductile {
     return whole + metal.elastic_energy(rest, {}) / x;
   }
   bool has_flowed(const State& state) const { return metal.has_flowed(state.metal); }
+  double part_left(const State& state) const { return 1 - state.damage; }
+  void set_crack_length(double to) { length = to; }
   double dissipation(const State& state) const { return metal.dissipation(state.metal); }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
   double flow_stress(const State& state) const {
@@ -82,7 +86,7 @@ struct Ductile {
 
   // From where the criterion is met, point by point. Not inline: rare, and laws are inlined into every formulation.
   PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
-  double part_left(double x, double flowed, double elastic) const;
+  double reduced(double x, double flowed, double elastic) const;
   void soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
                    const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const;
 };

@@ -23,22 +23,23 @@ struct FailureStrain {
 };
 
 // D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)),  σ* = mean/von Mises stress, 1.5 at most
-//     (Johnson & Cook 1985; isothermal: the factor 1 + D5 T* is 1)
+//     (Johnson & Cook 1985; isothermal: the factor 1 + D5 T* is 1). Also −1.5 at least, far below where metals fail.
 struct JohnsonCookFailure {
-  double constants[4] = {1, 0, 0, 0};  // D1 … D4
-  double reference_rate = 1;           // ε̇₀, 1/s
-  static constexpr double most_triaxial = 1.5;
+  double constants[4] = {1, 0, 0, 0};           // D1 … D4
+  double reference_rate = 1;                    // ε̇₀, 1/s
+  static constexpr double most = 1.5;           // of |σ*|
   static constexpr double least_strain = 1e-6;  // where the fit would give less, or none
 
   template <class T>
   T growth(const SymmetricOf<T>& stress, const T& rate) const {
     const SymmetricOf<T> s = deviator(stress);
     const T mean = trace(stress) / 3, mises = sqrt(T(1.5 * double_dot(s, s)));
-    const T triaxiality = mean < most_triaxial * mises ? T(mean / mises) : same<T>(most_triaxial);
+    const T bound = most * mises, within = mean < bound ? mean : bound;
+    const T triaxiality = within > -bound ? T(within / mises) : mean < 0 ? same<T>(-most) : same<T>(most);
     const T slow = constants[0] + constants[1] * exp(T(constants[2] * triaxiality));
     const T relative = rate / reference_rate, log_rate = log(relative < 1 ? same<T>(1) : relative);
     const T strain = slow * (1 + constants[3] * log_rate);
-    return 1 / (strain < least_strain ? same<T>(least_strain) : strain);
+    return 1 / (strain >= least_strain ? strain : same<T>(least_strain));
   }
 };
 

@@ -19,6 +19,9 @@
 //   has_flowed        optional, of a law whose plastic flow keeps the volume: whether the point ever flowed. Where
 //                     several law points follow one motion, they then share their change of volume (volumetric
 //                     locking: src/mechanics/formulation/quadratic.md).
+//   part_left         optional, of a law that softens as it fails: the part of its stress that a point still bears, 1 to 0,
+//                     with the state as an argument. Its stabilization falls with it.
+//   set_crack_length  optional: told over which length a crack smears its opening, m.
 //   StateOf<T>        optional, SIMD: a law may take several points at once, one per lane. Its step and StateOf<T> are
 //                     then templates over the number, double or RawLanes, and State is StateOf<double>. All lanes are
 //                     computed; those where J is not positive are thrown away.
@@ -92,6 +95,17 @@ inline constexpr bool has_changing_moduli = requires(const L law, const typename
 template <class L>
 inline constexpr bool tells_flow = requires(const L law, const typename L::State& state) {
   { law.has_flowed(state) } -> std::same_as<bool>;
+};
+
+// Whether a law softens, and says by how much.
+template <class L>
+inline constexpr bool softens = requires(const L law, const typename L::State& state) {
+  { law.part_left(state) } -> std::same_as<double>;
+};
+
+template <class L>
+inline constexpr bool takes_crack_length = requires(L law, double length) {
+  law.set_crack_length(length);
 };
 
 template <class L>

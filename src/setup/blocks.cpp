@@ -142,4 +142,21 @@ std::string thin_members(const Body& body) {
   return text.str();
 }
 
+std::string sudden_failure(const Body& body) {
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    const auto* law = std::get_if<materials::Ductile>(&block.material.law);
+    if (!law || !(body.domain.blocks[b].spacing > 0) || !(law->ductility.fracture_energy > 0)) continue;
+    const auto [bulk, shear] = law->moduli();
+    const double yield = law->metal.flow_stress({}), stored = yield * yield * (3 * bulk + shear) / (18 * bulk * shear);
+    const double least = 0.5 * stored * law->length;  // J/m²
+    if (law->ductility.fracture_energy >= least) continue;
+    text << "block '" << block.name << "': points hold more energy when they yield than its Fracture Energy, so they "
+         << "fail at once; expected more than " << least << " J/m², or a smaller spacing\n";
+  }
+  return text.str();
+}
+
 }  // namespace strut

@@ -31,4 +31,7 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
 // Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness.
 std::string thin_members(const Body& body);
 
+// A line for each block whose points fail without softening, as its fracture energy is too small for its spacing.
+std::string sudden_failure(const Body& body);
+
 }  // namespace strut

@@ -58,6 +58,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   scene.contact = contact::Contact(interactions, scene.body.domain);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   scene.warnings += thin_members(scene.body);
+  scene.warnings += sudden_failure(scene.body);
   scene.warnings += undeclared_contacts(scene, interactions, deck.solver.initial_time,
                                         deck.solver.final_time - deck.solver.initial_time);
   return scene;

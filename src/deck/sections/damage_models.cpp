@@ -28,13 +28,14 @@ const ExpressionKey stretch_over_time({.name = "Time Dependent Critical Stretch"
                                        .range = positive,
                                        .meaning = "s_c as a function of the time t (s)."});
 
-const RealKey tearing_energy({.name = "Fracture Energy",
-                              .unit = "J/m²",
-                              .range = not_negative,
-                              .fallback = "0",
-                              .meaning = "G_c: what a crack takes for each area from where the criterion is met; the "
-                                         "stress falls meanwhile. With 0 a point fails at once, which dissipates less "
-                                         "the smaller the spacing."});
+const RealKey tearing_energy(
+    {.name = "Fracture Energy",
+     .unit = "J/m²",
+     .range = not_negative,
+     .fallback = "0",
+     .meaning = "G_c: what a crack takes for each area, roughly, from where the criterion is met; the "
+                "stress falls meanwhile. With 0 a point fails at once, which dissipates less "
+                "the smaller the spacing."});
 
 const RealKey failure_strain({.name = "Failure Strain",
                               .range = positive,
@@ -42,7 +43,9 @@ const RealKey failure_strain({.name = "Failure Strain",
 
 const RealKey d1({.name = "D1", .meaning = "D₁ of ε_f = (D₁ + D₂ exp(D₃ σ*)) (1 + D₄ ln max(ε̇/ε̇₀, 1))."});
 const RealKey d2({.name = "D2", .range = not_negative, .meaning = "D₂."});
-const RealKey d3({.name = "D3", .meaning = "D₃, negative where a metal tears earlier in tension."});
+const RealKey d3({.name = "D3",
+                  .range = {.high = 0},
+                  .meaning = "D₃, not positive: a metal tears earlier in tension."});
 const RealKey d4({.name = "D4", .range = not_negative, .fallback = "0", .meaning = "D₄."});
 const RealKey reference_rate(
     {.name = "Reference Strain Rate", .unit = "1/s", .range = positive, .fallback = "1", .meaning = "ε̇₀."});
@@ -57,7 +60,7 @@ DamageModel ductile(materials::FailureCriterion criterion, const Values& values)
 }
 
 DamageModel read_johnson_cook(const Values& v, Problems& problems) {
-  if (!(v[d1] + v[d2] > 0)) {
+  if (v.has(d1) && v.has(d2) && !(v[d1] + v[d2] > 0)) {
     problems.add(v.path_to(d1), "D1 + D2 is not positive: there is no plastic strain at failure in pure shear");
   }
   return ductile(materials::JohnsonCookFailure{{v[d1], v[d2], v[d3], v[d4]}, v[reference_rate]}, v);
@@ -107,8 +110,7 @@ const std::vector<ModelEntry>& entries() {
       {{.name = "Johnson-Cook",
         .meaning = "The same where ∫ dε̄/ε_f = 1 with the ε_f of Johnson and Cook (1985) without temperature; σ* is the "
                    "mean stress over von Mises', 1.5 at most.",
-        .keys = {d1, d2, d3, d4, reference_rate, tearing_energy},
-        .hints = {{"D5", "unknown key; there is no temperature here"}}},
+        .keys = {d1, d2, d3, d4, reference_rate, tearing_energy}},
        read_johnson_cook},
       {{.name = "Cockcroft-Latham",
         .meaning = "The same where the plastic work of the largest principal stress in tension reaches W_c.",
@@ -123,7 +125,8 @@ Section damage_models_section() {
   Section one{.name = any_name,
               .required = true,
               .meaning = "One model.",
-              .hints = {{"Thermal Expansion Coefficient", "unknown key; there is no temperature here"}}};
+              .hints = {{"Thermal Expansion Coefficient", "unknown key; there is no temperature here"},
+                        {"D5", "unknown key; there is no temperature here"}}};
   return {.name = name,
           .meaning = "When the bonds of a block break, or its points fail (Blocks > Damage Model).",
           .sections = {with_cases(std::move(one),

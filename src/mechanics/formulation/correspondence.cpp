@@ -45,13 +45,16 @@ struct Update {
     return g;
   }
 
-  // A failed point goes on as a mass. F and R stay as they were when it failed. Where bonds may break, what its springs
-  // held then is counted before they are gone.
+  // A failed point goes on as a mass. F and R stay as they were; where bonds may break, as they were when it failed:
+  // what its springs held then is counted before they are gone (Fracture).
   void store_failed(const LawPoints& g, int l, const Deformed& now) const {
     const int i = g.group.i[l];
     double& failed = body().force_states.tensors[i].failed();
-    if (!body().fracture) body().points[i].stabilization = 0;
-    if (!(failed > 0) && now.J[l] > 0) law.store(g, l, now);
+    if (!block().material.damage) {
+      body().points[i].stabilization = 0;
+    } else if (!(failed > 0) && now.J[l] > 0) {
+      law.store(g, l, now);
+    }
     drop_forces(g.group, l);
     failed = 1;
   }

@@ -75,7 +75,7 @@ struct Update {
       const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
       for (int l = 0; l < group.count; ++l) {
-        // A failed place beside others bears its share of their pressure, as their strains have it.
+        // A failed place of a metal beside others bears its share of their pressure, as their strains have it.
         if (now.J[l] > 0 && stiffest[l] > 0) {
           law.store(points[q], l, now);
           continue;
@@ -109,6 +109,7 @@ struct Update {
         if (!is_number) law.failure.report(group.k[l], Failure::Kind::not_finite);
         if (is_number && !is_broken) law.failure.report(group.k[l], Failure::Kind::inverted);
         body().force_states.quadratics[group.i[l]] = {};
+        body().force_states.quadratics[group.i[l]].failed = is_broken;  // where points fail, crushed ones do
         body().force_density[group.i[l]].setZero();
       }
     }

@@ -19,11 +19,12 @@ class QuadraticCells {
     }
   }
 
-  // F and H of the motion with these sums.
+  // F and H of the motion with these sums; zero of cells that carry no stress, whatever the μ of their neighbors.
   void take(const bonds::QuadraticMoments<Lanes>& N) {
+    const Lanes volume = (steepness() > 0).select(volume_, Lanes::Zero());
     for (int r = 0; r < 3; ++r) {
       for (int b = 0; b < 3; ++b) {
-        Lanes f = volume_ * (N.correction.c[r][b] - N.sum.c[r] * center(b));
+        Lanes f = volume * (N.correction.c[r][b] - N.sum.c[r] * center(b));
         for (int c = 0; c < 3; ++c) f += N.first.c[r][c] * linear(c, b);
         for (int k = 0; k < 6; ++k) f += N.second[r][k] * mixed(k, b);
         F_.c[r][b] = f;

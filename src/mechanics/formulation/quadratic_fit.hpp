@@ -51,6 +51,7 @@ class QuadraticFits {
   // Of an owned point that has lost bonds, whose μ and those of its neighbors stay. False where those that are left do
   // not span space, or only with a steepness times volume (1/m²) above `most`: it carries no stress.
   bool refit(const Body& body, int i, double most);
+  void drop(int i) { fit(i) = {}; }  // it carries no stress
 
   // F at a place of the cell of an owned point that carries stress, of points at place(j).
   Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;

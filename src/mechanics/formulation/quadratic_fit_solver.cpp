@@ -456,7 +456,7 @@ bool QuadraticFits::refit(const Body& body, int i, double most) {
     fresh.steepness = steepness_of(body, i, multipliers(), fresh);
     spans = body.domain.volume(i) * fresh.steepness <= most;
   }
-  fit(i) = spans ? fresh : QuadraticFit{};
+  if (spans) fit(i) = fresh;
   return spans;
 }
 

@@ -212,6 +212,7 @@ struct LawUpdate {
     const Lanes speed2 = 3 * stiffness * J, steepness2 = small::square(inverse_stretch) / 3;
     Lanes q = Lanes::Zero();
     for (int l = 0; l < g.group.count; ++l) {
+      if (!(stiffness[l] > 0)) block.viscous[g.places[l]].damping = 0;  // has failed
       if (!(J[l] > 0) || !(stiffness[l] > 0)) continue;
       const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
       const double length = std::cbrt(body.domain.volume(g.group.i[l])) / std::sqrt(steepness2[l]);

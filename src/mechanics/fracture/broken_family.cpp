@@ -38,12 +38,7 @@ void release(MaterialPoint& point) {
   point.stabilization = 0;
 }
 
-void refit_cell(Body& body, MaterialBlock& block, int k, double most) {
-  if (body.fits->refit(body, block.points[k], most)) return;
-  for (int q = 0; q < block.places_a_point(); ++q) release(block.cells[block.place(k, q)]);
-}
-
-void refit_shape(Body& body, MaterialBlock& block, int k, double most) {
+bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
   const int i = block.points[k];
   const Symmetric inverse = inverse_of(shape_tensor(body, i));
   const bool holds = trace(inverse) > 0 && body.domain.volume(i) * trace(inverse) <= most;
@@ -52,7 +47,7 @@ void refit_shape(Body& body, MaterialBlock& block, int k, double most) {
     const bonds::OfPoint family{body.domain.families, i};
     body.first_moment.set(i, bonds::first_moment(family, body.domain.sites.data(), weight));
   });
-  if (!holds) release(body.points[i]);
+  return holds;
 }
 
 // F of the places at the start of a step, by the family that is left.
@@ -80,13 +75,27 @@ double part_that_releases(const MaterialPoint& point, const materials::Moduli& m
 }
 
 // So that the step goes on from the gradient that the bonds left have at its start, less the part of the jump that
-// stress is to follow.
-void set_start(MaterialPoint& point, const materials::Moduli& moduli, const Tensor& refitted) {
+// stress is to follow. False where that is another volume than before: such bonds do not hold a gradient.
+bool set_start(MaterialPoint& point, const materials::Moduli& moduli, const Tensor& refitted) {
+  constexpr double most = 2;  // times as large or small
   const Tensor jump = refitted - point.deformation_gradient;
   const Tensor start = refitted - part_that_releases(point, moduli, jump) * jump;
-  if (!(start.determinant() > 0)) return;  // the step tells of it
+  const double before = point.deformation_gradient.determinant(), after = start.determinant();
+  if (!(after > before / most && after < before * most)) return false;
   point.deformation_gradient = start;
   point.rotation = Rotation(polar_rotation(start));
+  return true;
+}
+
+bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& start) {
+  bool holds = true;
+  for (int q = 0; q < block.places_a_point(); ++q) {
+    const std::size_t place = block.place(k, q);
+    const auto place_of = [&start](int j) { return start.place(j); };
+    const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
+    holds = holds && set_start(block.cells[place], block.moduli(place), F);
+  }
+  return holds;
 }
 
 }  // namespace
@@ -96,24 +105,27 @@ double steepness(const Body& body, int i) {
   return body.domain.volume(i) * (is_cell ? (*body.fits)[i].steepness : trace(body.shape_inverse[i]));
 }
 
-void refit(Body& body, MaterialBlock& block, int k, double most) {
-  if (block.is_ordinary()) return;
-  block.is_quadratic() ? refit_cell(body, block, k, most) : refit_shape(body, block, k, most);
+bool refit(Body& body, MaterialBlock& block, int k, double most) {
+  if (block.is_ordinary()) return true;
+  return block.is_quadratic() ? body.fits->refit(body, block.points[k], most) : refit_shape(body, block, k, most);
 }
 
-void refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {
+bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {
+  if (!refit(body, block, k, most)) return false;
+  if (block.is_ordinary()) return true;
+  if (block.is_quadratic()) return set_start_of_cell(body, block, k, start);
   const int i = block.points[k];
-  refit(body, block, k, most);
-  if (block.is_ordinary()) return;
-  if (!block.is_quadratic()) {
-    if (trace(body.shape_inverse[i]) > 0) set_start(body.points[i], block.moduli(k), gradient_at_start(body, i, start));
-    return;
-  }
-  if (!(*body.fits)[i].carries_stress()) return;
-  for (int q = 0; q < block.places_a_point(); ++q) {
-    const std::size_t place = block.place(k, q);
-    set_start(block.cells[place], block.moduli(place),
-              body.fits->gradient_at(body, i, q, [&start](int j) { return start.place(j); }));
+  return set_start(body.points[i], block.moduli(k), gradient_at_start(body, i, start));
+}
+
+void release(Body& body, MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  if (block.is_quadratic()) {
+    body.fits->drop(i);
+    for (int q = 0; q < block.places_a_point(); ++q) release(block.cells[block.place(k, q)]);
+  } else {
+    body.shape_inverse.set(i, Symmetric::Zero());
+    release(body.points[i]);
   }
 }
 

@@ -137,10 +137,15 @@ void set_critical_stretches(Body& body) {
   }
 }
 
-void set_failing_lengths(Body& body) {
+void set_crack_lengths(Body& body) {
+  constexpr double cells_reach = 1.75;  // spacings: those that touch, whatever the horizon
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    auto* law = std::get_if<materials::Ductile>(&body.blocks[b].material.law);
-    if (law) law->length = 2 * body.domain.blocks[b].largest;
+    const BlockHorizons& of_block = body.domain.blocks[b];
+    const double reach = body.blocks[b].is_quadratic() ? cells_reach * of_block.spacing : of_block.largest;
+    const auto set = [reach]<class L>(L& law) {
+      if constexpr (materials::takes_crack_length<L>) law.set_crack_length(2 * reach);
+    };
+    std::visit(set, body.blocks[b].material.law);
   }
 }
 

@@ -22,8 +22,10 @@ double energy_of_separation(const PulledLattice& lattice);
 // Sets the critical stretch of the blocks whose fracture energy is given, by the lattice of their spacing and horizon.
 void set_critical_stretches(Body& body);
 
-// Sets over which length a crack smears its opening, of the blocks whose points may fail: twice the horizon, as all
-// points within it on both sides of a jump of places see it in their deformation gradients.
-void set_failing_lengths(Body& body);
+// Sets over which length a crack smears its opening, of the blocks whose points may fail: twice the reach of their
+// families, as all points within it on both sides of a jump of places see it in their deformation gradients. The
+// block's largest horizon, or 1.75 spacings by quadratic correspondence: a graded block takes less energy where it is
+// finer.
+void set_crack_lengths(Body& body);
 
 }  // namespace strut

@@ -50,8 +50,16 @@ bool has_failed(const ForceStates& states, std::size_t i) {
 // The part of the springs of block.points[k] that goes on with its stress.
 double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
-  if (!std::holds_alternative<materials::Ductile>(block.material.law)) return 1;
-  return 1 - block.state_of<materials::Ductile>(k).damage;
+  const auto part = [&block, k]<class L>(const L& law) {
+    if constexpr (materials::softens<L>) return law.part_left(block.state_of<L>(k));
+    return 1.0;
+  };
+  return std::visit(part, block.material.law);
+}
+
+bool fails(const MaterialBlock& block) {
+  const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
+  return block.material.damage && std::visit(may_fail, block.material.law);
 }
 
 }  // namespace
@@ -77,31 +85,33 @@ struct Fracture::Stretches {
   }
 };
 
-Fracture::Fracture(Body& body) {
+void Fracture::set_which(const Body& body) {
   const Domain& domain = body.domain;
-  const auto breaks = [&body](std::size_t b) { return body.blocks[b].material.damage.has_value(); };
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     bool any = false;
     for (std::size_t other = 0; other < body.blocks.size(); ++other) {
-      any = any || (domain.blocks[other].body == domain.blocks[b].body && breaks(other));
+      const bool is_same_body = domain.blocks[other].body == domain.blocks[b].body;
+      any = any || (is_same_body && body.blocks[other].material.damage);
     }
     may_break_.push_back(any);
+    may_fail_.push_back(fails(body.blocks[b]));
+    const auto& damage = body.blocks[b].material.damage;
+    by_time_ = by_time_ || (damage && damage->critical_stretch && damage->critical_stretch->depends_on_time());
   }
+}
+
+Fracture::Fracture(Body& body) {
+  const Domain& domain = body.domain;
   set_critical_stretches(body);
-  set_failing_lengths(body);
-  for (const MaterialBlock& block : body.blocks) {
-    const auto& damage = block.material.damage;
-    if (!damage) continue;
-    by_time_ = by_time_ || (damage->critical_stretch && damage->critical_stretch->depends_on_time());
-    const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
-    fails_ = fails_ || std::visit(may_fail, block.material.law);
-  }
+  set_crack_lengths(body);
+  set_which(body);
   for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
   body.domain.halo.exchange(block_of_.data(), 1, 1);
   body.domain.families.broken.resize(domain.owned);
   dissipated_.assign(domain.owned, 0);
+  released_.assign(domain.owned, 0);
   for (int i = 0; i < domain.owned; ++i) {
     double volume = 0;
     domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
@@ -136,7 +146,8 @@ void Fracture::take_failed(const Body& body) {
   std::vector<char> is_new(limits_.size(), 0);
   bool any = false;
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (!has_failed(body.force_states, i) || limits_[i] == of_failed) continue;
+    if (limits_[i] == of_failed || !may_fail_[static_cast<std::size_t>(block_of_[i])]) continue;
+    if (!has_failed(body.force_states, i)) continue;
     limits_[i] = of_failed;
     is_new[i] = any = true;
   }
@@ -217,7 +228,8 @@ void Fracture::break_bonds(Body& body, Part part, double time) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
   if (by_time_ && part == Part::interior) set_limits(body, time);
-  if (fails_ && part == Part::interior) take_failed(body);
+  const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
+  if (any_fails && part == Part::interior) take_failed(body);
   advance_travel(body, part);
   const double travel = travel_[part == Part::boundary];
   std::vector<char> stretched(watched_.size(), 0);
@@ -270,15 +282,18 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   domain.families.lists.drop_cut(cluster_number);
   for (std::size_t l = 0; l < cluster.points.size(); ++l) {
     if (!(members >> l & 1)) continue;
-    refit_in_step(body, block, first + static_cast<int>(l), most_steepness_[cluster.points[l]], start);
+    const int k = first + static_cast<int>(l), i = cluster.points[l];
+    if (released_[i] > 0 || refit_in_step(body, block, k, most_steepness_[i], start)) continue;
+    release(body, block, k);
+    released_[i] = 1;
   }
 }
 
 // What the springs of a point that softens or fails no longer hold.
 void Fracture::soften_springs(Body& body, Part part) {
-  for (std::size_t b = 0; fails_ && b < body.blocks.size(); ++b) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
-    if (!may_break_[b] || block.in_rigid_motion || !block.has_springs(ResidualKind::own_gradient)) continue;
+    if (!may_fail_[b] || block.in_rigid_motion || !block.has_springs(ResidualKind::own_gradient)) continue;
     const auto [begin, end] = range(block, part);
     for (int k = begin; k < end; ++k) {
       const int i = block.points[k];
@@ -324,7 +339,7 @@ double Fracture::damage(const Body& body, int i) const {
 
 double Fracture::bytes() const {
   return static_cast<double>(start_.size() * (sizeof(Vector) + 2 * sizeof(double)) + watched_.size() * sizeof(Watched) +
-                             whole_volume_.size() * (4 * sizeof(double) + sizeof(std::vector<int>))) +
+                             whole_volume_.size() * (5 * sizeof(double) + sizeof(std::vector<int>))) +
          static_cast<double>(broken_) * sizeof(int);
 }
 
@@ -383,6 +398,7 @@ void Fracture::serialize(Archive& archive, Body& body) {
   states("tensor_state", body.force_states.tensors);
   states("scalar_state", body.force_states.scalars);
   states("quadratic_state", body.force_states.quadratics);
+  archive.field("released", 1, [&](std::size_t i, int) -> double& { return released_[i]; });
   archive.field("fracture_energy", 1, [&](std::size_t i, int) -> double& { return dissipated_[i]; });
   if (archive.loading()) restore(body, bits, words);
 }
@@ -424,7 +440,8 @@ void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
       }
       broken_ += gone;
       lists.drop_cut(c);
-      if (gone > 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
+      if (gone > 0 && released_[i] == 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
+      if (released_[i] > 0) release(body, block, static_cast<int>(k));
     }
   }
   for (Watched& cluster : watched_) cluster.due = 0;

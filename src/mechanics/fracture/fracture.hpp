@@ -62,6 +62,7 @@ class Fracture {
   struct Stretches;
 
   void set_limits(const Body& body, double time);
+  void set_which(const Body& body);
   void take_failed(const Body& body);
   void soften_springs(Body& body, Part part);
   void set_shortest(const Body& body);
@@ -73,10 +74,10 @@ class Fracture {
   void restore(Body& body, const std::vector<double>& bits, int words);
 
   std::vector<char> may_break_;   // of blocks
+  std::vector<char> may_fail_;    // of blocks: their points may fail, and lose their bonds then
   std::vector<double> block_of_;  // of owned points and ghosts
   std::vector<double> limits_;    // (1 + s_c)² of owned points and ghosts; infinite without
   bool by_time_ = false;          // they change
-  bool fails_ = false;            // points may fail
   std::vector<Vector> start_;     // places at the start of the step, of owned points and ghosts, m
   std::vector<Watched> watched_;  // of clusters
   double travel_[2] = {0, 0};     // bound of how far two points have moved apart so far, m: owned ones; ghosts, too
@@ -86,6 +87,7 @@ class Fracture {
   std::vector<double> whole_springs_;   // C of owned points at first, Pa/m⁵
   std::vector<double> most_steepness_;  // of owned points that carry stress, 1/m²
   std::vector<double> dissipated_;      // by owned points, J
+  std::vector<double> released_;        // 1 of owned points that carry no stress any more
   std::vector<Affected> affected_;
   std::int64_t broken_ = 0;
 };

@@ -162,8 +162,9 @@ def breaking():
 
 
 def tearing():
-    """The same, with points that fail."""
+    """The same with points that fail, by correspondence."""
     text, model = breaking()
+    text = text.replace('"Quadratic Correspondence"/>', '"Correspondence"/>' + keys(Stabilization="Silling"))
     stretch = keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)
     strain = keys(Damage_Model="Plastic Strain", Failure_Strain=0.02, Fracture_Energy=10e3)
     of_steel = '<Parameter name="Material" type="string" value="steel"'
