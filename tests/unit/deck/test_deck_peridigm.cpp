@@ -336,6 +336,7 @@ TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
           "Damage Models > growing > D1: D1 + D2 is not positive");
   refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: -3.0, D5: 1.0"),
           "Damage Models > growing > D5: unknown key; there is no temperature here");
+  refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: 3.0"), "Damage Models > growing > D3: ");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace strut::deck {
 namespace {
 
 std::string number_in(const Range& range) {
-  for (const char* text : {"1", "0.25", "10"}) {
+  for (const char* text : {"1", "0.25", "10", "-0.25"}) {
     if (range.contains(std::stod(text))) return text;
   }
   throw std::logic_error("no sample of a number " + range.text());
