@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/union_find.hpp"
 #include "mesh/cells.hpp"
-#include "mesh/groups.hpp"
 
 namespace strut::mesh {
 
@@ -12,8 +12,8 @@ namespace {
 using Triple = Eigen::Array3i;
 
 // Corner `k` of the n-th cell has the number 8 n + k until nodes are numbered.
-Groups joined_corners(const Cells& cells) {
-  Groups corners(8 * cells.places.size());
+UnionFind joined_corners(const Cells& cells) {
+  UnionFind corners(8 * cells.places.size());
   for (const auto& [a, b] : cells.contacts) {
     const Triple apart = cells.grid.cell(cells.places[b]) - cells.grid.cell(cells.places[a]);
     for (int k = 0; k < 8; ++k) {
@@ -26,7 +26,7 @@ Groups joined_corners(const Cells& cells) {
 }
 
 void add_hexahedra(io::Mesh& mesh, const Cells& cells) {
-  Groups corners = joined_corners(cells);
+  UnionFind corners = joined_corners(cells);
   std::vector<int> numbers(8 * cells.places.size(), -1);
   for (std::size_t n = 0; n < cells.places.size(); ++n) {
     for (int k = 0; k < 8; ++k) {
@@ -45,7 +45,7 @@ void add_hexahedra(io::Mesh& mesh, const Cells& cells) {
 }  // namespace
 
 std::vector<std::vector<int>> neighbors_of(const Cells& cells) {
-  Groups corners = joined_corners(cells);
+  UnionFind corners = joined_corners(cells);
   std::vector<std::vector<int>> users(8 * cells.places.size());
   for (int corner = 0; corner < static_cast<int>(users.size()); ++corner) {
     users[corners.first(corner)].push_back(corner / 8);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesh/groups.hpp"
+#include "base/union_find.hpp"
 
 namespace strut::mesh {
 
@@ -143,7 +143,7 @@ Material material_of(const std::vector<int>& voxels, const std::vector<double>& 
 
 Pieces connected_within(const Material& material, const VoxelGrid& coarse, int factor) {
   const std::vector<int> places = places_of(material, coarse, factor);
-  Groups groups(material.voxels.size());
+  UnionFind groups(material.voxels.size());
   for (int v = 0; v < material.size(); ++v) {
     for (const int w : material.joined[v]) {
       if (w >= 0 && places[v] == places[w]) groups.join(v, w);

@@ -57,6 +57,12 @@ double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   return std::visit(part, block.material.law);
 }
 
+double family_volume(const Domain& domain, int i) {
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+  return volume;
+}
+
 bool fails(const MaterialBlock& block) {
   const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
   return block.material.damage && std::visit(may_fail, block.material.law);
@@ -112,11 +118,7 @@ Fracture::Fracture(Body& body) {
   body.domain.families.broken.resize(domain.owned);
   dissipated_.assign(domain.owned, 0);
   released_.assign(domain.owned, 0);
-  for (int i = 0; i < domain.owned; ++i) {
-    double volume = 0;
-    domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
-    whole_volume_.push_back(volume);
-  }
+  for (int i = 0; i < domain.owned; ++i) whole_volume_.push_back(family_volume(domain, i));
   watched_.resize(domain.families.lists.count());
   set_shortest(body);
   set_most_steepness(body);
@@ -143,16 +145,17 @@ void Fracture::set_limits(const Body& body, double time) {
 
 // Points that have failed in the last step: all of their bonds are to break, and who has such bonds is to look.
 void Fracture::take_failed(const Body& body) {
-  std::vector<char> is_new(limits_.size(), 0);
-  bool any = false;
+  std::vector<char> is_new;  // empty while there is none, as in most steps
   for (std::size_t i = 0; i < limits_.size(); ++i) {
     if (limits_[i] == of_failed || !may_fail_[static_cast<std::size_t>(block_of_[i])]) continue;
     if (!has_failed(body.force_states, i)) continue;
     limits_[i] = of_failed;
-    is_new[i] = any = true;
+    is_new.resize(limits_.size());
+    is_new[i] = true;
   }
+  if (is_new.empty()) return;
   const auto is = [&is_new](int i) { return is_new[i] != 0; };
-  for (std::size_t c = 0; any && c < watched_.size(); ++c) {
+  for (std::size_t c = 0; c < watched_.size(); ++c) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
     const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
                        std::any_of(cluster.points.begin(), cluster.points.end(), is);
@@ -332,9 +335,7 @@ void Fracture::finish_step(const Body& body) {
 
 double Fracture::damage(const Body& body, int i) const {
   if (body.domain.families.broken[i].empty()) return 0;
-  double volume = 0;
-  body.domain.families.for_each(i, [&](int j) { volume += body.domain.volume(j); });
-  return 1 - volume / whole_volume_[i];
+  return 1 - family_volume(body.domain, i) / whole_volume_[i];
 }
 
 double Fracture::bytes() const {

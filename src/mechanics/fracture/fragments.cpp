@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <span>
+
+#include "base/union_find.hpp"
 
 namespace strut {
 
 namespace {
 
-// Sets of points that are joined one by one (union-find).
-class JoinedSets {
- public:
-  explicit JoinedSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j) { parent_[root(i)] = root(j); }
-
- private:
-  std::vector<int> parent_;
-};
-
-JoinedSets joined_on_this_rank(const Body& body) {
-  JoinedSets sets(body.domain.sites.size());
+UnionFind joined_on_this_rank(const Body& body) {
+  UnionFind sets(body.domain.sites.size());
   for (int i = 0; i < body.owned(); ++i) {
     body.domain.families.for_each(i, [&](int j) { sets.join(i, j); });
   }
@@ -57,16 +44,16 @@ std::vector<Sums> sums_of_this_rank(const Body& body) {
 std::vector<std::int64_t> fragment_ids(const Body& body) {
   const Domain& domain = body.domain;
   const int count = static_cast<int>(domain.sites.size());
-  JoinedSets sets = joined_on_this_rank(body);
-  std::vector<double> of_point(count), least(count, 0);  // least: of a set, by its root
+  UnionFind sets = joined_on_this_rank(body);
+  std::vector<double> of_point(count), least(count, 0);  // least: of a set, by its first point
   for (int i = 0; i < count; ++i) of_point[i] = static_cast<double>(domain.id(i));
   for (bool changed = true; changed;) {
-    for (int i = 0; i < count; ++i) least[sets.root(i)] = of_point[sets.root(i)];
-    for (int i = 0; i < count; ++i) least[sets.root(i)] = std::min(least[sets.root(i)], of_point[i]);
+    for (int i = 0; i < count; ++i) least[sets.first(i)] = of_point[sets.first(i)];
+    for (int i = 0; i < count; ++i) least[sets.first(i)] = std::min(least[sets.first(i)], of_point[i]);
     double any = 0;
     for (int i = 0; i < count; ++i) {
-      any = std::max(any, of_point[i] != least[sets.root(i)] ? 1.0 : 0.0);
-      of_point[i] = least[sets.root(i)];
+      any = std::max(any, of_point[i] != least[sets.first(i)] ? 1.0 : 0.0);
+      of_point[i] = least[sets.first(i)];
     }
     changed = domain.communicator.max(any) > 0;
     domain.halo.exchange(of_point.data(), 1, 1);

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "base/union_find.hpp"
 #include "mesh/cells.hpp"
-#include "mesh/groups.hpp"
 #include "mesh/tessellation.hpp"
 
 namespace strut::mesh {
@@ -112,7 +112,7 @@ std::set<std::pair<int, int>> touching(const io::Mesh& mesh) {
 
 std::size_t bodies_in(const io::Mesh& mesh) {
   const std::size_t cells = mesh.blocks[0].elements();
-  Groups groups(cells);
+  UnionFind groups(cells);
   for (const auto& [a, b] : touching(mesh)) groups.join(a, b);
   std::set<int> firsts;
   for (std::size_t n = 0; n < cells; ++n) firsts.insert(groups.first(static_cast<int>(n)));
@@ -235,7 +235,7 @@ TEST(MeshCells, HangTogetherAsTheMaterialDoes) {
     // Whoever uses a node is reached from the others by contacts around it.
     for (const auto& [node, users] : users_of(mesh)) {
       const std::set<int> here(users.begin(), users.end());
-      Groups groups(cells.parts.size());
+      UnionFind groups(cells.parts.size());
       for (const auto& [a, b] : cells.contacts) {
         if (here.count(a) && here.count(b)) groups.join(a, b);
       }

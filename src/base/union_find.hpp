@@ -1,17 +1,17 @@
-// Which of a number of items belong together, as pairs of them are joined one by one.
+// Which of a number of items belong together, as pairs of them are joined one by one (union-find).
 #pragma once
 
 #include <numeric>
 #include <utility>
 #include <vector>
 
-namespace strut::mesh {
+namespace strut {
 
-class Groups {
+class UnionFind {
  public:
-  explicit Groups(std::size_t items) : parent_(items) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(std::size_t items) : parent_(items) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  // The first item of the group that this one is in.
+  // The first item of the set that this one is in.
   int first(int item) {
     while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
     return item;
@@ -28,4 +28,4 @@ class Groups {
   std::vector<int> parent_;
 };
 
-}  // namespace strut::mesh
+}  // namespace strut
