@@ -47,7 +47,7 @@ struct DeshpandeFleck {
     if (state.failed > 0) return {Symmetric::Zero(), std::isfinite(step.J)};
     const Moduli now = moduli(state);
     const Elastic elastic{now.bulk, now.shear};
-    const Symmetric trial = elastic.updated(step, stress);
+    const Symmetric trial = elastic_trial(step, stress, elastic.bulk, elastic.shear);
     const Invariants at{trace(trial) / 3, von_mises(trial)};
     const double equivalent = this->equivalent(at);
     if (!std::isfinite(equivalent + step.J)) return {trial, false};

@@ -19,7 +19,8 @@ Symmetric scaled(const Symmetric& stress, double x) {
 
 // x at the end of a step from that at its start: G_c/L (x² − x'²) = x · (flow of the effective stress) + W (x − x'),
 // W the elastic energy of what falls. 0 below x = W L/(2 G_c), where the energy that x frees is more than it takes.
-double Ductile::reduced(double x, double flowed, double elastic) const {
+template <class Metal>
+double DuctileOf<Metal>::reduced(double x, double flowed, double elastic) const {
   const double whole = ductility.fracture_energy / length;
   if (!(whole > 0)) return 0;
   const double half = 0.5 * elastic / whole, discriminant = (x - half) * (x - half) - x * flowed / whole;
@@ -27,7 +28,8 @@ double Ductile::reduced(double x, double flowed, double elastic) const {
   return flowed > 0 ? half + std::sqrt(discriminant) : x;
 }
 
-PointStress Ductile::soften(const PointStep& step, const Symmetric& stress, State& state) const {
+template <class Metal>
+PointStress DuctileOf<Metal>::soften(const PointStep& step, const Symmetric& stress, State& state) const {
   if (!(state.damage < 1)) return {Symmetric::Zero(), std::isfinite(step.J)};
   const double x = 1 - state.damage;
   State reached = state;
@@ -35,7 +37,7 @@ PointStress Ductile::soften(const PointStep& step, const Symmetric& stress, Stat
   if (!converged) return {stress, false};
   const double flowed = reached.metal.plastic_work - state.metal.plastic_work;
   const Symmetric falls = trace(effective) > 0 ? effective : deviator(effective);
-  reached.damage = 1 - reduced(x, flowed, step.J * metal.elastic_energy(falls, {}));
+  reached.damage = 1 - reduced(x, flowed, step.J * metal.elastic_energy(falls, reached.metal));
   const bool holds = reached.damage < 1;
   if (!holds) reached.metal.plastic_strain_rate = 0;
   const Symmetric next = holds ? scaled(effective, 1 - reached.damage) : Symmetric(Symmetric::Zero());
@@ -43,14 +45,19 @@ PointStress Ductile::soften(const PointStep& step, const Symmetric& stress, Stat
   const double stored_more = step.J * elastic_energy(next, reached) - old_J * elastic_energy(stress, state);
   const double lost = step_work(step, old_J, stress, next) - stored_more;
   reached.metal.plastic_work = state.metal.plastic_work + std::max(0.0, lost);
+  if constexpr (tells_heat<Metal>) {
+    reached.metal.temperature = state.metal.temperature + metal.rise(std::max(0.0, lost), step.viscous_work);
+  }
   if (!std::isfinite(reached.metal.plastic_work)) return {stress, false};
   state = reached;
   return {next, true};
 }
 
-void Ductile::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
-                          const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const {
-  PointStep of_one{{}, step.dt[l], step.J[l], {}};
+template <class Metal>
+void DuctileOf<Metal>::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,
+                                   const StateOf<RawLanes>& state, StateOf<RawLanes>& next,
+                                   StressOf<RawLanes>& result) const {
+  PointStep of_one{{}, step.dt[l], step.J[l], {}, step.viscous_work[l]};
   Symmetric old;
   for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
   for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
@@ -66,5 +73,8 @@ void Ductile::soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf
   for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
   result.converged[l] = converged ? -1 : 0;
 }
+
+template struct DuctileOf<J2>;
+template struct DuctileOf<ThermalJ2>;
 
 }  // namespace strut::materials

@@ -1,4 +1,5 @@
-// A metal that flows as J2 does, and fails: from where its criterion is met, stress and stiffness in tension fall.
+// A metal that flows as J2 does, cold or hot, and fails: from where its criterion is met, stress and stiffness in
+// tension fall.
 //   σ = x dev σ̃ + (x if σ̃_m > 0, else 1) σ̃_m I,   σ̃ by J2,   d = 1 − x     (Lemaitre's effective stress σ̃)
 //   G_c/L d(1 − x²) = dissipation per volume from then on     (G_c over a length: Hillerborg, Modéer & Petersson 1976)
 // With perfect plasticity the stress falls linearly with the plastic strain. However the metal hardens or is strained,
@@ -7,6 +8,7 @@
 // stress, then a quadratic equation for x. Units: Pa, 1/s, s.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,23 +18,29 @@
 
 #include "materials/failure_criterion.hpp"
 #include "materials/j2.hpp"
+#include "materials/thermal_j2.hpp"
 
 namespace strut::materials {
 
-struct Ductile {
-  J2 metal;
+template <class Metal>
+struct DuctileOf {
+  Metal metal;
   Ductility ductility;
   double length = 1;  // L over which a crack smears its opening, m
 
   template <class T>
   struct StateOf {
-    typename J2::StateOf<T> metal;  // of a failed point, all that it held counts as plastic work
-    T indicator{};                  // D of the criterion
-    T damage{};                     // d
+    typename Metal::template StateOf<T> metal;  // of a failed point, all that it held counts as plastic work
+    T indicator{};                              // D of the criterion
+    T damage{};                                 // d
   };
   using State = StateOf<double>;
-  static constexpr std::array<std::string_view, 5> state_names{
-      J2::state_names[0], J2::state_names[1], J2::state_names[2], "Failure_Indicator", "Ductile_Damage"};
+  static constexpr auto state_names = [] {
+    std::array<std::string_view, state_size<Metal> + 2> names;
+    std::copy(Metal::state_names.begin(), Metal::state_names.end(), names.begin());
+    names[state_size<Metal>] = "Failure_Indicator", names[state_size<Metal> + 1] = "Ductile_Damage";
+    return names;
+  }();
 
   template <class T>
   StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
@@ -50,6 +58,7 @@ struct Ductile {
     }
   }
 
+  State virgin_state() const { return {virgin_state_of(metal), 0, 0}; }
   Moduli moduli() const { return metal.moduli(); }
   Moduli moduli(const State& state) const { return state.damage < 1 ? metal.moduli() : Moduli{}; }
   double elastic_energy(const Symmetric& stress, const State& state) const {
@@ -57,13 +66,15 @@ struct Ductile {
     const double mean = trace(stress) / 3, x = 1 - state.damage;
     const double whole = mean > 0 ? 0 : mean * mean / (2 * metal.bulk);
     const Symmetric rest = mean > 0 ? stress : deviator(stress);
-    return whole + metal.elastic_energy(rest, {}) / x;
+    return whole + metal.elastic_energy(rest, state.metal) / x;
   }
   bool has_flowed(const State& state) const { return metal.has_flowed(state.metal); }
   double part_left(const State& state) const { return 1 - state.damage; }
   void set_crack_length(double to) { length = to; }
   double dissipation(const State& state) const { return metal.dissipation(state.metal); }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
+  double heat(const State& state) const requires tells_heat<Metal> { return metal.heat(state.metal); }
+  void set_initial_temperature(double to) requires tells_heat<Metal> { metal.set_initial_temperature(to); }
   double flow_stress(const State& state) const {
     if (!(state.damage < 1)) return std::numeric_limits<double>::infinity();
     return (1 - state.damage) * metal.flow_stress(state.metal);
@@ -71,13 +82,25 @@ struct Ductile {
 
  private:
   template <class T>
+  static T temperature_of(const typename Metal::template StateOf<T>& state) {
+    if constexpr (tells_heat<Metal>) {
+      return state.temperature;
+    } else {
+      return T{};
+    }
+  }
+
+  template <class T>
   StressOf<T> flow(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
     const T before = state.metal.equivalent_plastic_strain;
     const StressOf<T> result = metal.step(step, stress, state.metal);
     const T strain = state.metal.equivalent_plastic_strain - before;
     if (any(strain > 0)) {
       const T& rate = state.metal.plastic_strain_rate;
-      const auto growth_of = [&](const auto& criterion) -> T { return criterion.growth(result.stress, rate); };
+      const T temperature = temperature_of(state.metal);
+      const auto growth_of = [&](const auto& criterion) -> T {
+        return criterion.growth(result.stress, rate, temperature);
+      };
       const T growth = std::visit(growth_of, ductility.criterion);
       state.indicator += strain > 0 ? T(strain * growth) : T{};
     }
@@ -91,6 +114,11 @@ struct Ductile {
                    const StateOf<RawLanes>& state, StateOf<RawLanes>& next, StressOf<RawLanes>& result) const;
 };
 
+using Ductile = DuctileOf<J2>;
+using ThermalDuctile = DuctileOf<ThermalJ2>;
 static_assert(Law<Ductile> && takes_lanes<Ductile>);
+static_assert(Law<ThermalDuctile> && takes_lanes<ThermalDuctile>);
+extern template struct DuctileOf<J2>;
+extern template struct DuctileOf<ThermalJ2>;
 
 }  // namespace strut::materials

@@ -15,6 +15,18 @@
 
 namespace strut::materials {
 
+// The stress at the end of an elastic step. Component by component, here and in other laws: compilers keep such a loop
+// in registers, where an Eigen expression of six doubles goes through memory at three times the cost.
+template <class T, class Shear>
+SymmetricOf<T> elastic_trial(const StepOf<T>& step, const SymmetricOf<T>& stress, double bulk, const Shear& shear) {
+  const T shear_part = 2 * shear * step.dt;
+  const T volume_part = (bulk - 2 * shear / 3) * step.dt * trace(step.rate);
+  SymmetricOf<T> next;
+  for (int k = 0; k < 3; ++k) next[k] = stress[k] + shear_part * step.rate[k] + volume_part;
+  for (int k = 3; k < 6; ++k) next[k] = stress[k] + shear_part * step.rate[k];
+  return next;
+}
+
 struct Elastic {
   double bulk = 0, shear = 0;  // Pa
 
@@ -23,21 +35,9 @@ struct Elastic {
   using State = StateOf<double>;
   static constexpr std::array<std::string_view, 0> state_names{};
 
-  // The stress at the end of the step. Component by component, here and in other laws: compilers keep such a loop in
-  // registers, where an Eigen expression of six doubles goes through memory at three times the cost.
-  template <class T>
-  SymmetricOf<T> updated(const StepOf<T>& step, const SymmetricOf<T>& stress) const {
-    const T shear_part = 2 * shear * step.dt;
-    const T volume_part = (bulk - 2 * shear / 3) * step.dt * trace(step.rate);
-    SymmetricOf<T> next;
-    for (int k = 0; k < 3; ++k) next[k] = stress[k] + shear_part * step.rate[k] + volume_part;
-    for (int k = 3; k < 6; ++k) next[k] = stress[k] + shear_part * step.rate[k];
-    return next;
-  }
-
   template <class T>
   StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>&) const {
-    const SymmetricOf<T> next = updated(step, stress);
+    const SymmetricOf<T> next = elastic_trial(step, stress, bulk, shear);
     return {next, is_finite(T(next[0] + next[1] + next[2] + next[3] + next[4] + next[5]))};
   }
 

@@ -1,7 +1,7 @@
 // When a metal that flows begins to fail: criteria that grow with the plastic strain and are met at 1,
-//   D = ∫ growth(σ, ε̇) dε̄.
+//   D = ∫ growth(σ, ε̇, T) dε̄.
 // Each is a plain value whose growth is written for a point or several of them, one per SIMD lane. To add one: a struct
-// here and its word in the variant. Units: Pa, 1/s, strain -.
+// here and its word in the variant. Units: Pa, 1/s, K, strain -.
 #pragma once
 
 #include <algorithm>
@@ -17,28 +17,31 @@ namespace strut::materials {
 struct FailureStrain {
   double strain = 1;  // ε_f
   template <class T>
-  T growth(const SymmetricOf<T>&, const T&) const {
+  T growth(const SymmetricOf<T>&, const T&, const T&) const {
     return same<T>(1 / strain);
   }
 };
 
-// D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)),  σ* = mean/von Mises stress, 1.5 at most
-//     (Johnson & Cook 1985; isothermal: the factor 1 + D5 T* is 1). Also −1.5 at least, far below where metals fail.
+// D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)) (1 + D5 T*),  T* = (T − T_r)/(T_m − T_r)
+//     (Johnson & Cook 1985), σ* = mean/von Mises stress, 1.5 at most; −1.5 at least, far below where metals fail.
 struct JohnsonCookFailure {
-  double constants[4] = {1, 0, 0, 0};           // D1 … D4
+  double constants[5] = {1, 0, 0, 0, 0};        // D1 … D5
   double reference_rate = 1;                    // ε̇₀, 1/s
+  double room = 0, melting = 1;                 // T_r, T_m, K
   static constexpr double most = 1.5;           // of |σ*|
   static constexpr double least_strain = 1e-6;  // where the fit would give less, or none
 
   template <class T>
-  T growth(const SymmetricOf<T>& stress, const T& rate) const {
+  T growth(const SymmetricOf<T>& stress, const T& rate, const T& temperature) const {
     const SymmetricOf<T> s = deviator(stress);
     const T mean = trace(stress) / 3, mises = sqrt(T(1.5 * double_dot(s, s)));
     const T bound = most * mises, within = mean < bound ? mean : bound;
     const T triaxiality = within > -bound ? T(within / mises) : mean < 0 ? same<T>(-most) : same<T>(most);
     const T slow = constants[0] + constants[1] * exp(T(constants[2] * triaxiality));
     const T relative = rate / reference_rate, log_rate = log(relative < 1 ? same<T>(1) : relative);
-    const T strain = slow * (1 + constants[3] * log_rate);
+    const T relative_heat = (temperature - room) / (melting - room);
+    const T warm = 1 + constants[4] * (relative_heat > 0 ? relative_heat : T{});
+    const T strain = slow * (1 + constants[3] * log_rate) * warm;
     return 1 / (strain >= least_strain ? strain : same<T>(least_strain));
   }
 };
@@ -46,8 +49,10 @@ struct JohnsonCookFailure {
 // D = ∫ max(σ₁, 0) dε̄ / W_c,  σ₁ the largest principal stress     (Cockcroft & Latham 1968)
 struct CockcroftLatham {
   double work = 1;  // W_c, Pa
-  double growth(const Symmetric& stress, double) const { return std::max(0.0, largest_principal(stress)) / work; }
-  RawLanes growth(const SymmetricOf<RawLanes>& stress, const RawLanes& rate) const {
+  double growth(const Symmetric& stress, double, double = 0) const {
+    return std::max(0.0, largest_principal(stress)) / work;
+  }
+  RawLanes growth(const SymmetricOf<RawLanes>& stress, const RawLanes& rate, const RawLanes&) const {
     RawLanes result{};
     for (int l = 0; l < small::lane_count; ++l) {
       Symmetric of_one;

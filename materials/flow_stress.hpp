@@ -182,10 +182,10 @@ struct FlowStress {
     return std::visit([this](const auto& law) { return law.softens() ? 0 : yield_stress; }, hardening);
   }
 
-  // The plastic strain rate at which the flow stress is `stress`, if `stress_at_rest` is the one at rest.
+  // The plastic strain rate at which the flow stress is `stress`, where the curve at rest has been evaluated.
   template <class T>
-  T rate_at(const T& stress, const T& stress_at_rest) const {
-    const T factor = stress / stress_at_rest;
+  T rate_at(const T& stress, const Curve<T>& at_rest) const {
+    const T factor = stress / at_rest.value;
     return std::visit([&](const auto& law) { return law.rate_at(factor); }, rate);
   }
 };

@@ -22,6 +22,9 @@
 //   part_left         optional, of a law that softens as it fails: the part of its stress that a point still bears, 1 to 0,
 //                     with the state as an argument. Its stabilization falls with it.
 //   set_crack_length  optional: told over which length a crack smears its opening, m.
+//   stored_energy     optional, of a law that counts it: elastic energy, J per m³ of reference volume.
+//   heat              optional, of a law that knows its temperature: ρ c_p (T − T₀), J per m³ of reference volume.
+//   set_initial_temperature  optional, with heat: K.
 //   StateOf<T>        optional, SIMD: a law may take several points at once, one per lane. Its step and StateOf<T> are
 //                     then templates over the number, double or RawLanes, and State is StateOf<double>. All lanes are
 //                     computed; those where J is not positive are thrown away.
@@ -46,6 +49,7 @@ struct StepOf {
   T dt;                    // s
   T J;                     // det F at the end of the step
   SymmetricOf<T> stretch;  // U at the end of the step: R is taken out of F = R U, so F = U in the unrotated frame
+  T viscous_work{};        // of the artificial viscosity in this step, J per m³ of reference volume: it heats
 };
 
 template <class T>
@@ -108,12 +112,28 @@ inline constexpr bool takes_crack_length = requires(L law, double length) {
   law.set_crack_length(length);
 };
 
+// Whether a law knows its temperature.
+template <class L>
+inline constexpr bool tells_heat = requires(const L law, const typename L::State& state) {
+  { law.heat(state) } -> std::same_as<double>;
+};
+
 template <class L>
 Moduli moduli_of(const L& law, const typename L::State& state) {
   if constexpr (has_changing_moduli<L>) {
     return law.moduli(state);
   } else {
     return law.moduli();
+  }
+}
+
+// Elastic energy, J per m³ of reference volume; J as the point has it.
+template <class L>
+double stored_energy_of(const L& law, const Symmetric& stress, const typename L::State& state, double J) {
+  if constexpr (requires { law.stored_energy(state); }) {
+    return law.stored_energy(state);
+  } else {
+    return J * law.elastic_energy(stress, state);
   }
 }
 

@@ -9,9 +9,11 @@
 #include "materials/j2.hpp"
 #include "materials/law.hpp"
 #include "materials/polymer_foam.hpp"
+#include "materials/shock_j2.hpp"
+#include "materials/thermal_j2.hpp"
 
 namespace strut::materials {
 
-using AnyLaw = std::variant<Elastic, J2, Ductile, DeshpandeFleck, PolymerFoam>;
+using AnyLaw = std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>;
 
 }  // namespace strut::materials

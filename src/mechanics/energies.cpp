@@ -12,16 +12,17 @@ Energies stored_energies(const Body& body) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const double volume = body.domain.volume(block.points[k]);
       const PointEnergy of_point =
-          block.is_ordinary() ? PointEnergy{block.ordinary[k].energy, 0} : law_energy(body, block, k);
+          block.is_ordinary() ? PointEnergy{.elastic = block.ordinary[k].energy} : law_energy(body, block, k);
       sum.elastic += volume * of_point.elastic;
       sum.dissipated += volume * of_point.dissipated;
+      sum.heat += volume * of_point.heat;
     }
   }
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
   if (body.fracture) sum.fracture = body.fracture->energy();
-  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture};
+  double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.heat};
   body.domain.communicator.sum(values);
-  return {values[0], values[1], values[2], values[3]};
+  return {values[0], values[1], values[2], values[3], values[4]};
 }
 
 }  // namespace strut

@@ -7,6 +7,7 @@ namespace strut {
 
 struct Energies {
   double elastic = 0, dissipated = 0, stabilization = 0, fracture = 0;  // J
+  double heat = 0;  // J, ρ c_p (T − T₀): no further term of the balance
 };
 
 // Collective: sums over all ranks, after a stress update with diagnostics.

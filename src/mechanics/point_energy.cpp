@@ -11,8 +11,10 @@ PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& la
   for (int q = 0; q < places; ++q) {
     const MaterialPoint& point = body.law_point(block, k, q);
     const auto state = block.state_of<L>(block.place(k, q));
-    sum.elastic += point.deformation_gradient.determinant() * law.elastic_energy(point.stress, state) / places;
+    const double J = point.deformation_gradient.determinant();
+    sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;
     sum.dissipated += law.dissipation(state) / places;
+    if constexpr (materials::tells_heat<L>) sum.heat += law.heat(state) / places;
     if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work / places;
   }
   return sum;

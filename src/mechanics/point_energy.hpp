@@ -6,7 +6,7 @@
 namespace strut {
 
 struct PointEnergy {
-  double elastic = 0, dissipated = 0;  // J/m³ of reference volume
+  double elastic = 0, dissipated = 0, heat = 0;  // J/m³ of reference volume; heat: ρ c_p (T − T₀)
 };
 
 // What the law of block.points[k] has stored and dissipated; not of ordinary points.

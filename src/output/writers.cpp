@@ -55,6 +55,7 @@ void History::open(const Body& body) {
                                  "Plastic_Work",
                                  "Stabilization_Energy",
                                  "Fracture_Energy",
+                                 "Heat",
                                  "Contact_Work",
                                  "External_Work",
                                  "Balance_Error",
@@ -69,9 +70,9 @@ void History::open(const Body& body) {
 void History::write(const Ledger& now, const Reactions& reactions, const Body& body) {
   static Teuchos::Time& timer = phase("History");
   const Timed timed(timer);
-  std::vector<double> row{now.time,          now.dt,          now.kinetic,    now.elastic,  now.dissipated,
-                          now.stabilization, now.fracture,    now.contact,    now.external, now.balance_error,
-                          now.momentum[0],   now.momentum[1], now.momentum[2]};
+  std::vector<double> row{now.time,          now.dt,          now.kinetic,     now.elastic,    now.dissipated,
+                          now.stabilization, now.fracture,    now.heat,        now.contact,    now.external,
+                          now.balance_error, now.momentum[0], now.momentum[1], now.momentum[2]};
   const std::size_t fixed = row.size();
   for (const Extreme& e : extremes_) row.push_back(e.local(body));
   body.domain.communicator.max(std::span(row).subspan(fixed));

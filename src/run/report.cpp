@@ -145,8 +145,9 @@ std::string fragment_table(const Body& body) {
 }
 
 std::string energies(const Ledger& ledger) {
-  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g, stabilization %.5g%s;\n",
-                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated, ledger.stabilization,
+  return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g%s, stabilization %.5g%s;\n",
+                   ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated,
+                   ledger.heat > 0 ? formatted(" (heat %.5g)", ledger.heat).c_str() : "", ledger.stabilization,
                    ledger.fracture > 0 ? formatted(", fracture %.5g", ledger.fracture).c_str() : "") +
          formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
                    ledger.external, ledger.contact, ledger.balance_error);

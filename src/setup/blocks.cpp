@@ -45,9 +45,19 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
 }
 
 // The metal of a block whose points may fail is a law of its own.
-materials::AnyLaw law_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
-  if (!damage || !damage->ductility) return material.law;
-  return materials::Ductile{std::get<materials::J2>(material.law), *damage->ductility};
+materials::AnyLaw failing(const materials::AnyLaw& metal, const materials::Ductility& ductility) {
+  if (const auto* hot = std::get_if<materials::ThermalJ2>(&metal)) return materials::ThermalDuctile{*hot, ductility};
+  return materials::Ductile{std::get<materials::J2>(metal), ductility};
+}
+
+materials::AnyLaw law_of(const deck::Material& material, const deck::Block& section,
+                         const std::optional<DamageModel>& damage) {
+  materials::AnyLaw law = damage && damage->ductility ? failing(material.law, *damage->ductility) : material.law;
+  const auto set_temperature = [&section]<class L>(L& one) {
+    if constexpr (materials::tells_heat<L>) one.set_initial_temperature(section.initial_temperature.value_or(293));
+  };
+  std::visit(set_temperature, law);
+  return law;
 }
 
 }  // namespace
@@ -55,10 +65,11 @@ materials::AnyLaw law_of(const deck::Material& material, const std::optional<Dam
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockMaterial> materials;
   for (const std::string& name : cloud.block_names) {
-    const deck::Material& material = deck.materials[section_of(deck, name)->material];
-    const std::optional<DamageModel> damage = damage_of(deck, *section_of(deck, name));
+    const deck::Block& section = *section_of(deck, name);
+    const deck::Material& material = deck.materials[section.material];
+    const std::optional<DamageModel> damage = damage_of(deck, section);
     materials.push_back({material.density,
-                         law_of(material, damage),
+                         law_of(material, section, damage),
                          material.stabilization,
                          material.formulation,
                          {material.linear_viscosity, material.quadratic_viscosity},
@@ -142,17 +153,30 @@ std::string thin_members(const Body& body) {
   return text.str();
 }
 
+namespace {
+
+// What fails at once at its yield stress, J/m²: half of what a point of a metal then holds, over the crack's length.
+constexpr auto least_fracture_energy = []<class L>(const L& law) -> double {
+  if constexpr (materials::takes_crack_length<L>) {
+    const auto [bulk, shear] = law.moduli();
+    const double yield = law.flow_stress(law.virgin_state());
+    return 0.5 * law.length * yield * yield * (3 * bulk + shear) / (18 * bulk * shear);
+  } else {
+    return 0;
+  }
+};
+
+}  // namespace
+
 std::string sudden_failure(const Body& body) {
   std::ostringstream text;
   text.precision(2);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
-    const auto* law = std::get_if<materials::Ductile>(&block.material.law);
-    if (!law || !(body.domain.blocks[b].spacing > 0) || !(law->ductility.fracture_energy > 0)) continue;
-    const auto [bulk, shear] = law->moduli();
-    const double yield = law->metal.flow_stress({}), stored = yield * yield * (3 * bulk + shear) / (18 * bulk * shear);
-    const double least = 0.5 * stored * law->length;  // J/m²
-    if (law->ductility.fracture_energy >= least) continue;
+    if (!block.material.damage || !block.material.damage->ductility || !(body.domain.blocks[b].spacing > 0)) continue;
+    const double given = block.material.damage->ductility->fracture_energy;
+    const double least = std::visit(least_fracture_energy, block.material.law);
+    if (!(given > 0) || given >= least) continue;
     text << "block '" << block.name << "': points hold more energy when they yield than its Fracture Energy, so they "
          << "fail at once; expected more than " << least << " J/m², or a smaller spacing\n";
   }

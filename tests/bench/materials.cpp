@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "../contract/polyurethane.hpp"
+#include "../contract/laws.hpp"
 #include "materials/laws.hpp"
 #include "materials/tangent.hpp"
 
@@ -22,6 +22,7 @@ constexpr double yield_stress = 50e6;
 
 const J2 power_law{bulk, shear, {yield_stress, PowerHardening{0.00218, 0.1}, PowerRate{1e-3, 0.01}}};
 const J2 linear_law{bulk, shear, {yield_stress, LinearHardening{100e6}, NoRate{}}};
+const J2 johnson_cook{bulk, shear, {90e6, LudwikHardening{292e6, 0.31}, JohnsonCookRate{1, 0.025}}};
 const J2 table_law{
     bulk,
     shear,
@@ -126,9 +127,9 @@ void j2_hardened_elastic(benchmark::State& run) {
   time(run, block, back_and_forth);
 }
 
-template <template <Law> class Block>
-void flow(benchmark::State& run, const J2& law, const std::vector<double>& factors) {
-  Block<J2> block{law, random_rates(1e4)};
+template <template <Law> class Block, Law L>
+void flow(benchmark::State& run, const L& law, const std::vector<double>& factors) {
+  Block<L> block{law, random_rates(1e4)};
   for (int i = 0; i < 20; ++i) block.advance(1);
   time(run, block, factors);
 }
@@ -169,14 +170,18 @@ void add_benches(const std::string& how) {
   benchmark::RegisterBenchmark((how + "/elastic").c_str(), elastic<Block>);
   benchmark::RegisterBenchmark((how + "/j2_below_yield").c_str(), j2_below_yield<Block>);
   benchmark::RegisterBenchmark((how + "/j2_hardened_elastic").c_str(), j2_hardened_elastic<Block>);
-  const auto add = [&how](const std::string& name, const J2& law, const std::vector<double>& factors) {
-    benchmark::RegisterBenchmark((how + "/flow/" + name).c_str(), flow<Block>, law, factors);
+  const auto add = [&how]<Law L>(const std::string& name, const L& law, const std::vector<double>& factors) {
+    benchmark::RegisterBenchmark((how + "/flow/" + name).c_str(), flow<Block, L>, law, factors);
   };
   add("power_hardening_power_rate", power_law, steady);
   add("power_hardening_power_rate_unsteady", power_law, unsteady);
   add("power_hardening_power_rate_jerky", power_law, jerky);
   add("linear_hardening_no_rate", linear_law, steady);
   add("table_hardening_johnson_cook_rate", table_law, steady);
+  add("johnson_cook", johnson_cook, steady);  // the same cold, for the ratio
+  for (const auto& [name, hot] : testing::thermal_flows()) add("hot_" + name, testing::hot_metal(hot), steady);
+  const ThermalJ2 hot = testing::hot_metal(testing::thermal_flows().front().second);
+  add("shock_mie_gruneisen", ShockJ2{hot, MieGruneisen{8930, 3940, 1.49, 2}}, steady);
 }
 
 BENCHMARK_CAPTURE(polymer_foam, elastic, 0.0, 0.005);

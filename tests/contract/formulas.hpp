@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "materials/flow_stress.hpp"
+#include "materials/thermal_flow.hpp"
 
 namespace strut::testing {
 
@@ -42,6 +43,29 @@ struct PrintedRate {
 inline double printed_flow_stress(const materials::FlowStress& flow, double strain, double rate) {
   return std::visit(PrintedHardening{flow.yield_stress, strain}, flow.hardening) *
          std::visit(PrintedRate{rate}, flow.rate);
+}
+
+// ---- Of metals that may be hot --------------------------------------------------------------------------------------
+
+// Rates below 1e-3 /s count as that.
+inline double printed_flow_stress(const materials::ZerilliArmstrong& f, double strain, double rate, double T, double) {
+  const double thermal = f.thermal.modulus * std::pow(strain, f.thermal.exponent);
+  return f.athermal + f.hardening.modulus * std::pow(strain, f.hardening.exponent) +
+         thermal * std::exp(-f.softening * T + f.rate_softening * T * std::log(std::max(rate, 1e-3)));
+}
+
+inline double printed_flow_stress(const materials::MechanicalThreshold& f, double, double rate, double T,
+                                  double threshold) {
+  const double mu = f.shear - f.shear_fall / (std::exp(f.shear_temperature / T) - 1);
+  const double barrier = f.boltzmann * T / (f.energy * mu) * std::log(f.rate / std::max(rate, 1e-3));
+  const double S = std::pow(1 - std::pow(std::clamp(barrier, 0.0, 1.0), 1 / f.q), 1 / f.p);
+  return f.athermal + S * threshold * mu / f.shear;
+}
+
+inline double printed_flow_stress(const materials::SoftenedFlow& f, double strain, double rate, double T, double) {
+  const auto& s = std::get<materials::JohnsonCookSoftening>(f.softening);
+  const double relative = std::clamp((T - s.reference) / (s.melting - s.reference), 0.0, 1.0);
+  return printed_flow_stress(f.cold, strain, rate) * (1 - std::pow(relative, s.exponent));
 }
 
 }  // namespace strut::testing

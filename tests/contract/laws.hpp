@@ -14,12 +14,14 @@ namespace strut::testing {
 
 // ---- What sets laws apart -------------------------------------------------------------------------------------------
 
-// Of the second form, by the stretch: then J and the stretch belong to the path, and logarithmic strains of more than
-// about 1 are no path that a body could take.
+// Of the second form, by the stretch, or with a pressure of the volume: then J and the stretch belong to the path, and
+// logarithmic strains of more than about 1 are no path that a body could take.
 template <class L>
 inline constexpr bool from_stretch = false;
 template <>
 inline constexpr bool from_stretch<materials::PolymerFoam> = true;
+template <>
+inline constexpr bool from_stretch<materials::ShockJ2> = true;
 
 // Hooke's law of the logarithmic strain, and flow, if any, that keeps the volume: the closed forms of that, and the
 // balance of work at J = 1, are checked. A law that is not has its own closed forms in a file of its own.
@@ -29,11 +31,15 @@ template <>
 inline constexpr bool like_a_metal<materials::DeshpandeFleck> = false;
 template <>
 inline constexpr bool like_a_metal<materials::PolymerFoam> = false;
+template <>
+inline constexpr bool like_a_metal<materials::ShockJ2> = false;
 
 // How far stress and energy below yield may be from Hooke's law at a strain of 1e-4, as a part of themselves. 0: not
 // but by round-off. A law that curves from the start departs by some strains.
 template <class L>
 inline constexpr double departs_from_hooke = 0;
+template <>
+inline constexpr double departs_from_hooke<materials::ShockJ2> = 5e-4;  // (n + 1)/2 strains of 2e-4, n 4
 
 // ---- The table ------------------------------------------------------------------------------------------------------
 
@@ -75,6 +81,36 @@ inline const std::vector<std::pair<std::string, materials::Rate>>& rates() {
   return table;
 }
 
+// Copper again, hot. Heat is a hundred times as dear as it is, so that paths of a contract test do not melt it.
+inline materials::ThermalJ2 hot_metal(materials::ThermalFlow flow) {
+  return {.bulk = bulk, .shear = shear, .flow = std::move(flow), .heating = {3.4e8, 0.9, 293}};
+}
+
+inline std::vector<std::pair<std::string, materials::ThermalFlow>> thermal_flows() {
+  using namespace materials;
+  const FlowStress johnson_cook{90e6, LudwikHardening{292e6, 0.31}, JohnsonCookRate{1, 0.025}};
+  // Follansbee & Kocks's copper, as MPM codes have it.
+  const MechanicalThreshold threshold{.athermal = 40e6,
+                                      .initial = 0,
+                                      .shear = 47.7e9,
+                                      .shear_fall = 3e9,
+                                      .shear_temperature = 180,
+                                      .boltzmann = 0.823e6,
+                                      .energy = 1.6,
+                                      .rate = 1e7,
+                                      .p = 2.0 / 3,
+                                      .q = 1,
+                                      .slopes = {2390e6, 12e6, 1.696e6},
+                                      .curvature = 2,
+                                      .saturation = 770e6,
+                                      .saturation_energy = 0.2625,
+                                      .saturation_rate = 1e7};
+  return {{"softened", SoftenedFlow{johnson_cook, JohnsonCookSoftening{294, 1356, 1.09}}},
+          {"zerilli_fcc", ZerilliArmstrong{65e6, {0, 1}, {890e6, 0.5}, 0.0028, 0.000115}},
+          {"zerilli_bcc", ZerilliArmstrong{66e6, {266e6, 0.289}, {1033e6, 0}, 0.00698, 0.000415}},
+          {"threshold", threshold}};
+}
+
 inline std::vector<NamedLaw> table_of_laws() {
   std::vector<NamedLaw> table;
   table.push_back({"elastic", materials::Elastic{bulk, shear}});
@@ -88,6 +124,14 @@ inline std::vector<NamedLaw> table_of_laws() {
   const materials::J2 metal{bulk, shear, {yield_stress, materials::VoceHardening{150e6, 8}, materials::NoRate{}}};
   table.push_back(
       {"ductile", materials::Ductile{metal, {materials::JohnsonCookFailure{{1e3, 0, 0, 0}, 1}, 1e3}, 1e-3}});
+  for (const auto& [name, flow] : thermal_flows()) table.push_back({"hot_" + name, hot_metal(flow)});
+  const materials::ThermalJ2 softening = hot_metal(thermal_flows().front().second);
+  const materials::Ductility lasting{materials::JohnsonCookFailure{{1e3, 0, 0, 0, 1}, 1, 294, 1356}, 1e3};
+  table.push_back({"hot_ductile", materials::ThermalDuctile{softening, lasting, 1e-3}});
+  table.push_back(
+      {"shock_mie_gruneisen",
+       materials::ShockJ2{softening, materials::MieGruneisen{8930, 3940, 0.8, 2}}});  // of tests' wild paths
+  table.push_back({"shock_tait", materials::ShockJ2{softening, materials::Tait{bulk, 4}}});
   for (const double growth : {1.0, 4.0}) {
     for (const double alpha : {0.0, 1.0, 2.1}) {
       materials::DeshpandeFleck foam{.initial = {bulk, shear}, .compacted = {growth * bulk, growth * shear}};

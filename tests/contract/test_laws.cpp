@@ -189,6 +189,14 @@ TEST_P(LawTest, IsIsotropic) {
 
 // ---- The yield surface ----------------------------------------------------------------------------------------------
 
+// A metal flows at the temperature of the step's start.
+template <class State>
+State at_temperature_of(const State& old, State state) {
+  if constexpr (requires { state.temperature; }) state.temperature = old.temperature;
+  if constexpr (requires { state.metal.temperature; }) state.metal.temperature = old.metal.temperature;
+  return state;
+}
+
 // Round-off of the von Mises stress: 1e-16 of the largest component, which is the trial's, some 10 × μ here; the law's
 // own solution: 1e-9 of the flow stress, room for a last Newton step that crosses a kink of a table.
 TEST_P(LawTest, TheStressIsNeverAboveTheFlowStressAndOnItWhileItFlows) {
@@ -198,9 +206,11 @@ TEST_P(LawTest, TheStressIsNeverAboveTheFlowStressAndOnItWhileItFlows) {
       Point<L> point;
       for (const Increment& step : wild_path<L>(random, 50)) {
         const double before = law.dissipation(point.state);
+        const typename L::State old = point.state;
         const double trial = point.stress.norm() + 10 * law.moduli().bulk * step.rate.norm() * step.dt;
         ASSERT_TRUE(point.advance(law, step));
-        const double limit = law.flow_stress(point.state), q = law.equivalent_stress(point.stress, point.state);
+        const double limit = law.flow_stress(at_temperature_of(old, point.state)),
+                     q = law.equivalent_stress(point.stress, point.state);
         if (!std::isfinite(limit)) continue;  // never yields, or has locked
         const double error = 1e-9 * limit + 1e-14 * (trial + point.stress.norm());
         EXPECT_LE(q, limit + error);
@@ -226,7 +236,10 @@ TEST_P(LawTest, PlasticStrainAndWorkNeverFall) {
           EXPECT_GE(to_columns<L>(point.state)[strain], to_columns<L>(old.state)[strain]);
         }
       }
-      EXPECT_GE(law.elastic_energy(point.stress, point.state), 0);
+      // What a law counts by steps of half of the volume need not be on the isentrope.
+      if (!requires { law.stored_energy(point.state); }) {
+        EXPECT_GE(law.elastic_energy(point.stress, point.state), 0);
+      }
     }
   });
 }
@@ -261,6 +274,8 @@ constexpr double closed_form_tolerance = 1e-9;
 void expect_flow_stress(const AnyLaw& law, double von_mises, double plastic_strain, double plastic_rate) {
   const Ductile* ductile = std::get_if<Ductile>(&law);
   const J2* j2 = ductile ? &ductile->metal : std::get_if<J2>(&law);
+  if (std::holds_alternative<ThermalJ2>(law) || std::holds_alternative<ThermalDuctile>(law))
+    return;  // test_thermal.cpp
   if (j2 == nullptr) {
     EXPECT_NEAR(plastic_strain, 0, 1e-11);  // the sides are free to 1e-10 of a strain of 0.02
     return;

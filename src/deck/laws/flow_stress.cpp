@@ -1,6 +1,7 @@
 // Hardening curves and rate factors: for each its keys and how it is made from them. A new one is one entry.
 #include "deck/laws/flow_stress.hpp"
 
+#include "deck/laws/one_of.hpp"
 #include "deck/laws/tables.hpp"
 #include "deck/numbers.hpp"
 
@@ -91,25 +92,12 @@ const std::vector<RateEntry>& rates() {
   return entries;
 }
 
-template <class Entry>
-Section one_of(const std::string& name, const std::string& meaning, const std::vector<Entry>& entries) {
-  Key type = {.name = "Type", .fallback = "None", .meaning = "The form; it decides on the keys."};
-  return with_cases({.name = name, .meaning = meaning}, std::move(type), schemas_of(entries));
-}
-
-// What the chosen entry makes of `values`; of the first entry where the choice itself is among the problems.
-template <class Entry>
-auto make_one_of(const std::vector<Entry>& entries, const Values& values) {
-  const Entry* entry = chosen_of(entries, values);
-  return (entry ? *entry : entries.front()).make(values);
-}
-
 const OptionalKey<double> yield_stress(
     {.name = "Yield Stress",
      .unit = "Pa",
      .range = positive,
      .meaning = "σ_y: the flow stress at rest without plastic strain. Required unless Hardening is a "
-                "Table."});
+                "Table, or Flow Stress has another Type."});
 
 const char* const hardening_name = "Hardening";
 const char* const rate_name = "Rate";
@@ -141,6 +129,14 @@ Section flow_stress_section() {
               one_of(hardening_name, "The flow stress is h(ε̄) r(ε̇), with ε̄ the equivalent plastic strain. This is h.",
                      hardenings()),
               one_of(rate_name, "The factor r of the flow stress, with ε̇ the rate of ε̄.", rates())}};
+}
+
+void refuse_flow_stress(const Values& material, const std::string& flow, Problems& problems) {
+  const std::string other = "given, but Flow Stress has the Type '" + flow + "'; expected no ";
+  if (material.given(yield_stress)) problems.add(material.path_to(yield_stress), other + "Yield Stress");
+  for (const char* const section : {hardening_name, rate_name}) {
+    if (material.has_section(section)) problems.add(material.path() + " > " + section, other + "section " + section);
+  }
 }
 
 materials::FlowStress make_flow_stress(const Values& material, Problems& problems) {

@@ -1,6 +1,8 @@
 // The flow stress of a law: the key "Yield Stress" and the sections Hardening and Rate.
 #pragma once
 
+#include <string>
+
 #include "deck/problems.hpp"
 #include "deck/schema.hpp"
 #include "deck/values.hpp"
@@ -10,5 +12,8 @@ namespace strut::deck {
 
 Section flow_stress_section();
 materials::FlowStress make_flow_stress(const Values& material, Problems& problems);
+
+// Says so where the deck gives any of these beside the flow stress of another form.
+void refuse_flow_stress(const Values& material, const std::string& flow, Problems& problems);
 
 }  // namespace strut::deck

@@ -1,7 +1,7 @@
 #include "deck/laws/laws.hpp"
 
 #include "deck/laws/constants.hpp"
-#include "deck/laws/flow_stress.hpp"
+#include "deck/laws/metal.hpp"
 #include "deck/laws/metal_foam.hpp"
 #include "deck/laws/polymer_foam.hpp"
 
@@ -25,25 +25,13 @@ materials::AnyLaw make_elastic(const Values& material, Problems& problems) {
   return materials::Elastic{.bulk = moduli.bulk, .shear = moduli.shear};
 }
 
-Section elastic_plastic() {
-  Section section = flow_stress_section();
-  section.name = "Elastic Plastic Correspondence";
-  section.meaning = "J2 plasticity: hypoelastic, with the flow stress that Yield Stress, Hardening and Rate define.";
-  return section;
-}
-
-materials::AnyLaw make_j2(const Values& material, Problems& problems) {
-  const materials::Moduli moduli = checked_moduli(material, problems);
-  return materials::J2{.bulk = moduli.bulk, .shear = moduli.shear, .flow = make_flow_stress(material, problems)};
-}
-
 }  // namespace
 
 const std::vector<LawEntry>& laws() {
   static const std::vector<LawEntry> entries = {
       {elastic_ordinary(), make_elastic, false},
       {elastic(), make_elastic},
-      {elastic_plastic(), make_j2},
+      {metal_section(), make_metal},
       {metal_foam_section(), make_metal_foam},
       {polymer_foam_section(), make_polymer_foam},
   };

@@ -30,7 +30,7 @@ struct OnlyOff {
 const OnlyOff only_off[] = {
     {"Apply Shear Correction Factor", "false", "there is no correction of moduli at surfaces"},
     {"Enable Flaw", "false", "there are no flaws in a material; make them in the mesh"},
-    {"Thermal Expansion Coefficient", "0", "there is no temperature"},
+    {"Thermal Expansion Coefficient", "0", "there is no thermal expansion"},
     {"Apply Automatic Differentiation Jacobian", "", "equilibria are found in another way"},
     {"Finite Difference Probe Length", "", "equilibria are found in another way"},
 };

@@ -37,7 +37,6 @@ const std::map<std::string, std::string> missing_fields = {
     {"Stress", "there is Cauchy_Stress"},
     {"Surface_Correction_Factor", "it would be 1 everywhere"},
     {"Neighborhood_Volume", ""},
-    {"Temperature", "there is none"},
     {"Temperature_Change", "there is none"},
 };
 

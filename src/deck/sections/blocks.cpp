@@ -45,6 +45,12 @@ const OptionalKey<std::string> damage_model({.name = "Damage Model",
                                              .meaning = "The name of a section in Damage Models. Without this key its "
                                                         "bonds hold, but for those to a block that has one."});
 
+const OptionalKey<double> initial_temperature(
+    {.name = "Initial Temperature",
+     .unit = "K",
+     .range = positive,
+     .meaning = "Of a metal that knows its temperature; 293 without this key."});
+
 void check_horizon(const Values& values, Problems& problems) {
   check_one_of(values, horizon, horizon_factor, problems);
   if (values.given(horizon) || values.given(horizon_factor)) return;
@@ -73,14 +79,15 @@ void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
 }  // namespace
 
 Section blocks_section() {
-  return {.name = name,
-          .required = true,
-          .meaning = "What the blocks of the mesh are made of.",
-          .sections = {
-              {.name = any_name,
-               .required = true,
-               .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
-               .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids, damage_model}}}};
+  return {
+      .name = name,
+      .required = true,
+      .meaning = "What the blocks of the mesh are made of.",
+      .sections = {{.name = any_name,
+                    .required = true,
+                    .meaning = "One or more blocks of the mesh. A block of the mesh belongs to one section at most.",
+                    .keys = {block_names, material, horizon, horizon_factor, separate_body, across_voids, damage_model,
+                             initial_temperature}}}};
 }
 
 // Where bonds of a block may break, its own or those to another of its body, what its springs dissipate must be known.
@@ -100,6 +107,20 @@ void check_stabilizations(const std::vector<Block>& all, const std::vector<Mater
   }
 }
 
+// Whether a ductile failure is known for it.
+bool can_fail(const materials::AnyLaw& law) {
+  return std::holds_alternative<materials::J2>(law) || std::holds_alternative<materials::ThermalJ2>(law);
+}
+
+void check_temperature(const Values& section, const Material& material, Problems& problems) {
+  const bool knows = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
+  if (!section.given(initial_temperature) || material.name.empty() || knows) return;
+  problems.add(section.path_to(initial_temperature),
+               "given, but material '" + material.name +
+                   "' does not depend on it; expected one with Softening, another Flow Stress, Heating or a Shear "
+                   "Modulus Slope");
+}
+
 std::optional<int> find_damage_model(const Values& section, const Material& material,
                                      const std::vector<NamedDamageModel>& models, Problems& problems) {
   if (!section.has(damage_model)) return std::nullopt;
@@ -107,10 +128,10 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
   if (found >= static_cast<int>(models.size())) return found;
   const DamageModel& model = models[found].model;
   const bool is_known = !material.name.empty();
-  if (is_known && model.ductility && !std::holds_alternative<materials::J2>(material.law)) {
-    problems.add(section.path_to(damage_model), "points of material '" + material.name + "' cannot fail by model '" +
-                                                    models[found].name +
-                                                    "': expected the Material Model 'Elastic Plastic Correspondence'");
+  if (is_known && model.ductility && !can_fail(material.law)) {
+    problems.add(section.path_to(damage_model),
+                 "points of material '" + material.name + "' cannot fail by model '" + models[found].name +
+                     "': expected the Material Model 'Elastic Plastic Correspondence' without an Equation of State");
   }
   if (material.formulation == Formulation::quadratic && model.fracture_energy > 0) {
     problems.add(section.path_to(damage_model),
@@ -128,6 +149,7 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
     check_horizon(section, problems);
     const int of_material = find_named(section, material, materials, "Materials", problems);
     const Material& made_of = of_material < static_cast<int>(materials.size()) ? materials[of_material] : Material();
+    check_temperature(section, made_of, problems);
     all.push_back({.name = section.name(),
                    .block_names = section[block_names],
                    .material = of_material,
@@ -135,7 +157,8 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
                    .horizon_factor = section[horizon_factor],
                    .separate_body = section[separate_body],
                    .across_voids = section[across_voids],
-                   .damage_model = find_damage_model(section, made_of, damage_models, problems)});
+                   .damage_model = find_damage_model(section, made_of, damage_models, problems),
+                   .initial_temperature = section[initial_temperature]});
   }
   check_overlaps(all, problems);
   check_stabilizations(all, materials, problems);

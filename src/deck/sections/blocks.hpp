@@ -16,11 +16,12 @@ struct Block {
   std::vector<std::string> block_names;  // of the mesh; "all" stands for every block
   int material = 0;                      // index into Deck::materials
   // Exactly one of them:
-  std::optional<double> horizon;         // m
-  std::optional<double> horizon_factor;  // in local spacings of each point
-  bool separate_body{};                  // bonded to nothing outside of this section
-  std::optional<bool> across_voids;      // whether bonds reach across voids
-  std::optional<int> damage_model;       // index into Deck::damage_models
+  std::optional<double> horizon;              // m
+  std::optional<double> horizon_factor;       // in local spacings of each point
+  bool separate_body{};                       // bonded to nothing outside of this section
+  std::optional<bool> across_voids;           // whether bonds reach across voids
+  std::optional<int> damage_model;            // index into Deck::damage_models
+  std::optional<double> initial_temperature;  // K
 };
 
 Section blocks_section();

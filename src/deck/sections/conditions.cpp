@@ -82,12 +82,12 @@ Condition read_condition(const Values& values, Problems& problems) {
 }  // namespace
 
 Section conditions_section() {
-  const std::string no_temperature = "there is no temperature here";
+  const std::string no_temperature = "no heat flows here";
   Key type = {.name = "Type",
               .meaning = "It decides on further keys.",
               .hints = {{"Initial Displacement", "bodies start undeformed"},
                         {"Prescribed Temperature", no_temperature},
-                        {"Initial Temperature", no_temperature},
+                        {"Initial Temperature", "write it as Blocks > Initial Temperature"},
                         {"Thermal Flux", no_temperature}}};
   Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};
   return {.name = boundary_conditions,

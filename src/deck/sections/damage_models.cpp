@@ -46,7 +46,18 @@ const RealKey d2({.name = "D2", .range = not_negative, .meaning = "D₂."});
 const RealKey d3({.name = "D3",
                   .range = {.high = 0},
                   .meaning = "D₃, not positive: a metal tears earlier in tension."});
+const RealKey d5({.name = "D5", .fallback = "0", .meaning = "D₅ of the further factor 1 + D₅ T*."});
 const RealKey d4({.name = "D4", .range = not_negative, .fallback = "0", .meaning = "D₄."});
+const RealKey room({.name = "Reference Temperature",
+                    .unit = "K",
+                    .range = not_negative,
+                    .fallback = "293",
+                    .meaning = "T_r of T* = (T − T_r)/(T_m − T_r), at least 0."});
+const RealKey melting({.name = "Melting Temperature",
+                       .unit = "K",
+                       .range = positive,
+                       .fallback = "1e9",
+                       .meaning = "T_m, above T_r; needed with D5."});
 const RealKey reference_rate(
     {.name = "Reference Strain Rate", .unit = "1/s", .range = positive, .fallback = "1", .meaning = "ε̇₀."});
 
@@ -63,7 +74,15 @@ DamageModel read_johnson_cook(const Values& v, Problems& problems) {
   if (v.has(d1) && v.has(d2) && !(v[d1] + v[d2] > 0)) {
     problems.add(v.path_to(d1), "D1 + D2 is not positive: there is no plastic strain at failure in pure shear");
   }
-  return ductile(materials::JohnsonCookFailure{{v[d1], v[d2], v[d3], v[d4]}, v[reference_rate]}, v);
+  if (v.has(room) && v.has(melting) && !(v[melting] > v[room])) {
+    problems.add(v.path_to(melting), "expected more than the Reference Temperature, in K");
+  }
+  if (v[d5] != 0 && !v.given(melting)) problems.add(v.path_to(melting), "missing; with D5, " + expected(melting));
+  return ductile(materials::JohnsonCookFailure{.constants = {v[d1], v[d2], v[d3], v[d4], v[d5]},
+                                               .reference_rate = v[reference_rate],
+                                               .room = v[room],
+                                               .melting = v[melting]},
+                 v);
 }
 
 DamageModel read_critical_stretch(const Values& values, Problems& problems) {
@@ -108,9 +127,9 @@ const std::vector<ModelEntry>& entries() {
         .keys = {failure_strain, tearing_energy}},
        [](const Values& v, Problems&) { return ductile(materials::FailureStrain{v[failure_strain]}, v); }},
       {{.name = "Johnson-Cook",
-        .meaning = "The same where ∫ dε̄/ε_f = 1 with the ε_f of Johnson and Cook (1985) without temperature; σ* is the "
+        .meaning = "The same where ∫ dε̄/ε_f = 1 with the ε_f of Johnson and Cook (1985); σ* is the "
                    "mean stress over von Mises', 1.5 at most.",
-        .keys = {d1, d2, d3, d4, reference_rate, tearing_energy}},
+        .keys = {d1, d2, d3, d4, d5, reference_rate, room, melting, tearing_energy}},
        read_johnson_cook},
       {{.name = "Cockcroft-Latham",
         .meaning = "The same where the plastic work of the largest principal stress in tension reaches W_c.",
@@ -125,8 +144,7 @@ Section damage_models_section() {
   Section one{.name = any_name,
               .required = true,
               .meaning = "One model.",
-              .hints = {{"Thermal Expansion Coefficient", "unknown key; there is no temperature here"},
-                        {"D5", "unknown key; there is no temperature here"}}};
+              .hints = {{"Thermal Expansion Coefficient", "unknown key; there is no thermal expansion here"}}};
   return {.name = name,
           .meaning = "When the bonds of a block break, or its points fail (Blocks > Damage Model).",
           .sections = {with_cases(std::move(one),

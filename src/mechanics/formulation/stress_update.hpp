@@ -132,12 +132,12 @@ struct LawUpdate {
       return;
     }
     const Lanes dt = pass.dt * share;
-    now.stress = advance_laws(g, now.rates, now.polar.stretch, dt, now.J);
+    Viscous viscous{Lanes::Zero(), Lanes::Zero()};
+    if (!block.viscous.empty()) viscous = add_viscosity(g, now, dt);
+    now.stress = advance_laws(g, now, dt, viscous.work);
     if constexpr (materials::has_changing_moduli<L>) now.stiffness = stiffness_of(g);
-    if (!block.viscous.empty()) {
-      const Lanes viscous = viscous_pressure(g, now.rates, now.inverse_stretch, now.stiffness, now.J, dt);
-      for (int c = 0; c < 3; ++c) now.stress[c] -= viscous;
-    }
+    if (block.viscous.empty()) return;
+    for (int c = 0; c < 3; ++c) now.stress[c] -= viscous.pressure;
   }
 
   void store(const LawPoints& g, int l, const Deformed& now) const {
@@ -151,12 +151,11 @@ struct LawUpdate {
   }
 
   // Stress and state of one point.
-  void advance_law(const LawPoints& g, int l, const LaneSymmetric& rates, const LaneSymmetric& stretches, double dt,
-                   double J) const {
+  void advance_law(const LawPoints& g, int l, const Deformed& now, double dt, double viscous_work) const {
     Symmetric rate, stretch;
-    for (int c = 0; c < 6; ++c) rate[c] = rates.c[c][l], stretch[c] = stretches.c[c][l];
+    for (int c = 0; c < 6; ++c) rate[c] = now.rates.c[c][l], stretch[c] = now.polar.stretch.c[c][l];
     typename L::State state = block.template state_of<L>(g.places[l]);
-    const auto [stress, converged] = law.step({rate, dt, J, stretch}, g.points[l]->stress, state);
+    const auto [stress, converged] = law.step({rate, dt, now.J[l], stretch, viscous_work}, g.points[l]->stress, state);
     if (!converged) return failure.report(g.group.k[l], Failure::Kind::no_stress);
     g.points[l]->stress = stress;
     const auto columns = materials::to_columns<L>(state);
@@ -164,8 +163,8 @@ struct LawUpdate {
   }
 
   // Stress and state of the points of a group at once.
-  LaneSymmetric advance_side_by_side(const LawPoints& g, const LaneSymmetric& rates, const LaneSymmetric& stretches,
-                                     const Lanes& dt, const Lanes& J) const {
+  LaneSymmetric advance_side_by_side(const LawPoints& g, const Deformed& now, const Lanes& dt,
+                                     const Lanes& viscous_work) const {
     using State = typename L::template StateOf<small::RawLanes>;
     constexpr std::size_t columns = materials::state_size<L>;
     std::array<small::RawLanes, columns> numbers;
@@ -176,11 +175,12 @@ struct LawUpdate {
     if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
     LaneSymmetric result = stresses(g);
     const auto [stress, converged] =
-        law.step({raw(rates), small::raw(dt), small::raw(J), raw(stretches)}, raw(result), state);
+        law.step({raw(now.rates), small::raw(dt), small::raw(now.J), raw(now.polar.stretch), small::raw(viscous_work)},
+                 raw(result), state);
     if constexpr (columns > 0) numbers = std::bit_cast<decltype(numbers)>(state);
     for (int c = 0; c < 6; ++c) result[c] = small::lanes(converged ? stress[c] : small::raw(result[c]));
     for (int l = 0; l < g.group.count; ++l) {
-      if (!(J[l] > 0)) continue;
+      if (!(now.J[l] > 0)) continue;
       if (!converged[l]) {
         failure.report(g.group.k[l], Failure::Kind::no_stress);
         continue;
@@ -192,38 +192,41 @@ struct LawUpdate {
   }
 
   // The stresses of a group at the end of the step.
-  LaneSymmetric advance_laws(const LawPoints& g, const LaneSymmetric& rates, const LaneSymmetric& stretches,
-                             const Lanes& dt, const Lanes& J) const {
+  LaneSymmetric advance_laws(const LawPoints& g, const Deformed& now, const Lanes& dt,
+                             const Lanes& viscous_work) const {
     if constexpr (materials::takes_lanes<L>) {
-      return advance_side_by_side(g, rates, stretches, dt, J);
+      return advance_side_by_side(g, now, dt, viscous_work);
     } else {
       for (int l = 0; l < g.group.count; ++l) {
-        if (J[l] > 0) advance_law(g, l, rates, stretches, dt[l], J[l]);
+        if (now.J[l] > 0) advance_law(g, l, now, dt[l], viscous_work[l]);
       }
       return stresses(g);
     }
   }
 
+  struct Viscous {
+    Lanes pressure, work;  // Pa; of this step, J per m³ of reference volume
+  };
+
   // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
-  // `stiffness`: M/(3ρ), of failed points 0.
-  Lanes viscous_pressure(const LawPoints& g, const LaneSymmetric& rates, const LaneSymmetric& inverse_stretch,
-                         const Lanes& stiffness, const Lanes& J, const Lanes& dt) const {
+  Viscous add_viscosity(const LawPoints& g, const Deformed& now, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
-    const Lanes speed2 = 3 * stiffness * J, steepness2 = small::square(inverse_stretch) / 3;
-    Lanes q = Lanes::Zero();
+    const Lanes speed2 = 3 * now.stiffness * now.J, steepness2 = small::square(now.inverse_stretch) / 3;
+    Viscous viscous{Lanes::Zero(), Lanes::Zero()};
     for (int l = 0; l < g.group.count; ++l) {
-      if (!(stiffness[l] > 0)) block.viscous[g.places[l]].damping = 0;  // has failed
-      if (!(J[l] > 0) || !(stiffness[l] > 0)) continue;
-      const double D = rates.c[0][l] + rates.c[1][l] + rates.c[2][l], c = std::sqrt(speed2[l]);
+      ViscousPoint& point = block.viscous[g.places[l]];
+      const bool has_failed = !(now.stiffness[l] > 0);
+      if (has_failed) point.damping = 0;
+      if (!(now.J[l] > 0) || has_failed) continue;
+      const double D = now.rates.c[0][l] + now.rates.c[1][l] + now.rates.c[2][l], c = std::sqrt(speed2[l]);
       const double length = std::cbrt(body.domain.volume(g.group.i[l])) / std::sqrt(steepness2[l]);
       const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
-      q[l] = block.material.density / J[l] * jump * by_speed;
-      ViscousPoint& point = block.viscous[g.places[l]];
-      point.work += 0.5 * (point.pressure + J[l] * q[l]) * -D * dt[l];
-      point.pressure = J[l] * q[l];
-      point.damping = jump > 0 ? by_speed / c : 0;
+      viscous.pressure[l] = block.material.density / now.J[l] * jump * by_speed;
+      const double pressure = now.J[l] * viscous.pressure[l];
+      viscous.work[l] = 0.5 * (point.pressure + pressure) * -D * dt[l];
+      point = {pressure, point.work + viscous.work[l], jump > 0 ? by_speed / c : 0};
     }
-    return q;
+    return viscous;
   }
 
   // M/(3ρ) of law points, m²/s²; 0 of those that have failed.

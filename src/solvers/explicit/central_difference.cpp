@@ -339,6 +339,7 @@ Ledger CentralDifference::ledger() {
   now.dissipated = stored.dissipated;
   now.stabilization = stored.stabilization;
   now.fracture = stored.fracture;
+  now.heat = stored.heat;
   largest_energy_ = std::max({largest_energy_, held(now), std::abs(initial_energy_ + now.contact + now.external)});
   now.balance_error = largest_energy_ > 0 ? std::abs(imbalance(now)) / largest_energy_ : 0;
   return now;

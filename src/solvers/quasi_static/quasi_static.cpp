@@ -161,6 +161,7 @@ Ledger QuasiStatic::ledger() {
   const Energies stored = stored_energies(body);
   Ledger now{.time = time_, .dt = last_dt_};
   now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
+  now.heat = stored.heat;
   now.external = external_;
   now.contact = by_tools_ - body.domain.communicator.sum(contact().energy());
   const double held = now.elastic + now.dissipated + now.stabilization;

@@ -72,6 +72,78 @@ TEST(Deck, ReadsMaterials) {
   EXPECT_EQ(deck.materials[1].formulation, Formulation::correspondence);
 }
 
+// full_deck with more in its copper, and in the block of it.
+std::string hot_deck(const std::string& more, const std::string& in_block = "") {
+  const std::string material = R"(<Parameter name="Stabilization Coefficient" type="double" value="0.05"/>)";
+  const std::string block = R"(<Parameter name="Material" type="string" value="copper"/>)";
+  return changed(changed(full_deck, material, material + more), block, block + in_block);
+}
+
+const std::string softening = R"(<ParameterList name="Softening">
+    <Parameter name="Type" type="string" value="Johnson-Cook"/>
+    <Parameter name="Reference Temperature" type="double" value="294"/>
+    <Parameter name="Melting Temperature" type="double" value="1356"/>
+    <Parameter name="Exponent" type="double" value="1.09"/>
+  </ParameterList>)";
+const std::string heating = R"(<ParameterList name="Heating">
+    <Parameter name="Specific Heat" type="double" value="383"/></ParameterList>)";
+const std::string warm = R"(<Parameter name="Initial Temperature" type="double" value="718"/>)";
+
+TEST(Deck, ReadsMetalsThatHeat) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(hot_deck(softening + heating, warm));
+  const auto& metal = std::get<materials::ThermalJ2>(deck.materials[0].law);
+  EXPECT_EQ(metal.heating.capacity, 8960 * 383.0);
+  EXPECT_EQ(metal.heating.plastic_share, 0.9);
+  const auto& flow = std::get<materials::SoftenedFlow>(metal.flow);
+  EXPECT_EQ(flow.cold.yield_stress, 50e6);
+  const auto& theta = std::get<materials::JohnsonCookSoftening>(flow.softening);
+  EXPECT_EQ(theta.reference, 294);
+  EXPECT_EQ(theta.melting, 1356);
+  EXPECT_EQ(theta.exponent, 1.09);
+  EXPECT_EQ(deck.blocks[0].initial_temperature, std::optional(718.0));
+  EXPECT_FALSE(deck.blocks[1].initial_temperature.has_value());
+}
+
+TEST(Deck, ReadsAnEquationOfState) {
+  const DeckFolder folder;
+  const Deck deck = folder.read(hot_deck(R"(<ParameterList name="Equation of State">
+    <Parameter name="Type" type="string" value="Mie-Gruneisen"/>
+    <Parameter name="Sound Speed" type="double" value="3940"/>
+    <Parameter name="Hugoniot Slope" type="double" value="1.49"/>
+    <Parameter name="Gruneisen Parameter" type="double" value="1.96"/></ParameterList>)"));
+  const auto& metal = std::get<materials::ShockJ2>(deck.materials[0].law);
+  EXPECT_EQ(std::get<materials::MieGruneisen>(metal.equation).density, 8960);
+  EXPECT_DOUBLE_EQ(metal.metal.bulk, 8960 * 3940.0 * 3940.0);
+  EXPECT_EQ(metal.metal.heating.capacity, 0);
+}
+
+TEST(Deck, TellsWhatDoesNotGoWithATemperature) {
+  const DeckFolder folder;
+  const auto refused = [&folder](const std::string& deck, const std::string& message) {
+    try {
+      folder.read(deck);
+      ADD_FAILURE() << message;
+    } catch (const std::exception& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  };
+  refused(hot_deck("", warm),
+          "Blocks > foam > Initial Temperature: given, but material 'copper' does not depend on it");
+  refused(hot_deck(changed(softening, "1356", "200")),
+          "Softening > Melting Temperature: expected more than the Reference Temperature");
+  refused(hot_deck(R"(<ParameterList name="Heating"/>)"), "Heating > Specific Heat: missing");
+  const std::string zerilli = R"(<ParameterList name="Flow Stress">
+    <Parameter name="Type" type="string" value="Zerilli-Armstrong"/>
+    <Parameter name="Athermal Stress" type="double" value="65e6"/>
+    <Parameter name="Thermal Stress" type="double" value="890e6"/>
+    <Parameter name="Thermal Exponent" type="double" value="0.5"/>
+    <Parameter name="Softening" type="double" value="0.0028"/>
+    <Parameter name="Rate Softening" type="double" value="0.000115"/></ParameterList>)";
+  refused(hot_deck(zerilli), "copper > Yield Stress: given, but Flow Stress has the Type 'Zerilli-Armstrong'");
+  refused(hot_deck(zerilli), "copper > Hardening: given, but Flow Stress has the Type 'Zerilli-Armstrong'");
+}
+
 TEST(Deck, ReadsContact) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);

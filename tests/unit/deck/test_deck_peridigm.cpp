@@ -207,7 +207,7 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
         "surfaces",
         "Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no temperature",
         "Output2: a second section with fields, after 'Output1'; there is one file of fields: put all into one of them",
-        "Boundary Conditions > heat > Type: 'Prescribed Temperature' (there is no temperature here)",
+        "Boundary Conditions > heat > Type: 'Prescribed Temperature' (no heat flows here)",
         "Solver > Implicit: unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia",
         "Blocks > foam > Damage Model: 'crack' is not defined; expected the name of a section of Damage Models: "
         "brittle",

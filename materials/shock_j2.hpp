@@ -1,0 +1,112 @@
+// J2 plasticity whose pressure follows an equation of state, p(v, e), and not Hooke's law: for shocks. The deviator is
+// that of ThermalJ2; the energy is what stress and artificial viscosity have done.
+//   ė = s : d v − (p + q) v̇,  Ṫ = … − Γ T v̇     (per reference volume; compression heats too)
+// Method: p at the end of a step enters the work of that step; both are linear in it, so it is solved for directly.
+// v is summed from the rates: where the places of a cell share their change of volume, so do their pressures.
+// Units: Pa, J/m³, K.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "materials/equation_of_state.hpp"
+#include "materials/thermal_j2.hpp"
+
+namespace strut::materials {
+
+struct ShockJ2 {
+  ThermalJ2 metal;  // its bulk modulus is that of the equation of state at rest
+  EquationOfState equation;
+
+  template <class T>
+  struct StateOf : ThermalState<T> {
+    T volume = same<T>(1);  // v
+    T energy{};             // e
+    T stored{};             // of it elastic, J per m³ of reference volume
+  };
+  using State = StateOf<double>;
+  static constexpr std::array<std::string_view, 8> state_names{
+      ThermalJ2::state_names[0], ThermalJ2::state_names[1], ThermalJ2::state_names[2], ThermalJ2::state_names[3],
+      ThermalJ2::state_names[4], "Relative_Volume",         "Internal_Energy_Density", "Elastic_Energy_Density"};
+
+  template <class T>
+  StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
+    StateOf<T> next = state;
+    const T grown = growth(step), volume = state.volume * grown, scale = step.J / volume;
+    const T expanded = scale * (volume - state.volume);  // of the reference volume, as the forces have it
+    if (metal.heating.capacity > 0) next.temperature -= energy_factor() * state.temperature * (volume - state.volume);
+    StressOf<T> result = metal.step(step, stress, next);
+    const SymmetricOf<T> old = deviator(stress), s = deviator(result.stress);
+    const T shear_work =
+        (step.J - 0.5 * expanded) * 0.5 * step.dt * (double_dot(old, step.rate) + double_dot(s, step.rate));
+    const T before = -trace(stress) / 3;
+    const T pressure = solved(volume, T(state.energy + step.viscous_work + shear_work), before, expanded);
+    const T work = shear_work - 0.5 * (before + pressure) * expanded;
+    next.volume = volume;
+    next.energy = state.energy + work + step.viscous_work;
+    next.stored = state.stored + work - (next.plastic_work - state.plastic_work);
+    for (int k = 0; k < 3; ++k) result.stress[k] = s[k] - pressure;
+    result.converged = result.converged && holds(volume) && is_finite(next.energy);
+    keep(result.converged, next, state);
+    return result;
+  }
+
+  State virgin_state() const;
+  Moduli moduli() const { return metal.moduli(); }
+  Moduli moduli(const State& state) const;
+  double stored_energy(const State& state) const { return state.stored; }
+  double elastic_energy(const Symmetric&, const State& state) const { return state.stored / state.volume; }
+  bool has_flowed(const State& state) const { return metal.has_flowed(state); }
+  double dissipation(const State& state) const { return metal.dissipation(state); }
+  double heat(const State& state) const { return metal.heat(state); }
+  double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
+  double flow_stress(const State& state) const { return metal.flow_stress(state); }
+  void set_initial_temperature(double to) { metal.set_initial_temperature(to); }
+
+ private:
+  double energy_factor() const {
+    return std::visit([](const auto& law) { return law.energy_factor(); }, equation);
+  }
+  template <class T>
+  MaskOf<T> holds(const T& volume) const {
+    return std::visit([&volume](const auto& law) -> MaskOf<T> { return law.holds(volume); }, equation);
+  }
+
+  // The new volume over the old one, det(1 + ½ d Δt)/det(1 − ½ d Δt).
+  template <class T>
+  static T growth(const StepOf<T>& step) {
+    SymmetricOf<T> half;
+    for (int k = 0; k < 6; ++k) half[k] = 0.5 * step.dt * step.rate[k];
+    return determinant_of_one_and(half, 1) / determinant_of_one_and(half, -1);
+  }
+  template <class T, class S>
+  static auto determinant_of_one_and(const S& h, const T& sign) {
+    const auto x = 1 + sign * h[0], y = 1 + sign * h[1], z = 1 + sign * h[2];
+    return x * y * z + 2 * sign * (h[3] * h[4] * h[5]) - x * h[4] * h[4] - y * h[5] * h[5] - z * h[3] * h[3];
+  }
+
+  // p = p_c(v) + γ (e − ½ (p_old + p) Δv), e the energy without the work of the pressure.
+  template <class T>
+  T solved(const T& volume, const T& energy, const T& before, const T& expanded) const {
+    const T cold = std::visit([&volume](const auto& law) -> T { return law.cold(volume).value; }, equation);
+    const double gamma = energy_factor();
+    return (cold + gamma * (energy - 0.5 * before * expanded)) / (1 + 0.5 * gamma * expanded);
+  }
+
+  template <class T>
+  static void keep(const MaskOf<T>& where, const StateOf<T>& next, StateOf<T>& state) {
+    if constexpr (std::is_same_v<T, double>) {
+      if (where) state = next;
+    } else {
+      using Columns = std::array<T, state_names.size()>;
+      const auto reached = std::bit_cast<Columns>(next);
+      auto columns = std::bit_cast<Columns>(state);
+      for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = where ? reached[c] : columns[c];
+      state = std::bit_cast<StateOf<T>>(columns);
+    }
+  }
+};
+
+static_assert(Law<ShockJ2> && takes_lanes<ShockJ2>);
+
+}  // namespace strut::materials
