@@ -37,7 +37,7 @@ MESH = {"cold": "bar-190", "hot": "bar-hot"}
 class Bar:
     """One bar by one law, run in a folder; lengths in mm."""
 
-    def __init__(self, work, law, kind, kelvin, speed, spacing="0.0005"):
+    def __init__(self, work, law, kind, kelvin, speed, spacing="0.00035"):
         self.kind, self.law = kind, law
         name = f"{kind}-{kelvin}-{speed}-{law}-{spacing}"
         mesh = f"{kind}-{spacing}"
