@@ -112,9 +112,18 @@ bool can_fail(const materials::AnyLaw& law) {
   return std::holds_alternative<materials::J2>(law) || std::holds_alternative<materials::ThermalJ2>(law);
 }
 
+bool asks_for_temperature(const DamageModel& model) {
+  const auto* johnson_cook =
+      model.ductility ? std::get_if<materials::JohnsonCookFailure>(&model.ductility->criterion) : nullptr;
+  return johnson_cook && johnson_cook->constants[4] != 0;
+}
+
+bool knows_temperature(const Material& material) {
+  return std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
+}
+
 void check_temperature(const Values& section, const Material& material, Problems& problems) {
-  const bool knows = std::visit([]<class L>(const L&) { return materials::tells_heat<L>; }, material.law);
-  if (!section.given(initial_temperature) || material.name.empty() || knows) return;
+  if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material)) return;
   problems.add(section.path_to(initial_temperature),
                "given, but material '" + material.name +
                    "' does not depend on it; expected one with Softening, another Flow Stress, Heating or a Shear "
@@ -132,6 +141,11 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
     problems.add(section.path_to(damage_model),
                  "points of material '" + material.name + "' cannot fail by model '" + models[found].name +
                      "': expected the Material Model 'Elastic Plastic Correspondence' without an Equation of State");
+  }
+  if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
+    problems.add(section.path_to(damage_model),
+                 "'" + models[found].name + "' has D5, but material '" + material.name +
+                     "' does not know its temperature; expected one that does, or no D5");
   }
   if (material.formulation == Formulation::quadratic && model.fracture_energy > 0) {
     problems.add(section.path_to(damage_model),

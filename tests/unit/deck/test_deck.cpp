@@ -447,6 +447,7 @@ TEST(Deck, ReadsTheTaylorDecks) {
   folder.write("bar.g", "");
   folder.write("bar-227-fitted.g", "");
   folder.write("bar-190.g", "");
+  folder.write("bar-hot.g", "");
   const std::filesystem::path inputs = std::filesystem::path(STRUT_SOURCE_DIR) / "inputs" / "taylor";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(inputs)) {

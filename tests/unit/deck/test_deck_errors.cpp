@@ -114,7 +114,7 @@ const std::vector<Case> names = {
     {"UnknownKeyWithoutLikeness", R"("Block Names" type="string" value="block_2"/>)",
      R"("Block Names" type="string" value="block_2"/> <Parameter name="Colour" type="string" value="red"/>)",
      "Blocks > plate > Colour: unknown key; expected one of Block Names, Material, Horizon, Horizon Factor, "
-     "Separate Body, Bonds Across Voids, Damage Model"},
+     "Separate Body, Bonds Across Voids, Damage Model, Initial Temperature"},
     {"UnknownSection", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Node Sts"/><ParameterList name="Solver">)",
      "Node Sts: unknown section (did you mean 'Node Sets'?)"},

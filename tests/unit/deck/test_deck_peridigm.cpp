@@ -205,7 +205,7 @@ TEST(DeckOfPeridigm, WhatIsMissingIsNamed) {
        {"Materials > copper > Apply Shear Correction Factor: 'true'; expected false: there is no correction of moduli "
         "at "
         "surfaces",
-        "Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no temperature",
+        "Materials > copper > Thermal Expansion Coefficient: '1e-5'; expected 0: there is no thermal expansion",
         "Output2: a second section with fields, after 'Output1'; there is one file of fields: put all into one of them",
         "Boundary Conditions > heat > Type: 'Prescribed Temperature' (no heat flows here)",
         "Solver > Implicit: unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia",
@@ -334,8 +334,10 @@ TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
   refused(with(metal, "\"Cockcroft-Latham\", Critical Work: 0.0"), "Damage Models > growing > Critical Work: ");
   refused(with(metal, "\"Johnson-Cook\", D1: -0.5, D2: 0.4, D3: -3.0"),
           "Damage Models > growing > D1: D1 + D2 is not positive");
-  refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: -3.0, D5: 1.0"),
-          "Damage Models > growing > D5: unknown key; there is no temperature here");
+  refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 4.9, D3: -3.0, D5: 1.1"),
+          "Damage Models > growing > Melting Temperature: missing; with D5");
+  refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 4.9, D3: -3.0, D5: 1.1, Melting Temperature: 1356"),
+          "Blocks > all of it > Damage Model: 'growing' has D5, but material 'glass' does not know its temperature");
   refused(with(metal, "\"Johnson-Cook\", D1: 0.5, D2: 0.4, D3: 3.0"), "Damage Models > growing > D3: ");
 }
 
