@@ -1,9 +1,14 @@
 // The implicit radial return of J2 plasticity (Wilkins 1964; Simo & Hughes, Computational Inelasticity, 3.3) with any
 // flow stress σ̄(ε̄, ε̇): the deviator of the elastic trial stress is scaled back so that
 //   σ_trial − 3μ Δε̄ − σ̄(ε̄ + Δε̄, Δε̄/dt) = 0.
-// Written once for a point and for several points, one per SIMD lane. The flow stress is that of a step:
-// flow_stress.hpp says what is asked of it. Trade-off: first order in the step where the direction of loading turns,
-// exact where it does not; stable for any step, and the stress never lies above the flow stress. Units: Pa, 1/s, s.
+// Written once for a point and for several points, one per SIMD lane. Trade-off: first order in the step where the
+// direction of loading turns, exact where it does not; stable for any step, and the stress never lies above the flow
+// stress. Asked of the flow stress (flow_stress.hpp has one):
+//   lower_bound()         no value is less; costs no logarithm
+//   at_rest(ε̄)            its `value` is σ̄ at no rate
+//   at_rate(ε̇, at_rest)   σ̄ and its derivatives by ε̄ and ε̇
+//   rate_at(σ̄, at_rest)   a rate at which it is σ̄, or infinity
+// Units: Pa, 1/s, s.
 #pragma once
 
 #include <utility>
