@@ -106,7 +106,7 @@ def hot(work):
     for law in LAWS:
         cells = []
         for kelvin, speed, known in HOT:
-            bar = Bar(work, law, "hot", kelvin, speed)
+            bar = Bar(work, law, "hot", kelvin, speed, "0.0005")
             kept = bar.length / LENGTH["hot"]
             cells.append(f"{kept:.3f} ({share(kept, known):+.1f} %)")
         lines.append(f"| {law} | " + " | ".join(cells) + " |")
