@@ -503,6 +503,12 @@ double Families::bytes() const {
   return sum;
 }
 
+double family_volume(const Domain& domain, int i) {
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+  return volume;
+}
+
 Tensor family_spread(const Domain& domain, int i) {
   Tensor spread = Tensor::Zero();
   domain.families.for_each(i, [&](int j) {

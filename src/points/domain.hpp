@@ -64,7 +64,10 @@ BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bon
 // `spread`: Σ V ξ⊗ξ of the family.
 const char* degeneracy(std::size_t neighbors, const Tensor& spread);
 
-// Σ V ξ⊗ξ over the family of owned point i, m⁵.
+// Σ V over the family of owned point i, m³.
+double family_volume(const Domain& domain, int i);
+
+// Σ V ξ⊗ξ over the same, m⁵.
 Tensor family_spread(const Domain& domain, int i);
 
 }  // namespace strut

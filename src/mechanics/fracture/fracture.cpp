@@ -57,12 +57,6 @@ double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   return std::visit(part, block.material.law);
 }
 
-double family_volume(const Domain& domain, int i) {
-  double volume = 0;
-  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
-  return volume;
-}
-
 bool fails(const MaterialBlock& block) {
   const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
   return block.material.damage && std::visit(may_fail, block.material.law);
