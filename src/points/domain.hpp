@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/parallel/communicator.hpp"
@@ -34,6 +35,9 @@ struct Domain {
   Families families;
   Halo halo;
   std::vector<std::int64_t> ghost_ids;
+  // Owned points, each with the id of one to which it is not bonded for a crack alone; ascending. No ghost stands for
+  // it.
+  std::vector<std::pair<int, std::int64_t>> parted;
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
