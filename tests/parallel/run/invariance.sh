@@ -1,7 +1,8 @@
 #!/bin/sh
 # A Taylor impact, a fast one whose foot is subcycled, the same with points at the nodes of a graded mesh, also by
 # quadratic correspondence, a bar whose upper half is ordinary elastic below either formulation, and two bodies that
-# meet with friction, also so fast that they break, on 1, 2, 3 and 4 ranks: results and histories must be the same.
+# meet with friction, also so fast that they break, by stretch, failure or energy, on 1, 2, 3 and 4 ranks: results and
+# histories must be the same.
 #   invariance.sh strut strut-mesh strut-compare mpirun [its options]
 set -u
 strut=$1 mesh=$2 compare=$3
@@ -71,7 +72,7 @@ problem() {
     cells)
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"' speed=200
       formulation="Quadratic Correspondence" blocks=$(block bar all copper) ;;
-    mixed | mixed-cells | meeting | breaking | tearing)
+    mixed | mixed-cells | meeting | breaking | tearing | snapping)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
@@ -88,6 +89,11 @@ problem() {
     return 0
   fi
   mesh_file=apart.txt contact=$contact_section viscosity=0.06
+  if [ $1 = snapping ]; then  # the upper one ordinary, with bonds that break by their energy
+    speed=100 damage='<Parameter name="Damage Model" type="string" value="by energy"/>'
+    blocks=$(block upper block_2 steel true; damage=; block lower block_1 copper true)
+    return 0
+  fi
   blocks=$(block lower block_1 copper true; block upper block_2 steel true)
 }
 
@@ -134,6 +140,10 @@ deck() {
     <ParameterList name="brittle">
       <Parameter name="Damage Model" type="string" value="Critical Stretch"/>
       <Parameter name="Critical Stretch" type="double" value="0.02"/>
+    </ParameterList>
+    <ParameterList name="by energy">
+      <Parameter name="Damage Model" type="string" value="Bond Energy"/>
+      <Parameter name="Fracture Energy" type="double" value="1.0e3"/>
     </ParameterList>
     <ParameterList name="ductile">
       <Parameter name="Damage Model" type="string" value="Plastic Strain"/>
@@ -193,7 +203,7 @@ END
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
-for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing; do
+for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing snapping; do
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml
@@ -207,7 +217,7 @@ for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing; do
       echo "FAILED: no point of the bar $name is subcycled"
       exit 1
     fi
-    if { [ $name = breaking ] || [ $name = tearing ]; } && ! grep -q 'bonds broke' log; then
+    if { [ $name = breaking ] || [ $name = tearing ] || [ $name = snapping ]; } && ! grep -q 'bonds broke' log; then
       echo "FAILED: no bond broke"
       exit 1
     fi
