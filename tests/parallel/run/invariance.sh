@@ -61,7 +61,7 @@ contact_section='<ParameterList name="Contact">
 
 # problem NAME: sets what deck() reads.
 problem() {
-  contact= damage= stabilization= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
+  contact= damage= crack= tip= stabilization= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
   case $1 in
     bar) mesh_type=Exodus mesh_file=bar.g sets= foot=foot blocks=$(block bar all copper) ;;
     fast)
@@ -91,6 +91,15 @@ problem() {
   mesh_file=apart.txt contact=$contact_section viscosity=0.06
   if [ $1 = snapping ]; then  # the upper one ordinary, with bonds that break by their energy
     speed=100 damage='<Parameter name="Damage Model" type="string" value="by energy"/>'
+    crack='<ParameterList name="Cracks">
+      <ParameterList name="down">
+        <Parameter name="Direction" type="string" value="0 0 -1"/>
+        <Parameter name="Start" type="string" value="0 0 0.08"/>
+        <Parameter name="Damage" type="double" value="0.1"/>
+      </ParameterList>
+    </ParameterList>'
+    tip='<Parameter name="Crack_Tip(down)" type="bool" value="true"/>
+      <Parameter name="Crack_Speed(down)" type="bool" value="true"/>'
     blocks=$(block upper block_2 steel true; damage=; block lower block_1 copper true)
     return 0
   fi
@@ -187,7 +196,9 @@ $blocks
   <ParameterList name="History">
     <Parameter name="Filename" type="string" value="$1.csv"/>
     <Parameter name="Frequency" type="int" value="10"/>
+    $crack
     <ParameterList name="Variables">
+      $tip
       <Parameter name="Max_Displacement" type="bool" value="true"/>
       <Parameter name="Max_Equivalent_Plastic_Strain" type="bool" value="true"/>
       <Parameter name="Max_Von_Mises_Stress" type="bool" value="true"/>

@@ -154,13 +154,17 @@ def cells():
 
 
 def breaking():
-    """The same, with bonds that break: those of the copper by their stretch, of the steel by their energy."""
+    """The same, with bonds that break: those of the copper by their stretch, of the steel by their energy, which the history follows."""
     text = "\n".join(cells()).replace("cells.", "breaking.")
     material, steel = '<Parameter name="Material" ', '<Parameter name="Material" type="string" value="steel"'
     text = text.replace(material, keys(Damage_Model="brittle") + material)
     text = text.replace(keys(Damage_Model="brittle") + steel, keys(Damage_Model="by energy") + steel)
     models = [section("brittle", keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)),
               section("by energy", keys(Damage_Model="Bond Energy", Fracture_Energy=200.0))]
+    crack = section("Cracks", section("up", keys(Direction="0 0 1", Damage=0.1)))
+    columns = '<ParameterList name="Variables">'
+    text = text.replace(columns, crack + columns + "".join(
+        f'<Parameter name="{name}(up)" type="bool" value="true"/>' for name in ("Crack_Tip", "Crack_Speed")))
     return [text, section("Damage Models", *models)]
 
 
