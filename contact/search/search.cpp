@@ -161,25 +161,30 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   return pairs;
 }
 
-// Points that were bonded and are no longer: the search by clusters leaves out all that once were.
-void add_broken_pairs(const Kinematics& kinematics, const CandidatePool& candidates, const Criterion& may_touch,
+// Calls visit(i, id) for owned points and those to which they were bonded, or would be but for a crack: the search by
+// clusters leaves them out.
+template <class Visit>
+void over_parted(const Domain& domain, const Visit& visit) {
+  for (std::size_t i = 0; i < domain.families.broken.size(); ++i) {
+    for (const int j : domain.families.broken[i]) visit(static_cast<int>(i), domain.id(j));
+  }
+  for (const auto& [i, id] : domain.parted) visit(i, id);
+}
+
+void add_parted_pairs(const Domain& domain, const CandidatePool& candidates, const Criterion& may_touch,
                       IndexPairs& pairs) {
-  const auto& broken = kinematics.domain.families.broken;
-  if (!may_touch.blocks.one_body || broken.empty()) return;
+  if (!may_touch.blocks.one_body || (domain.families.broken.empty() && domain.parted.empty())) return;
   std::unordered_map<std::int64_t, int> index;
   for (std::size_t m = 0; m < candidates.members.size(); ++m) {
     index.emplace(candidates.members[m].id, static_cast<int>(m));
   }
-  for (std::size_t m = 0; m < candidates.owned; ++m) {
-    const Candidate& one = candidates.members[m];
-    for (const int j : broken[one.owned]) {
-      const auto found = index.find(kinematics.domain.id(j));
-      if (found == index.end()) continue;  // far away, or of a third block
-      const Candidate& other = candidates.members[found->second];
-      const bool of_both = may_touch.blocks.self() || one.block != other.block;
-      if (of_both && may_touch.within_reach(one, other)) pairs.emplace_back(static_cast<int>(m), found->second);
-    }
-  }
+  over_parted(domain, [&](int i, std::int64_t id) {
+    const auto here = index.find(domain.id(i)), there = index.find(id);
+    if (here == index.end() || there == index.end()) return;  // far away, or of a third block
+    const Candidate &one = candidates.members[here->second], &other = candidates.members[there->second];
+    const bool of_both = may_touch.blocks.self() || one.block != other.block;
+    if (of_both && may_touch.within_reach(one, other)) pairs.emplace_back(here->second, there->second);
+  });
 }
 
 }  // namespace
@@ -189,7 +194,7 @@ Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, double r
   const CandidatePool candidates = candidates_of(kinematics, blocks, near, skins, radius);
   const Criterion may_touch{radius, blocks};
   IndexPairs found = pairs_in(candidates, may_touch);
-  add_broken_pairs(kinematics, candidates, may_touch, found);
+  add_parted_pairs(kinematics.domain, candidates, may_touch, found);
   const Lists lists = lists_of(candidates, found);
   return pairs_of(candidates, lists, blocks.one_body, kinematics.domain.communicator);
 }

@@ -204,6 +204,10 @@ in front it is a column that the section `History` can write: the extreme over a
 set or block, `Max_Displacement(foot)`, over its points. 3 components are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a
 tensor row by row. An extreme of several components is that of the root of the sum of their squares.
 
+Besides, the history knows `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
+on the body (N), and of a crack that the section `History` > `Cracks` names `Crack_Tip(notch)`, how far it has come along its
+direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m/s).
+
 X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of
 the [glossary](../docs/glossary.md). What the state variables of the laws mean, and their units, stand at `State` in the
 headers of [materials](../materials/README.md).
@@ -285,37 +289,10 @@ Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, co
                 joined(names_of(all, {""})));
   }
   if (bracket != std::string::npos) {
-    choose_points(cloud, name.substr(bracket + 1, name.size() - bracket - 2), where);
+    group_ = PointGroup(cloud, name.substr(bracket + 1, name.size() - bracket - 2), where + " > " + name);
   }
   sign_ = kind == "Max_" ? 1 : -1;
   observable_ = *found;
-}
-
-// As the Node Set of a condition: a set, else a block.
-void Extreme::choose_points(const PointCloud& cloud, const std::string& group, const std::string& where) {
-  const auto place = [&group](const std::vector<std::string>& names) {
-    const auto found = std::find(names.begin(), names.end(), group);
-    return found == names.end() ? -1 : static_cast<int>(found - names.begin());
-  };
-  set_ = place(cloud.set_names);
-  if (set_ >= 0) return;
-  block_ = place(cloud.block_names);
-  if (block_ >= 0) return;
-  std::vector<std::string> valid = cloud.set_names;
-  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
-  throw Error(where + " > " + name_ + ": there is no node set or block '" + group + "'" + did_you_mean(group, valid) +
-              "; there are " + joined(valid));
-}
-
-bool Extreme::counts(const PointCloud& cloud, int i) const {
-  if (set_ >= 0) return (cloud.sets[i] >> set_ & 1) != 0;
-  return block_ < 0 || cloud.blocks[i] == block_;
-}
-
-std::int64_t Extreme::points(const PointCloud& cloud) const {
-  std::int64_t count = 0;
-  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) count += counts(cloud, i);
-  return count;
 }
 
 double Extreme::local(const Body& body) const {
@@ -324,7 +301,7 @@ double Extreme::local(const Body& body) const {
   double best = -std::numeric_limits<double>::infinity();
   const int width = observable_.components;
   for (int i = 0; i < body.owned(); ++i) {
-    if (!counts(body.domain.cloud, i)) continue;
+    if (!group_.counts(body.domain.cloud, i)) continue;
     const double* first = &values[static_cast<std::size_t>(i) * width];
     const double value = width == 1 ? *first : Eigen::Map<const Eigen::VectorXd>(first, width).norm();
     best = std::max(best, sign_ * value);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mechanics/body.hpp"
+#include "output/point_group.hpp"
 
 namespace strut {
 
@@ -38,18 +39,16 @@ class Extreme {
   Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
           const std::string& where);
   const std::string& name() const { return name_; }
-  std::int64_t points(const PointCloud& cloud) const;  // how many points of this rank it is taken over
+  // How many points of this rank it is taken over.
+  std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that all ranks take the maximum
   double value(double largest) const { return sign_ * largest; }
 
  private:
-  void choose_points(const PointCloud& cloud, const std::string& group, const std::string& where);
-  bool counts(const PointCloud& cloud, int i) const;
-
   std::string name_;
   Observable observable_;
   double sign_ = 1;
-  int set_ = -1, block_ = -1;  // both -1: all points
+  PointGroup group_;
 };
 
 }  // namespace strut

@@ -11,13 +11,14 @@ namespace {
 
 const std::string where = "History > Variables";
 const std::vector<std::string> reaction_names = {"Reaction_X", "Reaction_Y", "Reaction_Z"};
+const std::vector<std::string> crack_names = {"Crack_Tip", "Crack_Speed"};
 
 std::string before_bracket(const std::string& name) { return name.substr(0, name.find('(')); }
 
 // Right or nearly so.
-bool means_reaction(const std::string& name) {
+bool means(const std::string& name, const std::string& first_word, const std::vector<std::string>& names) {
   const std::string kind = before_bracket(name);
-  return kind.starts_with("Reaction") || !did_you_mean(kind, reaction_names).empty();
+  return kind.starts_with(first_word) || !did_you_mean(kind, names).empty();
 }
 
 bool reacts(const ConditionPrototype& kind) {
@@ -38,15 +39,39 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
               (valid.empty() ? "is none" : "are " + joined(valid)));
 }
 
-ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const std::string& name) {
-  const std::string kind = before_bracket(name), path = where + " > " + name;
-  const auto found = std::find(reaction_names.begin(), reaction_names.end(), kind);
-  if (found == reaction_names.end() || kind == name || name.back() != ')') {
-    throw Error(path + ": expected one of " + joined(reaction_names) + did_you_mean(kind, reaction_names) +
-                " and in brackets the name of a section of Boundary Conditions, e.g. Reaction_Z(wall)");
+// "Kind(wanted)": the place of Kind in `kinds`, and what is wanted. `of`: the section whose sections may be.
+std::pair<std::size_t, std::string> in_brackets(const std::string& name, const std::vector<std::string>& kinds,
+                                                const std::string& of, const std::string& example) {
+  const std::string kind = before_bracket(name);
+  const auto found = std::find(kinds.begin(), kinds.end(), kind);
+  if (found == kinds.end() || kind == name || name.back() != ')') {
+    throw Error(where + " > " + name + ": expected one of " + joined(kinds) + did_you_mean(kind, kinds) +
+                " and in brackets the name of a section of " + of + ", e.g. " + example);
   }
-  const std::string wanted = name.substr(kind.size() + 1, name.size() - kind.size() - 2);
-  return {name, reacting_condition(conditions, wanted, path), static_cast<int>(found - reaction_names.begin())};
+  return {found - kinds.begin(), name.substr(kind.size() + 1, name.size() - kind.size() - 2)};
+}
+
+ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const std::string& name) {
+  const auto [component, wanted] = in_brackets(name, reaction_names, "Boundary Conditions", "Reaction_Z(wall)");
+  return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component)};
+}
+
+// Collective. Adds the crack where it is the first column of it.
+CrackColumn crack_column(const std::vector<deck::WatchedCrack>& watched, const Body& body, const std::string& name,
+                         std::vector<CrackTip>& cracks) {
+  const auto [kind, wanted] = in_brackets(name, crack_names, "History > Cracks", "Crack_Tip(notch)");
+  const auto is_wanted = [&wanted = wanted](const deck::WatchedCrack& crack) { return crack.name == wanted; };
+  const auto found = std::find_if(watched.begin(), watched.end(), is_wanted);
+  if (found == watched.end()) {
+    std::vector<std::string> valid;
+    for (const deck::WatchedCrack& crack : watched) valid.push_back(crack.name);
+    throw Error(where + " > " + name + ": '" + wanted + "' is no section of History > Cracks" +
+                did_you_mean(wanted, valid) + "; there " + (valid.empty() ? "is none" : "are " + joined(valid)));
+  }
+  const auto known = std::find_if(cracks.begin(), cracks.end(), [&](const CrackTip& c) { return c.name() == wanted; });
+  const std::size_t place = known - cracks.begin();
+  if (known == cracks.end()) cracks.emplace_back(*found, body);
+  return {name, place, kind == 1};
 }
 
 // Collective: an unknown name throws on all ranks, before they count.
@@ -72,8 +97,10 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body) {
   attempt([&] { variables.frame = chosen(all, deck.output.variables, "Output > Output Variables"); });
   for (const std::string& name : deck.history.variables) {
     attempt([&] {
-      if (means_reaction(name)) {
+      if (means(name, "Reaction", reaction_names)) {
         variables.reactions.push_back(reaction(deck.conditions, name));
+      } else if (means(name, "Crack", crack_names)) {
+        variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
       } else {
         variables.extremes.push_back(extreme(all, body.domain, name));
       }

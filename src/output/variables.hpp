@@ -3,6 +3,7 @@
 
 #include "conditions/reactions.hpp"
 #include "deck/deck.hpp"
+#include "output/crack_tip.hpp"
 #include "output/observables.hpp"
 
 namespace strut {
@@ -15,13 +16,25 @@ struct ReactionComponent {
   double of(const Reactions& reactions) const { return reactions.forces[condition][component]; }
 };
 
+// "Crack_Tip(notch)" or "Crack_Speed(notch)" of History > Cracks.
+struct CrackColumn {
+  std::string name;
+  std::size_t crack;  // in OutputVariables::cracks
+  bool is_speed;
+
+  double of(const CrackTip& tip) const { return is_speed ? tip.speed() : tip.tip(); }
+};
+
 struct OutputVariables {
   std::vector<Observable> frame;             // Output > Output Variables
   std::vector<Extreme> extremes;             // History > Variables
   std::vector<ReactionComponent> reactions;  // History > Variables
+  std::vector<CrackColumn> crack_columns;    // History > Variables
+  std::vector<CrackTip> cracks;              // that these are of
 };
 
-// Collective. Throws one Error for all unknown names, extremes over no point, and reactions of what has none.
+// Collective. Throws one Error for all unknown names, extremes over no point, reactions of what has none, and cracks
+// where there can be none.
 OutputVariables output_variables_of(const deck::Deck& deck, const Body& body);
 
 }  // namespace strut

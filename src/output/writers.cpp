@@ -44,7 +44,9 @@ History::History(const deck::Deck& deck, const OutputVariables& variables)
       enabled_(deck.history.enabled),
       path_(deck.history.file),
       extremes_(variables.extremes),
-      reactions_(variables.reactions) {}
+      reactions_(variables.reactions),
+      crack_columns_(variables.crack_columns),
+      cracks_(variables.cracks) {}
 
 void History::open(const Body& body) {
   if (!enabled_) return;
@@ -64,6 +66,7 @@ void History::open(const Body& body) {
                                  "Momentum_Z"};
   for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
   for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
+  for (const CrackColumn& column : crack_columns_) names.push_back(column.name);
   file_.emplace(path_, body.domain.communicator, names, before_);
 }
 
@@ -75,9 +78,14 @@ void History::write(const Ledger& now, const Reactions& reactions, const Body& b
                           now.balance_error, now.momentum[0], now.momentum[1], now.momentum[2]};
   const std::size_t fixed = row.size();
   for (const Extreme& e : extremes_) row.push_back(e.local(body));
+  for (const CrackTip& crack : cracks_) row.push_back(crack.local(body));
   body.domain.communicator.max(std::span(row).subspan(fixed));
   for (std::size_t k = 0; k < extremes_.size(); ++k) row[fixed + k] = extremes_[k].value(row[fixed + k]);
+  const std::size_t tips = fixed + extremes_.size();
+  for (std::size_t k = 0; k < cracks_.size(); ++k) cracks_[k].take(now.time, row[tips + k]);
+  row.resize(tips);
   for (const ReactionComponent& reaction : reactions_) row.push_back(reaction.of(reactions));
+  for (const CrackColumn& column : crack_columns_) row.push_back(column.of(cracks_[column.crack]));
   file_->write(row);
   schedule.done(now.time);
   last_ = now.time;
@@ -91,6 +99,7 @@ void History::serialize(Archive& archive, double time) {
   archive.number("history_bytes", before_);
   archive.number("last_line", last_);
   schedule.serialize(archive, "history", time);
+  for (CrackTip& crack : cracks_) crack.serialize(archive);
 }
 
 bool is_over(const deck::Deck& deck, const Communicator& communicator) {

@@ -41,7 +41,7 @@ class FieldWriter {
   std::optional<io::ExodusWriter> writer_;
 };
 
-// The table of the ledger and of asked-for extremes and reactions over time.
+// The table of the ledger and of asked-for extremes, reactions and cracks over time.
 class History {
  public:
   History(const deck::Deck& deck, const OutputVariables& variables);
@@ -61,6 +61,8 @@ class History {
   std::filesystem::path path_;
   std::vector<Extreme> extremes_;
   std::vector<ReactionComponent> reactions_;
+  std::vector<CrackColumn> crack_columns_;
+  std::vector<CrackTip> cracks_;
   std::int64_t before_ = 0;  // bytes that a restored run finds
   std::optional<io::HistoryFile> file_;
 };

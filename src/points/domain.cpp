@@ -248,6 +248,23 @@ void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, V
   });
 }
 
+// Of the owned points in their order, those who would be bonded but for a crack, as Domain has them.
+std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
+                                                           const std::vector<int>& order) {
+  std::vector<std::pair<int, std::int64_t>> pairs;
+  if (search.cracks.empty()) return pairs;
+  for (std::size_t local = 0; local < order.size(); ++local) {
+    const int i = order[local];
+    for_each_within(search.grid, pool, i, search.reach, [&](int j) {
+      const Vector xi = pool.positions[j] - pool.positions[i];
+      if (!bonded(pool.deltas[i], pool.deltas[j], xi) || search.left_out.contains(i, j)) return;
+      if (search.is_cut(pool.positions[i], pool.positions[j])) pairs.emplace_back(local, pool.ids[j]);
+    });
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 // ---- Stencils, order, lists ----------------------------------------------------------------------------------------
 
 // The bodies that sit on a lattice, over the pool: who owns which cell, until points have their order in memory.
@@ -470,8 +487,17 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   add_lattices(frames, pool, members, owned, families);
   Halo halo(communicator, mine.ids, members.ghost_ids);
   const int ghosts = static_cast<int>(order.ghosts.size());
-  return {communicator,      std::move(mine),     order.interior, owned, ghosts, std::move(members.sites),
-          std::move(blocks), std::move(families), std::move(halo), std::move(members.ghost_ids)};
+  return {communicator,
+          std::move(mine),
+          order.interior,
+          owned,
+          ghosts,
+          std::move(members.sites),
+          std::move(blocks),
+          std::move(families),
+          std::move(halo),
+          std::move(members.ghost_ids),
+          parted_by_cracks(search, pool, order.points)};
 }
 
 PointCloud whole_cloud(const Domain& domain) {
@@ -501,6 +527,12 @@ double Families::bytes() const {
   double sum = lists.bytes();
   for (const LatticeFamilies& stencil : lattices) sum += stencil.bytes();
   return sum;
+}
+
+double family_volume(const Domain& domain, int i) {
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+  return volume;
 }
 
 Tensor family_spread(const Domain& domain, int i) {

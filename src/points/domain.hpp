@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "base/parallel/communicator.hpp"
@@ -34,6 +35,9 @@ struct Domain {
   Families families;
   Halo halo;
   std::vector<std::int64_t> ghost_ids;
+  // Owned points, each with the id of one to which it is not bonded for a crack alone; ascending. No ghost stands for
+  // it.
+  std::vector<std::pair<int, std::int64_t>> parted;
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
@@ -64,7 +68,10 @@ BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bon
 // `spread`: Σ V ξ⊗ξ of the family.
 const char* degeneracy(std::size_t neighbors, const Tensor& spread);
 
-// Σ V ξ⊗ξ over the family of owned point i, m⁵.
+// Σ V over the family of owned point i, m³.
+double family_volume(const Domain& domain, int i);
+
+// Σ V ξ⊗ξ over the same, m⁵.
 Tensor family_spread(const Domain& domain, int i);
 
 }  // namespace strut

@@ -130,6 +130,29 @@ void check_temperature(const Values& section, const Material& material, Problems
                    "Modulus Slope");
 }
 
+// Of a bond the energy is known where both ends are ordinary.
+void check_bond_energies(const std::vector<Block>& all, const std::vector<Material>& materials,
+                         const std::vector<NamedDamageModel>& models, Problems& problems) {
+  const auto by_energy = [&models](const Block& block) {
+    return block.damage_model && *block.damage_model < static_cast<int>(models.size()) &&
+           models[*block.damage_model].model.critical_bond_energy;
+  };
+  const auto may_break_so = [&](const Block& block) {
+    if (block.separate_body) return by_energy(block);
+    return std::any_of(all.begin(), all.end(), [&](const Block& b) { return !b.separate_body && by_energy(b); });
+  };
+  for (const Block& block : all) {
+    if (block.material >= static_cast<int>(materials.size()) || !may_break_so(block)) continue;
+    const Material& of_block = materials[block.material];
+    if (of_block.formulation == Formulation::ordinary) continue;
+    problems.add("Blocks > " + block.name + " > " + (by_energy(block) ? damage_model.name : material.name),
+                 "bonds of material '" + of_block.name +
+                     "' cannot break by Damage Model 'Bond Energy': by correspondence their forces are not along them, "
+                     "and what one holds depends on how the body has turned; expected the Material Model 'Elastic' in "
+                     "all blocks of the body, or Damage Model 'Critical Stretch'");
+  }
+}
+
 std::optional<int> find_damage_model(const Values& section, const Material& material,
                                      const std::vector<NamedDamageModel>& models, Problems& problems) {
   if (!section.has(damage_model)) return std::nullopt;
@@ -147,7 +170,7 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
                  "'" + models[found].name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");
   }
-  if (material.formulation == Formulation::quadratic && model.fracture_energy > 0) {
+  if (material.formulation == Formulation::quadratic && model.fracture_energy > 0 && !model.critical_bond_energy) {
     problems.add(section.path_to(damage_model),
                  "model '" + models[found].name +
                      "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic "
@@ -176,6 +199,7 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
   }
   check_overlaps(all, problems);
   check_stabilizations(all, materials, problems);
+  check_bond_energies(all, materials, damage_models, problems);
   return all;
 }
 

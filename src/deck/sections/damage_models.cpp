@@ -24,6 +24,21 @@ const OptionalKey<double> fracture_energy(
          "G_c: s_c is such that a flat cut through the lattice of the block's spacing dissipates it, summed over "
          "the bonds that it breaks (Influence Function, horizon and moduli as they are)."});
 
+const OptionalKey<double> critical_bond_energy(
+    {.name = "Critical Bond Energy",
+     .unit = "J/m⁶",
+     .range = positive,
+     .meaning = "w_c: a bond breaks where it is stretched and holds more energy than this for the volumes of its ends. "
+                "Either this or Fracture Energy."});
+
+const OptionalKey<double> separation_energy(
+    {.name = "Fracture Energy",
+     .unit = "J/m²",
+     .range = positive,
+     .meaning =
+         "G_c: w_c is such that a flat cut through the lattice of the block's spacing dissipates it, summed over "
+         "the bonds that it breaks (horizon and moduli as they are)."});
+
 const ExpressionKey stretch_over_time({.name = "Time Dependent Critical Stretch",
                                        .range = positive,
                                        .meaning = "s_c as a function of the time t (s)."});
@@ -85,14 +100,24 @@ DamageModel read_johnson_cook(const Values& v, Problems& problems) {
                  v);
 }
 
+// One of a critical value and a fracture energy.
+void check_limit(const Values& values, const OptionalKey<double>& critical, const OptionalKey<double>& energy,
+                 Problems& problems) {
+  check_one_of(values, critical, energy, problems);
+  if (values.given(critical) || values.given(energy)) return;
+  problems.add(values.path_to(critical), "missing; " + expected(critical) + ", or '" + energy.name + "' in its place");
+}
+
 DamageModel read_critical_stretch(const Values& values, Problems& problems) {
-  check_one_of(values, critical_stretch, fracture_energy, problems);
-  if (!values.given(critical_stretch) && !values.given(fracture_energy)) {
-    problems.add(values.path_to(critical_stretch),
-                 "missing; " + expected(critical_stretch) + ", or 'Fracture Energy' in its place");
-  }
+  check_limit(values, critical_stretch, fracture_energy, problems);
   return {.critical_stretch = Function(values[critical_stretch].value_or(1)),
           .fracture_energy = values[fracture_energy].value_or(0)};
+}
+
+DamageModel read_bond_energy(const Values& values, Problems& problems) {
+  check_limit(values, critical_bond_energy, separation_energy, problems);
+  return {.fracture_energy = values[separation_energy].value_or(0),
+          .critical_bond_energy = values[critical_bond_energy].value_or(1)};
 }
 
 DamageModel read_stretch_over_time(const Values& values, Problems& problems) {
@@ -120,6 +145,12 @@ const std::vector<ModelEntry>& entries() {
         .meaning = "The same, with an s_c that changes.",
         .keys = {stretch_over_time}},
        read_stretch_over_time},
+      {{.name = "Bond Energy",
+        .meaning =
+            "The same where the bond is stretched and holds too much energy (Foster, Silling and Chen 2011). For "
+            "ordinary solids (Elastic), as all blocks of the body must be.",
+        .keys = {critical_bond_energy, separation_energy}},
+       read_bond_energy},
       {{.name = "Plastic Strain",
         .meaning =
             "A point of a block whose metal flows (J2) fails where its plastic strain reaches ε_f, and all of its "

@@ -6,10 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "base/math/tensors.hpp"
 #include "deck/forward.hpp"
 #include "deck/sections/solver.hpp"
 
 namespace strut::deck {
+
+// A crack that the history follows: the points whose damage is above a number.
+struct WatchedCrack {
+  std::string name;
+  Vector direction = Vector::UnitX();  // of length 1
+  Vector start = Vector::Zero();       // m
+  double damage = 0;
+  std::string node_set = "all";  // or a block
+  int rows = 0;                  // of the history, for its speed
+};
 
 struct History {
   bool enabled = false;
@@ -17,6 +28,7 @@ struct History {
   std::optional<int> frequency;
   std::optional<double> interval;
   std::vector<std::string> variables;  // e.g. "Max_Displacement"; checked by output_variables_of (output/variables.cpp)
+  std::vector<WatchedCrack> cracks;
 };
 
 Section history_section();

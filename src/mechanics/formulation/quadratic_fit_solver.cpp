@@ -408,9 +408,7 @@ double steepness_of(const Body& body, int i, const Eigen::Array4d* multipliers, 
 }  // namespace
 
 bool spans_cell(const Domain& domain, int i) {
-  double volume = 0;
-  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
-  const double h = domain.cloud.spacings[i];
+  const double volume = family_volume(domain, i), h = domain.cloud.spacings[i];
   return volume > 0 && least_square(family_spread(domain, i) / (volume * h * h)) >= least_for_stress;
 }
 

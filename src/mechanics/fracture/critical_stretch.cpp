@@ -8,16 +8,6 @@
 
 namespace strut {
 
-namespace {
-
-struct LatticeBond {
-  Vector xi;
-  double weight;     // ω V
-  double opening;    // at which it breaks if it crosses the plane, its critical stretch being 1
-  int layers_below;  // its far end is so many layers below
-};
-
-// The family of a point inside of the lattice. A bond is longer by Δ |ξ_z|/|ξ| once the halves are Δ apart.
 std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
   const double h = lattice.spacing;
   const int reach = static_cast<int>(lattice.horizon / h * (1 + 1e-9));
@@ -36,6 +26,8 @@ std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
   });
   return family;
 }
+
+namespace {
 
 // The energy of a point so many layers above the plane, J/m³, at an opening. Bonds across the plane that break at
 // `broken` or less are gone.
@@ -116,24 +108,38 @@ double energy_of_separation(const PulledLattice& lattice) {
   return 2 * lattice.spacing * released;  // of both halves
 }
 
-void set_critical_stretches(Body& body) {
+namespace {
+
+PulledLattice lattice_of(const Body& body, std::size_t b) {
+  const BlockMaterial& material = body.blocks[b].material;
+  const BlockHorizons& of_block = body.domain.blocks[b];
+  const auto moduli = std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, material.law);
+  const bool springs = residual_of(material.stabilization) == ResidualKind::own_gradient;
+  return {of_block.spacing,     of_block.largest, body.influence,
+          material.formulation, moduli,           springs ? coefficient_of(material.stabilization) : 0};
+}
+
+}  // namespace
+
+void set_critical_values(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    BlockMaterial& material = body.blocks[b].material;
-    if (!material.damage || !(material.damage->fracture_energy > 0)) continue;
-    const BlockHorizons& of_block = body.domain.blocks[b];
-    if (!(of_block.spacing > 0)) continue;  // has no points
-    const auto moduli = std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, material.law);
-    const bool springs = residual_of(material.stabilization) == ResidualKind::own_gradient;
-    const PulledLattice lattice{of_block.spacing, of_block.largest,
-                                body.influence,   material.formulation,
-                                moduli,           springs ? coefficient_of(material.stabilization) : 0};
-    const double energy = energy_of_separation(lattice);
+    auto& damage = body.blocks[b].material.damage;
+    if (!damage || !(damage->fracture_energy > 0)) continue;
+    if (!(body.domain.blocks[b].spacing > 0)) continue;  // has no points
+    const PulledLattice lattice = lattice_of(body, b);
+    const bool by_energy = damage->critical_bond_energy.has_value();
+    const double energy = by_energy ? separation_by_bond_energy(lattice) : energy_of_separation(lattice);
     if (!(energy > 0)) {  // the same on all ranks
       throw Error("Damage Models: block '" + body.blocks[b].name +
                   "' has a Fracture Energy, but no bonds from one layer of points to the next; expected a horizon of "
                   "more than a spacing");
     }
-    material.damage->critical_stretch = Function(std::sqrt(material.damage->fracture_energy / energy));
+    const double ratio = damage->fracture_energy / energy;
+    if (by_energy) {
+      damage->critical_bond_energy = ratio;
+    } else {
+      damage->critical_stretch = Function(std::sqrt(ratio));
+    }
   }
 }
 

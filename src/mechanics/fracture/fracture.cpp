@@ -57,12 +57,6 @@ double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   return std::visit(part, block.material.law);
 }
 
-double family_volume(const Domain& domain, int i) {
-  double volume = 0;
-  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
-  return volume;
-}
-
 bool fails(const MaterialBlock& block) {
   const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
   return block.material.damage && std::visit(may_fail, block.material.law);
@@ -108,9 +102,10 @@ void Fracture::set_which(const Body& body) {
 
 Fracture::Fracture(Body& body) {
   const Domain& domain = body.domain;
-  set_critical_stretches(body);
+  set_critical_values(body);
   set_crack_lengths(body);
   set_which(body);
+  energies_ = BondEnergies(body);
   for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
@@ -153,8 +148,13 @@ void Fracture::take_failed(const Body& body) {
     is_new.resize(limits_.size());
     is_new[i] = true;
   }
-  if (is_new.empty()) return;
-  const auto is = [&is_new](int i) { return is_new[i] != 0; };
+  look_around(body, is_new);
+}
+
+// The clusters of these points, and those who have them in their families, are to be looked at.
+void Fracture::look_around(const Body& body, const std::vector<char>& points) {
+  if (points.empty()) return;
+  const auto is = [&points](int i) { return points[i] != 0; };
   for (std::size_t c = 0; c < watched_.size(); ++c) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
     const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
@@ -210,21 +210,35 @@ void Fracture::advance_travel(const Body& body, Part part) {
     mean_step_.setZero();
     for (int i = 0; i < domain.owned; ++i) mean_step_ += step(i) / domain.owned;
     largest_step2_ = largest_of(0, domain.owned);
-    travel_[0] += 2 * std::sqrt(largest_step2_);
+    last_travel_[0] = 2 * std::sqrt(largest_step2_);
+    travel_[0] += last_travel_[0];
   } else {
     const int all = static_cast<int>(domain.sites.size());
-    travel_[1] += 2 * std::sqrt(std::max(largest_step2_, largest_of(domain.owned, all)));
+    last_travel_[1] = 2 * std::sqrt(std::max(largest_step2_, largest_of(domain.owned, all)));
+    travel_[1] += last_travel_[1];
   }
 }
 
-// Whether a bond of a cluster is stretched to its limit, to round-off; and until when none is.
-bool Fracture::is_stretched(const Body& body, int cluster) {
-  Lanes worst = Lanes::Zero();
+bool Fracture::holds_energy(const Body& body, const MaterialBlock& block) const {
+  return energies_.any_of(static_cast<std::size_t>(&block - body.blocks.data()));
+}
+
+// Whether a bond of a cluster is at its limit, to round-off; and until when none is.
+bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int cluster, Part part) {
+  const Cluster points = body.domain.families.lists[cluster];
+  Lanes worst = Lanes::Zero(), load = Lanes::Zero(), room = Lanes::Constant(never);
   Stretches{body.domain.sites.data(), limits_.data()}.over(
-      body.domain.families.lists[cluster], [&worst](std::size_t, const Lanes& square) { worst = worst.max(square); });
+      points, [&worst](std::size_t, const Lanes& square) { worst = worst.max(square); });
+  if (holds_energy(body, block)) {
+    energies_.over(body, points, start_, [&](std::size_t, const Lanes& of_bond, const Lanes& to_go) {
+      load = load.max(of_bond), room = room.min(to_go);
+    });
+  }
   const double most = worst.maxCoeff();
-  watched_[cluster].due = watched_[cluster].shortest * std::max(0.0, 1 - std::sqrt(most));  // to go, m
-  return most > 1 - round_off;
+  const double by_stretch = watched_[cluster].shortest * std::max(0.0, 1 - std::sqrt(most));
+  const double by_energy = room.minCoeff() - last_travel_[part == Part::boundary];  // from the start of the step on
+  watched_[cluster].due = std::max(0.0, std::min(by_stretch, by_energy));           // to go, m
+  return std::max(most, load.maxCoeff()) > 1 - round_off;
 }
 
 void Fracture::break_bonds(Body& body, Part part, double time) {
@@ -233,32 +247,39 @@ void Fracture::break_bonds(Body& body, Part part, double time) {
   if (by_time_ && part == Part::interior) set_limits(body, time);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   if (any_fails && part == Part::interior) take_failed(body);
+  if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, last_travel_[1]));
   advance_travel(body, part);
   const double travel = travel_[part == Part::boundary];
-  std::vector<char> stretched(watched_.size(), 0);
-  over_breakable(*this, body, part, [&](const MaterialBlock&, int first, int last) {
+  std::vector<char> at_limit(watched_.size(), 0);
+  over_breakable(*this, body, part, [&](const MaterialBlock& block, int first, int last) {
     for_each_point(first, last, [&](int c) {
       if (!by_time_ && travel < watched_[c].due) return;
-      stretched[c] = is_stretched(body, c);
+      at_limit[c] = is_at_limit(body, block, c, part);
       watched_[c].due += travel;
     });
   });
   over_breakable(*this, body, part, [&](MaterialBlock& block, int first, int last) {
     for (int c = first; c < last; ++c) {
-      if (stretched[c]) cut(body, block, c);
+      if (at_limit[c]) cut(body, block, c);
     }
   });
 }
 
 // Of each neighbor of a cluster, the members whose bonds to it break; returns who of them has any such bond.
-unsigned Fracture::bonds_to_cut(const Body& body, const Cluster& cluster, std::vector<std::uint8_t>& gone) const {
+unsigned Fracture::bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
+                                std::vector<std::uint8_t>& gone) const {
   const unsigned there = (1u << cluster.points.size()) - 1;
   unsigned members = 0;
   gone.assign(cluster.near.size(), 0);
-  Stretches{body.domain.sites.data(), limits_.data()}.over(cluster, [&](std::size_t n, const Lanes& square) {
-    gone[n] = static_cast<std::uint8_t>(small::lanes_below_zero(Lanes(1 - square)) & there);
+  // load: in parts of what breaks the bond
+  const auto take = [&](std::size_t n, const Lanes& load) {
+    gone[n] |= static_cast<std::uint8_t>(small::lanes_below_zero(Lanes(1 - load)) & there);
     members |= gone[n];
-  });
+  };
+  Stretches{body.domain.sites.data(), limits_.data()}.over(cluster, take);
+  if (holds_energy(body, block)) {
+    energies_.over(body, cluster, start_, [&take](std::size_t n, const Lanes& load, const Lanes&) { take(n, load); });
+  }
   return members;
 }
 
@@ -266,7 +287,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   Domain& domain = body.domain;
   const Cluster cluster = domain.families.lists[cluster_number];
   std::vector<std::uint8_t> gone;
-  const unsigned members = bonds_to_cut(body, cluster, gone);
+  const unsigned members = bonds_to_cut(body, block, cluster, gone);
   if (members == 0) return;
   const auto at = std::lower_bound(block.points.begin(), block.points.end(), cluster.points[0]);
   const int first = static_cast<int>(at - block.points.begin());
@@ -341,7 +362,7 @@ double Fracture::damage(const Body& body, int i) const {
 double Fracture::bytes() const {
   return static_cast<double>(start_.size() * (sizeof(Vector) + 2 * sizeof(double)) + watched_.size() * sizeof(Watched) +
                              whole_volume_.size() * (5 * sizeof(double) + sizeof(std::vector<int>))) +
-         static_cast<double>(broken_) * sizeof(int);
+         static_cast<double>(broken_) * sizeof(int) + energies_.bytes();
 }
 
 double Fracture::energy() const { return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0); }
@@ -406,10 +427,12 @@ void Fracture::serialize(Archive& archive, Body& body) {
 
 namespace {
 
-// The next step asks who has failed, before force states are exchanged.
-void exchange_failed(Body& body) {
+// The next step asks who has failed, and what ordinary points carry, before force states are exchanged.
+void exchange_states(Body& body) {
   ForceStates& states = body.force_states;
   const Domain& domain = body.domain;
+  constexpr int width = sizeof(ScalarState) / sizeof(double);
+  if (!states.scalars.empty()) domain.halo.exchange(&states.scalars[0].a, width, width);
   std::vector<double> failed(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) failed[i] = has_failed(states, i);
   domain.halo.exchange(failed.data(), 1, 1);
@@ -446,7 +469,7 @@ void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
     }
   }
   for (Watched& cluster : watched_) cluster.due = 0;
-  exchange_failed(body);
+  exchange_states(body);
   finish_step(body);
 }
 

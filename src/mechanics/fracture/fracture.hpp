@@ -3,7 +3,8 @@
 // A bond breaks for both of its ends in the same step: the criterion is symmetric to the last bit, so the ranks of both
 // ends decide alike without a message. It is looked at where the motion since the last look may have sufficed: of each
 // cluster of points it is known by how much the bond nearest to its limit would have to grow, and two points move apart
-// by at most twice the largest motion against the mean.
+// by at most twice the largest motion against the mean. What bonds hold changes with the breaks of others, too: where
+// such a point is met, it is looked at.
 //
 // The energy dissipated by a break is what is missing in the balance of the points whose bonds broke: with the work w
 // of a point's force states along the step's motion of its family, before the break and after it,
@@ -17,6 +18,7 @@
 
 #include "base/archive.hpp"
 #include "mechanics/body.hpp"
+#include "mechanics/fracture/bond_energies.hpp"
 #include "mechanics/fracture/point_account.hpp"
 
 namespace strut {
@@ -64,23 +66,28 @@ class Fracture {
   void set_limits(const Body& body, double time);
   void set_which(const Body& body);
   void take_failed(const Body& body);
+  void look_around(const Body& body, const std::vector<char>& points);
   void soften_springs(Body& body, Part part);
   void set_shortest(const Body& body);
   void set_most_steepness(const Body& body);
   void advance_travel(const Body& body, Part part);
-  bool is_stretched(const Body& body, int cluster);
-  unsigned bonds_to_cut(const Body& body, const Cluster& cluster, std::vector<std::uint8_t>& gone) const;
+  bool is_at_limit(const Body& body, const MaterialBlock& block, int cluster, Part part);
+  bool holds_energy(const Body& body, const MaterialBlock& block) const;
+  unsigned bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
+                        std::vector<std::uint8_t>& gone) const;
   void cut(Body& body, MaterialBlock& block, int cluster);
   void restore(Body& body, const std::vector<double>& bits, int words);
 
-  std::vector<char> may_break_;   // of blocks
-  std::vector<char> may_fail_;    // of blocks: their points may fail, and lose their bonds then
-  std::vector<double> block_of_;  // of owned points and ghosts
-  std::vector<double> limits_;    // (1 + s_c)² of owned points and ghosts; infinite without
-  bool by_time_ = false;          // they change
-  std::vector<Vector> start_;     // places at the start of the step, of owned points and ghosts, m
-  std::vector<Watched> watched_;  // of clusters
-  double travel_[2] = {0, 0};     // bound of how far two points have moved apart so far, m: owned ones; ghosts, too
+  std::vector<char> may_break_;     // of blocks
+  std::vector<char> may_fail_;      // of blocks: their points may fail, and lose their bonds then
+  std::vector<double> block_of_;    // of owned points and ghosts
+  std::vector<double> limits_;      // (1 + s_c)² of owned points and ghosts; infinite without
+  bool by_time_ = false;            // they change
+  BondEnergies energies_;           // what bonds hold, where that has a limit
+  std::vector<Vector> start_;       // places at the start of the step, of owned points and ghosts, m
+  std::vector<Watched> watched_;    // of clusters
+  double travel_[2] = {0, 0};       // bound of how far two points have moved apart so far, m: owned ones; ghosts, too
+  double last_travel_[2] = {0, 0};  // of it in the last step, m
   Vector mean_step_ = Vector::Zero();   // of owned points, m
   double largest_step2_ = 0;            // of one of them against it, m²
   std::vector<double> whole_volume_;    // Σ V_j over the family at first, of owned points, m³

@@ -1,7 +1,8 @@
 #!/bin/sh
 # A Taylor impact, a fast one whose foot is subcycled, the same with points at the nodes of a graded mesh, also by
 # quadratic correspondence, a bar whose upper half is ordinary elastic below either formulation, and two bodies that
-# meet with friction, also so fast that they break, on 1, 2, 3 and 4 ranks: results and histories must be the same.
+# meet with friction, also so fast that they break, by stretch, failure or energy, on 1, 2, 3 and 4 ranks: results and
+# histories must be the same.
 #   invariance.sh strut strut-mesh strut-compare mpirun [its options]
 set -u
 strut=$1 mesh=$2 compare=$3
@@ -60,7 +61,7 @@ contact_section='<ParameterList name="Contact">
 
 # problem NAME: sets what deck() reads.
 problem() {
-  contact= damage= stabilization= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
+  contact= damage= crack= tip= stabilization= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
   case $1 in
     bar) mesh_type=Exodus mesh_file=bar.g sets= foot=foot blocks=$(block bar all copper) ;;
     fast)
@@ -71,7 +72,7 @@ problem() {
     cells)
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"' speed=200
       formulation="Quadratic Correspondence" blocks=$(block bar all copper) ;;
-    mixed | mixed-cells | meeting | breaking | tearing)
+    mixed | mixed-cells | meeting | breaking | tearing | snapping)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
@@ -88,6 +89,20 @@ problem() {
     return 0
   fi
   mesh_file=apart.txt contact=$contact_section viscosity=0.06
+  if [ $1 = snapping ]; then  # the upper one ordinary, with bonds that break by their energy
+    speed=100 damage='<Parameter name="Damage Model" type="string" value="by energy"/>'
+    crack='<ParameterList name="Cracks">
+      <ParameterList name="down">
+        <Parameter name="Direction" type="string" value="0 0 -1"/>
+        <Parameter name="Start" type="string" value="0 0 0.08"/>
+        <Parameter name="Damage" type="double" value="0.1"/>
+      </ParameterList>
+    </ParameterList>'
+    tip='<Parameter name="Crack_Tip(down)" type="bool" value="true"/>
+      <Parameter name="Crack_Speed(down)" type="bool" value="true"/>'
+    blocks=$(block upper block_2 steel true; damage=; block lower block_1 copper true)
+    return 0
+  fi
   blocks=$(block lower block_1 copper true; block upper block_2 steel true)
 }
 
@@ -135,6 +150,10 @@ deck() {
       <Parameter name="Damage Model" type="string" value="Critical Stretch"/>
       <Parameter name="Critical Stretch" type="double" value="0.02"/>
     </ParameterList>
+    <ParameterList name="by energy">
+      <Parameter name="Damage Model" type="string" value="Bond Energy"/>
+      <Parameter name="Fracture Energy" type="double" value="1.0e3"/>
+    </ParameterList>
     <ParameterList name="ductile">
       <Parameter name="Damage Model" type="string" value="Plastic Strain"/>
       <Parameter name="Failure Strain" type="double" value="0.02"/>
@@ -177,7 +196,9 @@ $blocks
   <ParameterList name="History">
     <Parameter name="Filename" type="string" value="$1.csv"/>
     <Parameter name="Frequency" type="int" value="10"/>
+    $crack
     <ParameterList name="Variables">
+      $tip
       <Parameter name="Max_Displacement" type="bool" value="true"/>
       <Parameter name="Max_Equivalent_Plastic_Strain" type="bool" value="true"/>
       <Parameter name="Max_Von_Mises_Stress" type="bool" value="true"/>
@@ -193,7 +214,7 @@ END
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
-for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing; do
+for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing snapping; do
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml
@@ -207,7 +228,7 @@ for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing; do
       echo "FAILED: no point of the bar $name is subcycled"
       exit 1
     fi
-    if { [ $name = breaking ] || [ $name = tearing ]; } && ! grep -q 'bonds broke' log; then
+    if { [ $name = breaking ] || [ $name = tearing ] || [ $name = snapping ]; } && ! grep -q 'bonds broke' log; then
       echo "FAILED: no bond broke"
       exit 1
     fi

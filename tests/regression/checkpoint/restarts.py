@@ -154,22 +154,27 @@ def cells():
 
 
 def breaking():
-    """The same, with bonds that break."""
+    """The same, with bonds that break: those of the copper by their stretch, of the steel by their energy, which the history follows."""
     text = "\n".join(cells()).replace("cells.", "breaking.")
-    material = '<Parameter name="Material" '
+    material, steel = '<Parameter name="Material" ', '<Parameter name="Material" type="string" value="steel"'
     text = text.replace(material, keys(Damage_Model="brittle") + material)
-    return [text, section("Damage Models", section("brittle", keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)))]
+    text = text.replace(keys(Damage_Model="brittle") + steel, keys(Damage_Model="by energy") + steel)
+    models = [section("brittle", keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)),
+              section("by energy", keys(Damage_Model="Bond Energy", Fracture_Energy=200.0))]
+    crack = section("Cracks", section("up", keys(Direction="0 0 1", Damage=0.1)))
+    columns = '<ParameterList name="Variables">'
+    text = text.replace(columns, crack + columns + "".join(
+        f'<Parameter name="{name}(up)" type="bool" value="true"/>' for name in ("Crack_Tip", "Crack_Speed")))
+    return [text, section("Damage Models", *models)]
 
 
 def tearing():
     """The same with points that fail, by correspondence."""
-    text, model = breaking()
+    text = breaking()[0]
     text = text.replace('"Quadratic Correspondence"/>', '"Correspondence"/>' + keys(Stabilization="Silling"))
-    stretch = keys(Damage_Model="Critical Stretch", Critical_Stretch=0.02)
     strain = keys(Damage_Model="Plastic Strain", Failure_Strain=0.02, Fracture_Energy=10e3)
-    of_steel = '<Parameter name="Material" type="string" value="steel"'
-    text = text.replace(keys(Damage_Model="brittle") + of_steel, of_steel).replace("breaking.", "tearing.")
-    return [text, model.replace(stretch, strain)]
+    text = text.replace(keys(Damage_Model="by energy"), "").replace("breaking.", "tearing.")
+    return [text, section("Damage Models", section("brittle", strain))]
 
 
 SCENES = {"impact": impact, "press": press, "cells": cells, "breaking": breaking, "tearing": tearing}

@@ -278,6 +278,22 @@ TEST_F(Mistake, UnknownReactions) {
   }
 }
 
+TEST_F(Mistake, CracksOfTheHistory) {
+  const auto with = [](const std::string& name, const std::string& keys) {
+    Parts parts = right_parts();
+    parts.history = key("Filename", "@/history.csv") + section("Cracks", section("notch", keys)) +
+                    section("Variables", key(name, "true"));
+    return parts.text();
+  };
+  expect_error(with("Crack_Tip(nick)", ""), {"History > Variables > Crack_Tip(nick): 'nick' is no section of History > "
+                                             "Cracks; there are notch"});
+  expect_error(with("Crack_Tip(notch)", ""), {"History > Cracks > notch: no bonds can break here"});
+  expect_error(with("Crack_Sped(notch)", ""), {"expected one of Crack_Tip, Crack_Speed (did you mean 'Crack_Speed'?)"});
+  expect_error(with("Crack_Tip(notch)", key("Direction", "0 0 0")),
+               {"History > Cracks > notch > Direction: is zero; expected a direction"});
+  expect_error(with("Crack_Tip(notch)", key("Rows", "1")), {"History > Cracks > notch > Rows: '1'; expected"});
+}
+
 // What a run has written is lost only to a run that begins.
 TEST_F(Mistake, LeavesEarlierResultsAlone) {
   const std::string deck = right_parts().text();

@@ -303,6 +303,34 @@ TEST(DeckOfPeridigm, DamageThatIsNotKnownIsRefused) {
           "Blocks > all of it > Damage Model: bonds cannot break with Solver > QuasiStatic");
 }
 
+// Ours, in the same deck.
+TEST(DeckOfPeridigm, BondEnergiesAreThoseOfOrdinarySolids) {
+  const DeckFolder folder;
+  const std::string stretch = "\"Critical Stretch\", Critical Stretch: 0.001";
+  const auto with = [&](const std::string& model) { return changed(fracturing, stretch, model); };
+  ASSERT_NE(with("x"), fracturing);
+  const DamageModel given = folder.read(with("\"Bond Energy\", Critical Bond Energy: 3.0e9")).damage_models[0].model;
+  EXPECT_EQ(given.critical_bond_energy, 3e9);
+  EXPECT_EQ(given.fracture_energy, 0);
+  EXPECT_FALSE(given.critical_stretch);
+  const DamageModel from = folder.read(with("\"Bond Energy\", Fracture Energy: 4.0")).damage_models[0].model;
+  EXPECT_TRUE(from.critical_bond_energy);
+  EXPECT_EQ(from.fracture_energy, 4);
+  const auto refused = [&](const std::string& text, const std::string& problem) {
+    const std::string error = folder.error(text);
+    EXPECT_NE(error.find("\n  " + problem), std::string::npos) << problem << "\nin " << error;
+  };
+  refused(with("\"Bond Energy\""),
+          "Damage Models > brittle > Critical Bond Energy: missing; expected a real number > 0, in J/m⁶, or 'Fracture "
+          "Energy' in its place");
+  refused(with("\"Bond Energy\", Fracture Energy: 4.0, Critical Bond Energy: 1.0"),
+          "Damage Models > brittle: 'Critical Bond Energy' and 'Fracture Energy' are both given");
+  const std::string growing = "\"Time Dependent Critical Stretch\", Time Dependent Critical Stretch: \"0.001 + t\"";
+  const std::string all = changed(fracturing, growing, "\"Bond Energy\", Fracture Energy: 4.0");
+  refused(changed(all, "\"Elastic\"", "\"Elastic Correspondence\", Stabilization: \"Silling\""),
+          "Blocks > all of it > Damage Model: bonds of material 'glass' cannot break by Damage Model 'Bond Energy'");
+}
+
 // Metals whose points fail: ours, in the same deck.
 TEST(DeckOfPeridigm, PointsThatFailAreThoseOfMetals) {
   const DeckFolder folder;
