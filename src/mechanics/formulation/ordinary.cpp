@@ -57,7 +57,10 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
       ordinary.energy = ordinary_energy(block, ordinary, squares[l]);
       MaterialPoint& point = body.points[group.i[l]];
       const Symmetric shape_inverse = present_shape_inverse(body, group.i[l]);
-      if (!(trace(shape_inverse) > 0)) continue;  // its neighbors do not span space
+      if (!(trace(shape_inverse) > 0)) {  // its neighbors do not span space: nothing is known of its strain
+        point = {};
+        continue;
+      }
       point.deformation_gradient = at(N, l) * to_tensor(shape_inverse);
       const Tensor R = polar_rotation(point.deformation_gradient);
       point.rotation = Rotation(R);
