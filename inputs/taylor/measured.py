@@ -5,7 +5,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/shared"))
-from strut_tools import history_of, install_missing, run_deck  # noqa: E402
+from strut_tools import history_of, install_missing, run_deck, seconds_of_phase  # noqa: E402
 
 install_missing({"numpy": "python3-numpy", "netCDF4": "python3-netcdf4", "matplotlib": "python3-matplotlib"})
 import netCDF4  # noqa: E402
@@ -119,9 +119,9 @@ def spacings(work):
         bar = Bar(work, "Zerilli-Armstrong", "cold", 295, 190, spacing)
         points = re.search(r"(\d+) points, \d+ bonds", bar.report).group(1)
         steps = re.search(r"(\d+) steps,", bar.report).group(1)
-        seconds = re.search(r"([\d.]+) s in all", bar.report)
+        seconds = seconds_of_phase(bar.report, "whole run")
         lines.append(f"| {1e3 * float(spacing):g} | {points} | {bar.length:.2f} | {bar.foot:.2f} | {bar.width:.2f} | "
-                     f"{steps} | {seconds.group(1) + ' s' if seconds else ''} |")
+                     f"{steps} | {seconds:.0f} s |")
     return lines
 
 
@@ -148,5 +148,5 @@ def draw(work, bars, path):
 
 def tables(work):
     lines, bars = cold(work)
-    draw(work, bars, HERE / "measured.png")
+    draw(work, bars, ROOT / "docs/taylor-measured.png")
     return "\n".join([*lines, "", *hot(work), "", *spacings(work)])
