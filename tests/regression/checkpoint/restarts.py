@@ -169,8 +169,12 @@ def breaking():
 
 
 def tearing():
-    """The same with points that fail, by correspondence."""
+    """The same with points that fail, by correspondence, of a metal that heats."""
     text = breaking()[0]
+    heating = section("Heating", keys(Specific_Heat=383.0))
+    yields = '<Parameter name="Yield Stress"'
+    assert yields in text
+    text = text.replace(yields, heating + yields)
     text = text.replace('"Quadratic Correspondence"/>', '"Correspondence"/>' + keys(Stabilization="Silling"))
     strain = keys(Damage_Model="Plastic Strain", Failure_Strain=0.02, Fracture_Energy=10e3)
     text = text.replace(keys(Damage_Model="by energy"), "").replace("breaking.", "tearing.")
