@@ -28,7 +28,7 @@ struct MieGruneisen {
   }
   template <class T>
   auto holds(const T& volume) const {
-    return 1 - slope * (1 - volume) > least;
+    return volume > 0 && 1 - slope * (1 - volume) > least;
   }
 };
 

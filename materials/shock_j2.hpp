@@ -34,7 +34,8 @@ struct ShockJ2 {
     StateOf<T> next = state;
     const T grown = growth(step), volume = state.volume * grown, scale = step.J / volume;
     const T expanded = scale * (volume - state.volume);  // of the reference volume, as the forces have it
-    if (metal.heating.capacity > 0) next.temperature -= energy_factor() * state.temperature * (volume - state.volume);
+    const T cooling = 0.5 * energy_factor() * (volume - state.volume);  // isentropic
+    if (metal.heating.capacity > 0) next.temperature *= (1 - cooling) / (1 + cooling);
     StressOf<T> result = metal.step(step, stress, next);
     const SymmetricOf<T> old = deviator(stress), s = deviator(result.stress);
     const T shear_work =
@@ -46,7 +47,7 @@ struct ShockJ2 {
     next.energy = state.energy + work + step.viscous_work;
     next.stored = state.stored + work - (next.plastic_work - state.plastic_work);
     for (int k = 0; k < 3; ++k) result.stress[k] = s[k] - pressure;
-    result.converged = result.converged && holds(volume) && is_finite(next.energy);
+    result.converged = result.converged && holds(volume) && is_finite(next.energy) && next.temperature >= 0;
     keep(result.converged, next, state);
     return result;
   }

@@ -93,9 +93,13 @@ const RealKey rate({.name = "Reference Rate", .unit = "1/s", .range = positive, 
 const RealKey p({.name = "P", .range = positive, .meaning = "p, of the shape of an obstacle."});
 const RealKey q({.name = "Q", .range = positive, .meaning = "q."});
 const RealKey slope({.name = "Hardening Modulus", .unit = "Pa", .range = positive, .meaning = "a₀."});
-const RealKey slope_log({.name = "Hardening Modulus of Log Rate", .unit = "Pa", .fallback = "0", .meaning = "a₁."});
-const RealKey slope_root(
-    {.name = "Hardening Modulus of Root Rate", .unit = "Pa √s", .fallback = "0", .meaning = "a₂."});
+const RealKey slope_log(
+    {.name = "Hardening Modulus of Log Rate", .unit = "Pa", .range = not_negative, .fallback = "0", .meaning = "a₁."});
+const RealKey slope_root({.name = "Hardening Modulus of Root Rate",
+                          .unit = "Pa √s",
+                          .range = not_negative,
+                          .fallback = "0",
+                          .meaning = "a₂."});
 const RealKey curvature({.name = "Curvature", .range = positive, .meaning = "α."});
 const RealKey saturation({.name = "Saturation Threshold", .unit = "Pa", .range = positive, .meaning = "σ̂_s0."});
 const RealKey saturation_energy({.name = "Saturation Energy", .range = positive, .meaning = "g_s0, in μ b³."});
@@ -120,6 +124,14 @@ ThermalFlow make_threshold(const Values& v) {
                              .saturation = v[saturation],
                              .saturation_energy = v[saturation_energy],
                              .saturation_rate = v[saturation_rate]};
+}
+
+// It hardens at the slowest rate that counts, too.
+void check_threshold(const Values& v, Problems& problems) {
+  using namespace threshold;
+  if (v.chosen() != "Mechanical Threshold" || !v.has(slope) || !v.has(slope_log) || !v.has(slope_root)) return;
+  if (v[slope] + v[slope_log] * std::log(slowest_rate) + v[slope_root] * std::sqrt(slowest_rate) > 0) return;
+  problems.add(v.path_to(slope), "a₀ + a₁ ln ε̇ + a₂ √ε̇ is not positive at 1e-3 /s; expected a larger one");
 }
 
 // ---- All ------------------------------------------------------------------------------------------------------------
@@ -152,7 +164,11 @@ const std::vector<FlowEntry>& flows() {
   return entries;
 }
 
-bool is_product(const Values& material) { return material.section(flow_name).chosen() == flows().front().schema.name; }
+// Also where the form itself is among the problems.
+bool is_product(const Values& material) {
+  const std::string form = material.section(flow_name).chosen();
+  return form.empty() || form == flows().front().schema.name;
+}
 
 }  // namespace
 
@@ -173,6 +189,7 @@ ThermalFlow make_thermal_flow(const Values& material, Problems& problems) {
     return SoftenedFlow{make_flow_stress(material, problems), make_one_of(softenings(), softening)};
   }
   refuse_flow_stress(material, flow.chosen(), problems);
+  check_threshold(flow, problems);
   if (material.has_section(softening_name)) {
     problems.add(material.path() + " > " + softening_name,
                  "given, but Flow Stress has the Type '" + flow.chosen() + "'; expected no section Softening");

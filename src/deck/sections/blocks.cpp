@@ -126,7 +126,8 @@ void check_temperature(const Values& section, const Material& material, Problems
   if (!section.given(initial_temperature) || material.name.empty() || knows_temperature(material)) return;
   problems.add(section.path_to(initial_temperature),
                "given, but material '" + material.name +
-                   "' does not depend on it; expected one with Softening, another Flow Stress, Heating or a Shear "
+                   "' does not depend on it; expected one with Softening, another Flow Stress, Heating, an Equation of "
+                   "State or a Shear "
                    "Modulus Slope");
 }
 
@@ -164,6 +165,12 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
     problems.add(section.path_to(damage_model),
                  "points of material '" + material.name + "' cannot fail by model '" + models[found].name +
                      "': expected the Material Model 'Elastic Plastic Correspondence' without an Equation of State");
+  }
+  if (std::holds_alternative<materials::ShockJ2>(material.law) && !model.ductility) {
+    problems.add(section.path_to(damage_model),
+                 "bonds of material '" + material.name +
+                     "' cannot break: it has an Equation of State, and what its points "
+                     "hold is not known once they carry no stress; expected one without");
   }
   if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
     problems.add(section.path_to(damage_model),

@@ -29,7 +29,6 @@ struct Plate {
       Influence::one, {density, fluid(), MeanGradientStabilization{1}, Formulation::correspondence, {0.5, 1.5}}};
   Body body = lattice_body(spec, world);
   Conditions conditions;
-  double largest_balance_error = 0;
 
   explicit Plate(double speed) {
     std::vector<int> all(body.owned()), wall;
