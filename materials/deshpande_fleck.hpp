@@ -46,8 +46,7 @@ struct DeshpandeFleck {
   PointStress step(const PointStep& step, const Symmetric& stress, State& state) const {
     if (state.failed > 0) return {Symmetric::Zero(), std::isfinite(step.J)};
     const Moduli now = moduli(state);
-    const Elastic elastic{now.bulk, now.shear};
-    const Symmetric trial = elastic_trial(step, stress, elastic.bulk, elastic.shear);
+    const Symmetric trial = elastic_trial(step, stress, now.bulk, now.shear);
     const Invariants at{trace(trial) / 3, von_mises(trial)};
     const double equivalent = this->equivalent(at);
     if (!std::isfinite(equivalent + step.J)) return {trial, false};

@@ -1,7 +1,6 @@
 #include "materials/ductile.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "materials/step_work.hpp"
 
@@ -61,15 +60,9 @@ void DuctileOf<Metal>::soften_lane(int l, const StepOf<RawLanes>& step, const Sy
   Symmetric old;
   for (int c = 0; c < 6; ++c) of_one.rate[c] = step.rate[c][l], of_one.stretch[c] = step.stretch[c][l];
   for (int c = 0; c < 6; ++c) old[c] = stress[c][l];
-  const auto lanes = std::bit_cast<std::array<RawLanes, state_names.size()>>(state);
-  std::array<double, state_names.size()> columns;
-  for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = lanes[c][l];
-  State one = std::bit_cast<State>(columns);
+  State one = lane_of<State>(state, l);
   const auto [reached, converged] = soften(of_one, old, one);
-  columns = std::bit_cast<decltype(columns)>(one);
-  auto all = std::bit_cast<std::array<RawLanes, state_names.size()>>(next);
-  for (std::size_t c = 0; c < columns.size(); ++c) all[c][l] = columns[c];
-  next = std::bit_cast<StateOf<RawLanes>>(all);
+  set_lane(next, l, one);
   for (int c = 0; c < 6; ++c) result.stress[c][l] = reached[c];
   result.converged[l] = converged ? -1 : 0;
 }

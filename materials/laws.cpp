@@ -1,4 +1,5 @@
-// Every law of the variant keeps the contract; a law that does not stops the build here.
+// Every law of the variant keeps the contract; a law that does not stops the build here. And which law a metal has once
+// it may fail.
 #include "materials/laws.hpp"
 
 namespace strut::materials {
@@ -8,5 +9,11 @@ constexpr bool all_keep_the_contract(const std::variant<Laws...>*) {
   return (Law<Laws> && ...);
 }
 static_assert(all_keep_the_contract(static_cast<const AnyLaw*>(nullptr)));
+
+std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility) {
+  if (const auto* cold = std::get_if<J2>(&metal)) return Ductile{*cold, ductility};
+  if (const auto* hot = std::get_if<ThermalJ2>(&metal)) return ThermalDuctile{*hot, ductility};
+  return std::nullopt;
+}
 
 }  // namespace strut::materials

@@ -1,6 +1,7 @@
 // Public header of materials: every law, and the variant that a block holds.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "materials/deshpande_fleck.hpp"
@@ -15,5 +16,8 @@
 namespace strut::materials {
 
 using AnyLaw = std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>;
+
+// The law of a metal whose points may fail; nothing where none is known.
+std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);
 
 }  // namespace strut::materials

@@ -48,7 +48,7 @@ struct ShockJ2 {
     next.stored = state.stored + work - (next.plastic_work - state.plastic_work);
     for (int k = 0; k < 3; ++k) result.stress[k] = s[k] - pressure;
     result.converged = result.converged && holds(volume) && is_finite(next.energy) && next.temperature >= 0;
-    keep(result.converged, next, state);
+    state = chosen(result.converged, next, state);
     return result;
   }
 
@@ -92,19 +92,6 @@ struct ShockJ2 {
     const T cold = std::visit([&volume](const auto& law) -> T { return law.cold(volume).value; }, equation);
     const double gamma = energy_factor();
     return (cold + gamma * (energy - 0.5 * before * expanded)) / (1 + 0.5 * gamma * expanded);
-  }
-
-  template <class T>
-  static void keep(const MaskOf<T>& where, const StateOf<T>& next, StateOf<T>& state) {
-    if constexpr (std::is_same_v<T, double>) {
-      if (where) state = next;
-    } else {
-      using Columns = std::array<T, state_names.size()>;
-      const auto reached = std::bit_cast<Columns>(next);
-      auto columns = std::bit_cast<Columns>(state);
-      for (std::size_t c = 0; c < columns.size(); ++c) columns[c] = where ? reached[c] : columns[c];
-      state = std::bit_cast<StateOf<T>>(columns);
-    }
   }
 };
 

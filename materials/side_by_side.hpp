@@ -4,6 +4,8 @@
 // place.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
@@ -38,6 +40,41 @@ inline RawLanes exp(const RawLanes& x) { return small::raw(small::lanes(x).exp()
 inline RawLanes log(const RawLanes& x) { return small::raw(small::lanes(x).log()); }
 inline RawLanes sqrt(const RawLanes& x) { return small::raw(small::lanes(x).sqrt()); }
 inline RawLanes expm1(const RawLanes& x) { return exp(x) - 1; }  // near 0 good to round-off of 1
+
+// A struct of such numbers alone, as a law's state is, as an array of them.
+template <class T, class S>
+auto numbers_in(const S& all) {
+  return std::bit_cast<std::array<T, sizeof(S) / sizeof(T)>>(all);
+}
+
+// `one` where the mask is set, else `other`.
+template <class S>
+S chosen(bool where, const S& one, const S& other) {
+  return where ? one : other;
+}
+template <class S>
+S chosen(const Mask& where, const S& one, const S& other) {
+  const auto from = numbers_in<RawLanes>(one);
+  auto to = numbers_in<RawLanes>(other);
+  for (std::size_t c = 0; c < to.size(); ++c) to[c] = where ? from[c] : to[c];
+  return std::bit_cast<S>(to);
+}
+
+// Of one lane, as the same struct of doubles; and back.
+template <class One, class S>
+One lane_of(const S& all, int lane) {
+  const auto numbers = numbers_in<RawLanes>(all);
+  std::array<double, numbers.size()> of_lane;
+  for (std::size_t c = 0; c < numbers.size(); ++c) of_lane[c] = numbers[c][lane];
+  return std::bit_cast<One>(of_lane);
+}
+template <class One, class S>
+void set_lane(S& all, int lane, const One& one) {
+  auto numbers = numbers_in<RawLanes>(all);
+  const auto of_lane = numbers_in<double>(one);
+  for (std::size_t c = 0; c < numbers.size(); ++c) numbers[c][lane] = of_lane[c];
+  all = std::bit_cast<S>(numbers);
+}
 
 template <class T>
 T absolute(const T& x) {

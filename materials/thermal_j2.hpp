@@ -14,18 +14,20 @@
 
 namespace strut::materials {
 
+inline constexpr double room_temperature = 293;  // K, where a deck does not say another
+
 struct Heating {
-  double capacity = 0;       // ρ c_p of the reference state, J/(m³ K); 0: it stays as warm as it is
-  double plastic_share = 1;  // β
-  double initial = 293;      // T₀, K
+  double capacity = 0;                // ρ c_p of the reference state, J/(m³ K); 0: it stays as warm as it is
+  double plastic_share = 1;           // β
+  double initial = room_temperature;  // T₀, K
 };
 
 struct ThermalJ2 {
   double bulk = 0, shear = 0;  // K, μ_r, Pa
   ThermalFlow flow;
   Heating heating;
-  double shear_fall = 0, shear_reference = 293;  // a, 1/K; T_r, K
-  static constexpr double least_shear = 0.1;     // of μ_r
+  double shear_fall = 0, shear_reference = room_temperature;  // a, 1/K; T_r, K
+  static constexpr double least_shear = 0.1;                  // of μ_r
 
   template <class T>
   using StateOf = ThermalState<T>;
@@ -37,7 +39,8 @@ struct ThermalJ2 {
   StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, ThermalState<T>& state) const {
     const T before = state.plastic_work;
     StressOf<T> result = flowed(step, stress, state);
-    add_heat(heating.plastic_share * (state.plastic_work - before) + step.viscous_work, step.J, state, result);
+    if (!(heating.capacity > 0)) return result;
+    warm(rise(T(state.plastic_work - before), step.viscous_work), step.J, state, result);
     return result;
   }
 
@@ -50,8 +53,10 @@ struct ThermalJ2 {
   bool has_flowed(const State& state) const { return state.equivalent_plastic_strain > 0; }
   double dissipation(const State& state) const { return state.plastic_work; }
   // K, by so much plastic work and viscous heat, J per m³ of reference volume.
-  double rise(double plastic_work, double viscous_work) const {
-    return heating.capacity > 0 ? (heating.plastic_share * plastic_work + viscous_work) / heating.capacity : 0;
+  template <class T>
+  T rise(const T& plastic_work, const T& viscous_work) const {
+    if (!(heating.capacity > 0)) return T{};
+    return (heating.plastic_share * plastic_work + viscous_work) / heating.capacity;
   }
   double heat(const State& state) const { return heating.capacity * (state.temperature - heating.initial); }
   double equivalent_stress(const Symmetric& stress, const State&) const { return von_mises(stress); }
@@ -72,19 +77,16 @@ struct ThermalJ2 {
         [&](const auto& law) {
           const auto now = law.at(state, step.rate);
           const StressOf<T> result = RadialReturn<T, decltype(now)>(now, bulk, mu).step(step, stress, state);
-          if constexpr (requires { now.threshold_at(mu); }) {
-            state.threshold = now.threshold_at(state.equivalent_plastic_strain).value;
-          }
+          const T& strain = state.equivalent_plastic_strain;
+          if constexpr (requires { now.threshold_at(strain); }) state.threshold = now.threshold_at(strain).value;
           return result;
         },
         flow);
   }
 
-  // J per m³ of reference volume.
   template <class T>
-  void add_heat(const T& heat, const T& J, ThermalState<T>& state, StressOf<T>& result) const {
-    if (!(heating.capacity > 0)) return;
-    const T warmer = state.temperature + heat / heating.capacity;
+  void warm(const T& by, const T& J, ThermalState<T>& state, StressOf<T>& result) const {
+    const T warmer = state.temperature + by;
     result.converged = result.converged && is_finite(warmer);
     const T next = result.converged ? warmer : state.temperature;
     if (shear_fall > 0) follow_modulus(T(relative_shear(next) / relative_shear(state.temperature)), J, state, result);

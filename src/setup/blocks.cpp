@@ -44,17 +44,14 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
   return deck.damage_models[*section.damage_model].model;
 }
 
-// The metal of a block whose points may fail is a law of its own.
-materials::AnyLaw failing(const materials::AnyLaw& metal, const materials::Ductility& ductility) {
-  if (const auto* hot = std::get_if<materials::ThermalJ2>(&metal)) return materials::ThermalDuctile{*hot, ductility};
-  return materials::Ductile{std::get<materials::J2>(metal), ductility};
-}
-
+// The metal of a block whose points may fail is a law of its own; the deck has been asked whether there is one.
 materials::AnyLaw law_of(const deck::Material& material, const deck::Block& section,
                          const std::optional<DamageModel>& damage) {
-  materials::AnyLaw law = damage && damage->ductility ? failing(material.law, *damage->ductility) : material.law;
+  materials::AnyLaw law =
+      damage && damage->ductility ? materials::failing(material.law, *damage->ductility).value() : material.law;
   const auto set_temperature = [&section]<class L>(L& one) {
-    if constexpr (materials::tells_heat<L>) one.set_initial_temperature(section.initial_temperature.value_or(293));
+    if constexpr (materials::tells_heat<L>)
+      one.set_initial_temperature(section.initial_temperature.value_or(materials::room_temperature));
   };
   std::visit(set_temperature, law);
   return law;

@@ -263,3 +263,34 @@ def put_into_page(page, name, body):
     """Replaces what stands between <!-- name --> and <!-- end --> in the file `page` (a pathlib.Path)."""
     pattern = re.compile(f"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
     page.write_text(pattern.sub(lambda m: m.group(1) + body + "\n" + m.group(2), page.read_text()))
+
+
+def run_parts(page, parts):
+    """Of a script that fills the tables of a page: those parts that its words name, or all. {name: what gives the text}"""
+    chosen = sys.argv[1:] or list(parts)
+    for name in chosen:
+        if name not in parts:
+            script = os.path.relpath(os.path.abspath(sys.argv[0]), ROOT)
+            sys.exit(f"{script}: there is no part '{name}'; there are {', '.join(parts)}")
+    for name in chosen:
+        put_into_page(page, name, parts[name]())
+
+
+def percent(value, known, digits=1):
+    """By how much a value is off, signed."""
+    return f"{100 * (value / known - 1):+.{digits}f} %"
+
+
+def names_in(file, variable):
+    """The names that an Exodus file, opened by netCDF4, lists under `variable`."""
+    from numpy import ma
+
+    return [ma.filled(row, b"\0").tobytes().split(b"\0")[0].decode() for row in file[variable][:]]
+
+
+def field_in(file, name):
+    """A field of a result, frame by frame: of its nodes, or of the elements of its first block."""
+    nodal = names_in(file, "name_nod_var")
+    if name in nodal:
+        return file[f"vals_nod_var{nodal.index(name) + 1}"]
+    return file[f"vals_elem_var{names_in(file, 'name_elem_var').index(name) + 1}eb1"]

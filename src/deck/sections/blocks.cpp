@@ -107,11 +107,6 @@ void check_stabilizations(const std::vector<Block>& all, const std::vector<Mater
   }
 }
 
-// Whether a ductile failure is known for it.
-bool can_fail(const materials::AnyLaw& law) {
-  return std::holds_alternative<materials::J2>(law) || std::holds_alternative<materials::ThermalJ2>(law);
-}
-
 bool asks_for_temperature(const DamageModel& model) {
   const auto* johnson_cook =
       model.ductility ? std::get_if<materials::JohnsonCookFailure>(&model.ductility->criterion) : nullptr;
@@ -127,8 +122,7 @@ void check_temperature(const Values& section, const Material& material, Problems
   problems.add(section.path_to(initial_temperature),
                "given, but material '" + material.name +
                    "' does not depend on it; expected one with Softening, another Flow Stress, Heating, an Equation of "
-                   "State or a Shear "
-                   "Modulus Slope");
+                   "State or a Shear Modulus Slope");
 }
 
 // Of a bond the energy is known where both ends are ordinary.
@@ -154,16 +148,13 @@ void check_bond_energies(const std::vector<Block>& all, const std::vector<Materi
   }
 }
 
-std::optional<int> find_damage_model(const Values& section, const Material& material,
-                                     const std::vector<NamedDamageModel>& models, Problems& problems) {
-  if (!section.has(damage_model)) return std::nullopt;
-  const int found = find_named(section, damage_model, *section[damage_model], models, "Damage Models", problems);
-  if (found >= static_cast<int>(models.size())) return found;
-  const DamageModel& model = models[found].model;
+void check_damage_model(const Values& section, const Material& material, const NamedDamageModel& named,
+                        Problems& problems) {
+  const DamageModel& model = named.model;
   const bool is_known = !material.name.empty();
-  if (is_known && model.ductility && !can_fail(material.law)) {
+  if (is_known && model.ductility && !materials::failing(material.law, *model.ductility)) {
     problems.add(section.path_to(damage_model),
-                 "points of material '" + material.name + "' cannot fail by model '" + models[found].name +
+                 "points of material '" + material.name + "' cannot fail by model '" + named.name +
                      "': expected the Material Model 'Elastic Plastic Correspondence' without an Equation of State");
   }
   if (std::holds_alternative<materials::ShockJ2>(material.law) && !model.ductility) {
@@ -174,15 +165,22 @@ std::optional<int> find_damage_model(const Values& section, const Material& mate
   }
   if (is_known && asks_for_temperature(model) && !knows_temperature(material)) {
     problems.add(section.path_to(damage_model),
-                 "'" + models[found].name + "' has D5, but material '" + material.name +
+                 "'" + named.name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");
   }
   if (material.formulation == Formulation::quadratic && model.fracture_energy > 0 && !model.critical_bond_energy) {
     problems.add(section.path_to(damage_model),
-                 "model '" + models[found].name +
+                 "model '" + named.name +
                      "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic "
                      "Correspondence'; expected one with a Critical Stretch");
   }
+}
+
+std::optional<int> find_damage_model(const Values& section, const Material& material,
+                                     const std::vector<NamedDamageModel>& models, Problems& problems) {
+  if (!section.has(damage_model)) return std::nullopt;
+  const int found = find_named(section, damage_model, *section[damage_model], models, "Damage Models", problems);
+  if (found < static_cast<int>(models.size())) check_damage_model(section, material, models[found], problems);
   return found;
 }
 
