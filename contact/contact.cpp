@@ -39,9 +39,12 @@ Contact::Contact(const std::vector<Interaction>& interactions, const Domain& dom
   for (const Interaction& interaction : interactions) {
     const auto [first, second, model] = interaction;
     const bool one_body = domain.blocks[first].body == domain.blocks[second].body;
-    BlockPair blocks{first, second, one_body, points_of(domain, first, second)};
+    const bool by_surfaces = std::holds_alternative<SurfaceLaw>(model.law);
+    BlockPair blocks{first, second, one_body, by_surfaces, points_of(domain, first, second)};
     const double horizon = std::min(domain.blocks[first].smallest, domain.blocks[second].smallest);
     contact_pairs_.push_back({model, std::move(blocks), skin_share / 2 * horizon});
+    ContactPair& added = contact_pairs_.back();
+    if (by_surfaces) added.surfaces.emplace(domain, added.blocks, std::get<SurfaceLaw>(model.law));
   }
 }
 
@@ -51,6 +54,7 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
   contact_pair.pairs = find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins);
+  if (contact_pair.surfaces) contact_pair.surfaces->take(kinematics.domain, blocks, contact_pair.pairs);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
@@ -115,8 +119,17 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& c
   static Teuchos::Time& timer = phase("Contact forces");
   const Timed timed(timer);
   const Model& model = contact_pair.model;
-  contact_pair.result = add_normal_forces(kinematics, model.law, pairs, force_density);
-  if (model.friction > 0 && dt > 0) add_friction(kinematics, model, dt, pairs, force_density, contact_pair.friction);
+  const bool rubs = model.friction > 0 && dt > 0;
+  std::vector<Vector>& friction = contact_pair.friction;
+  if (Surfaces* surfaces = contact_pair.surfaces ? &*contact_pair.surfaces : nullptr) {
+    const auto& law = std::get<SurfaceLaw>(model.law);
+    contact_pair.result = surfaces->add_normal_forces(kinematics, law, pairs, force_density);
+    if (rubs) surfaces->add_friction(kinematics, model.friction, dt, pairs, force_density, friction);
+  } else {
+    const auto& law = std::get<PairLaw>(model.law);
+    contact_pair.result = add_normal_forces(kinematics, law, pairs, force_density);
+    if (rubs) contact::add_friction(kinematics, law, model.friction, dt, pairs, force_density, friction);
+  }
 }
 
 void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
@@ -129,13 +142,22 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Ve
 void Contact::add_stiffness(std::span<const Vector> field, std::span<Vector> result) {
   for (ContactPair& contact_pair : contact_pairs_) {
     if (contact_pair.pairs.empty() && !contact_pair.pairs.halo) continue;
-    contact::add_stiffness(contact_pair.model.law, contact_pair.pairs, field, result);
+    if (contact_pair.surfaces) {
+      contact_pair.surfaces->add_stiffness(contact_pair.pairs, field, result);
+    } else {
+      contact::add_stiffness(std::get<PairLaw>(contact_pair.model.law), contact_pair.pairs, field, result);
+    }
   }
 }
 
 void Contact::add_springs(std::span<Tensor> springs) const {
-  for (const ContactPair& contact_pair : contact_pairs_)
-    contact::add_springs(contact_pair.model.law, contact_pair.pairs, springs);
+  for (const ContactPair& contact_pair : contact_pairs_) {
+    if (contact_pair.surfaces) {
+      contact_pair.surfaces->add_springs(contact_pair.pairs, springs);
+    } else {
+      contact::add_springs(std::get<PairLaw>(contact_pair.model.law), contact_pair.pairs, springs);
+    }
+  }
 }
 
 void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const {

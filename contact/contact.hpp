@@ -2,6 +2,7 @@
 // the forces of those that touch, and says what this costs the step and the ledger.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "contact/forces.hpp"
 #include "contact/search/pairs.hpp"
 #include "contact/search/skin_distances.hpp"
+#include "contact/surfaces.hpp"
 
 namespace strut::contact {
 
@@ -26,6 +28,7 @@ struct FrictionWork {
 class Contact {
  public:
   Contact() = default;  // none: every call is free
+  // Collective. Of bodies where they stand at first.
   Contact(const std::vector<Interaction>& interactions, const Domain& domain);
 
   bool any() const { return !contact_pairs_.empty(); }
@@ -67,6 +70,7 @@ class Contact {
     Model model;
     BlockPair blocks;
     double skin = 0;  // the usual skin distance of a point, m
+    std::optional<Surfaces> surfaces = {};  // where the model is one of surfaces
     // As of the last search.
     Frame frame = {};
     std::vector<Vector> places = {};  // of blocks.points, m

@@ -2,25 +2,15 @@
 // equal and opposite to the last bit at the two ends of a pair.
 #include "contact/forces.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/friction.hpp"
 
 namespace strut::contact {
 
 namespace {
-
-constexpr int site_stride = sizeof(Site) / sizeof(double);
-
-void bring_to_present(const Kinematics& kinematics, Pairs& pairs) {
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k)
-    pairs.sites[k].current = kinematics.domain.sites[pairs.owned[k]].current;
-  if (!pairs.halo) return;
-  double* places = pairs.sites.empty() ? nullptr : pairs.sites.data()->current.data();
-  pairs.halo->exchange(places, site_stride, 3);
-}
 
 // Pairs that are just at the distance at which they touch, as bodies with a common face are at the start, count as
 // touching: their stiffness belongs into the first step.
@@ -102,12 +92,6 @@ Vector surface_normal(const Slider& here, const Slider& there, const Vector& dir
   return length > 1e-6 ? Vector(difference / length) : direction;
 }
 
-// Of a positive semidefinite tensor, where it is above `floor`: it is at most the trace.
-double largest_eigenvalue(const Tensor& springs, double floor) {
-  if (!(springs.trace() > floor)) return 0;
-  return Eigen::SelfAdjointEigenSolver<Tensor>(springs, Eigen::EigenvaluesOnly).eigenvalues()[2];
-}
-
 template <ContactLaw L>
 ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>& force_density) {
   ForceResult result;
@@ -149,7 +133,7 @@ std::vector<Vector> friction_forces(const Kinematics& kinematics, const L& law, 
 
 // Calls visit(k, partner, n, stiffness) for the touching pairs, k of the points pairs.owned.
 template <class Visit>
-void for_each_spring(const Law& law, const Pairs& pairs, const Visit& visit) {
+void for_each_spring(const PairLaw& law, const Pairs& pairs, const Visit& visit) {
   std::visit(
       [&](const auto& one) {
         for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
@@ -162,27 +146,26 @@ void for_each_spring(const Law& law, const Pairs& pairs, const Visit& visit) {
 
 }  // namespace
 
-ForceResult add_normal_forces(const Kinematics& kinematics, const Law& law, Pairs& pairs,
+ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, Pairs& pairs,
                               std::vector<Vector>& force_density) {
   bring_to_present(kinematics, pairs);
   return std::visit([&](const auto& one) { return normal_forces(one, pairs, force_density); }, law);
 }
 
-void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
+void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
                   std::vector<Vector>& force_density, std::vector<Vector>& friction) {
-  friction = std::visit([&](const auto& law) { return friction_forces(kinematics, law, model.friction, dt, pairs); },
-                        model.law);
+  friction = std::visit([&](const auto& one) { return friction_forces(kinematics, one, coefficient, dt, pairs); }, law);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k)
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
 }
 
-void add_springs(const Law& law, const Pairs& pairs, std::span<Tensor> springs) {
+void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> springs) {
   for_each_spring(law, pairs, [&](std::size_t k, int, const Vector& n, double stiffness) {
     springs[pairs.owned[k]] += stiffness * n * n.transpose();
   });
 }
 
-void add_stiffness(const Law& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
+void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
   std::vector<Vector> values(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) values[k] = field[pairs.owned[k]];
   if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(values.data()), 3, 3);

@@ -1,4 +1,4 @@
-// The forces of the pairs that a search has found.
+// The forces of the pairs of points that a search has found.
 #pragma once
 
 #include <vector>
@@ -32,19 +32,19 @@ struct ForceResult {
 };
 
 // Collective. Brings the pairs to the present places and adds their normal forces to force_density (N/m³).
-ForceResult add_normal_forces(const Kinematics& kinematics, const Law& law, Pairs& pairs,
+ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, Pairs& pairs,
                               std::vector<Vector>& force_density);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
 // pairs.owned[k] (N), so that its work can be counted. dt: the length of the step (s).
-void add_friction(const Kinematics& kinematics, const Model& model, double dt, Pairs& pairs,
+void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
                   std::vector<Vector>& force_density, std::vector<Vector>& friction);
 
 // Collective, after add_normal_forces. Adds the tangent stiffness of the touching pairs, times a field of the body's
 // owned points, to result (N/m times the field's unit). The turning of a pair's direction is left out.
-void add_stiffness(const Law& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);
+void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result);
 
 // Of each owned point alone, N/m.
-void add_springs(const Law& law, const Pairs& pairs, std::span<Tensor> springs);
+void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> springs);
 
 }  // namespace strut::contact

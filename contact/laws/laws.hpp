@@ -5,14 +5,17 @@
 
 #include "contact/laws/hertz.hpp"
 #include "contact/laws/penalty.hpp"
+#include "contact/laws/surface.hpp"
 
 namespace strut::contact {
 
-using Law = std::variant<PenaltyLaw, HertzLaw>;
+using PairLaw = std::variant<PenaltyLaw, HertzLaw>;  // of two points
+using Law = std::variant<PairLaw, SurfaceLaw>;
 
-// r_c, m.
+// No two points touch from farther than this, m.
 inline double radius_of(const Law& law) {
-  return std::visit([](const ContactLaw auto& one) { return one.radius; }, law);
+  if (const auto* surface = std::get_if<SurfaceLaw>(&law)) return surface->radius;
+  return std::visit([](const ContactLaw auto& one) { return one.radius; }, std::get<PairLaw>(law));
 }
 
 // What two blocks do to each other where they touch.

@@ -39,8 +39,9 @@ struct Criterion {
 
   bool within_reach(const Candidate& a, const Candidate& b) const {
     const double apart = (reference(b) - reference(a)).norm();
-    const double reach =
-        largest_touching_distance(radius, apart, blocks.one_body) + (a.skin + b.skin);  // the same from both
+    const bool anywhere = blocks.by_surfaces && !blocks.one_body;
+    const double touching = anywhere ? radius : largest_touching_distance(radius, apart, blocks.one_body);
+    const double reach = touching + (a.skin + b.skin);  // the same from both
     return (place(b) - place(a)).squaredNorm() <= reach * reach;
   }
 };

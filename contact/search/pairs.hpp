@@ -21,6 +21,7 @@ struct Kinematics {
 struct BlockPair {
   int first = 0, second = 0;  // blocks; the same: a block that touches itself
   bool one_body = false;      // the blocks are bonded to each other where they are near
+  bool by_surfaces = false;   // they touch at their surfaces, however near each other their points were at first
   std::vector<int> points;    // owned, of either block, ascending
 
   bool self() const { return first == second; }
@@ -39,5 +40,8 @@ struct Pairs {
 
   bool empty() const { return owned.empty(); }
 };
+
+// Collective. Sets the places of the sites.
+void bring_to_present(const Kinematics& kinematics, Pairs& pairs);
 
 }  // namespace strut::contact

@@ -43,4 +43,18 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
   return interactions;
 }
 
+void set_surface_laws(const Body& body, std::vector<contact::Interaction>& interactions) {
+  const auto modulus = [&body](int block) {
+    return std::visit([](const auto& law) { return law.moduli().longitudinal(); }, body.blocks[block].material.law);
+  };
+  for (contact::Interaction& one : interactions) {
+    auto* law = std::get_if<contact::SurfaceLaw>(&one.model.law);
+    if (!law) continue;
+    const double a = body.domain.blocks[one.first].spacing, b = body.domain.blocks[one.second].spacing;
+    law->modulus = 2 / (1 / modulus(one.first) + 1 / modulus(one.second));
+    law->radius = contact::reach_in_spacings * std::max(a, b);
+    law->spacing = 0.5 * (a + b);
+  }
+}
+
 }  // namespace strut

@@ -54,7 +54,8 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
   add_conditions(deck, scene, communicator);
-  const std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
+  std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
+  set_surface_laws(scene.body, interactions);
   scene.contact = contact::Contact(interactions, scene.body.domain);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   scene.warnings += thin_members(scene.body);

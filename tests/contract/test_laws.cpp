@@ -450,6 +450,14 @@ std::vector<PointStep> path_to_nan(int seed) {
   return path;
 }
 
+// What round-off leaves of a stress after some steps, Pa, if it is not a sum of increments: an equation of state takes
+// the pressure from the volume, which is near 1 and is rounded a few times in each step.
+template <Law L>
+double round_off_of_pressure(const L& law, std::size_t steps) {
+  if constexpr (!std::is_same_v<L, ShockJ2>) return 0;
+  return 4 * std::numeric_limits<double>::epsilon() * static_cast<double>(steps) * law.moduli().bulk;
+}
+
 // As one by one: both solve to 1e-12 of the trial stress from the same iterates; an error of it stands in numbers of
 // the state that may be small beside what they were before, as in IsIsotropic.
 TEST_P(LawTest, PointsSideBySideAreAsOneByOne) {
@@ -477,7 +485,8 @@ TEST_P(LawTest, PointsSideBySideAreAsOneByOne) {
               EXPECT_NEAR(found[6 + c], columns[c], 1e-9 * largest[l][c]) << L::state_names[c];
             }
             if (!converged[l]) continue;
-            for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], points[l].stress[c], 1e-12 * trial);
+            const double tolerance = 1e-12 * trial + round_off_of_pressure(law, n + 1);
+            for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[c], points[l].stress[c], tolerance);
           }
         }
       }

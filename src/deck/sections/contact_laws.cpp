@@ -19,7 +19,7 @@ const RealKey penalty({.name = "Spring Constant", .unit = "Pa", .range = positiv
 Section short_range_force() {
   return {.name = "Short Range Force",
           .meaning = "f = K_c (r_c − d) V₁ V₂ with K_c = 18 K_p/(π δ⁵), d the distance, δ the horizon.",
-          .keys = {penalty}};
+          .keys = {radius, penalty}};
 }
 
 contact::Law make_penalty(const Values& model) {
@@ -36,11 +36,37 @@ Section hertz() {
           .meaning =
               "Elastic spheres: f = 4/3 E* √R* (r_c − d)^(3/2) with 1/R* = 1/R₁ + 1/R₂, R half the edge of a "
               "cube with the volume of the point, d the distance.",
-          .keys = {effective_modulus}};
+          .keys = {radius, effective_modulus}};
 }
 
 contact::Law make_hertz(const Values& model) {
   return contact::HertzLaw{.radius = model[radius], .effective_modulus = model[effective_modulus]};
+}
+
+const RealKey stiffness_factor(
+    {.name = "Stiffness Factor",
+     .range = positive,
+     .fallback = "0.25",
+     .meaning = "The stiffness of two faces in contact, in that of a layer of the bodies one spacing thick: under a "
+                "pressure p they overlap by p/(factor M) spacings, M the modulus of longitudinal waves. With 0.25 the "
+                "critical time step is hardly smaller, and a pressure of 0.1 % of M makes 0.4 % of a spacing."});
+
+const RealKey largest_overlap(
+    {.name = "Largest Overlap",
+     .unit = "spacings",
+     .range = {.low = 0, .high = 1},
+     .fallback = "0",
+     .meaning = "The pressure grows without bound as the overlap comes near it. 0: there is no limit."});
+
+Section surface() {
+  return {.name = "Surface",
+          .meaning = "Smooth surfaces, where the cells of both bodies end; no constant to choose. A body touches where "
+                     "the smoothed share of the other one's material around its points exceeds that at a face.",
+          .keys = {stiffness_factor, largest_overlap}};
+}
+
+contact::Law make_surface(const Values& model) {
+  return contact::SurfaceLaw{.factor = model[stiffness_factor], .largest_overlap = model[largest_overlap]};
 }
 
 struct Entry {
@@ -49,7 +75,8 @@ struct Entry {
 };
 
 const std::vector<Entry>& entries() {
-  static const std::vector<Entry> all = {{short_range_force(), make_penalty}, {hertz(), make_hertz}};
+  static const std::vector<Entry> all = {
+      {surface(), make_surface}, {short_range_force(), make_penalty}, {hertz(), make_hertz}};
   return all;
 }
 
@@ -61,7 +88,7 @@ Key contact_law_key() {
           .hints = {{"Time-Dependent Short Range Force", "there are no coefficients that depend on time"}}};
 }
 
-std::vector<Key> contact_law_keys() { return {radius, friction}; }
+std::vector<Key> contact_law_keys() { return {friction}; }
 
 std::vector<Section> contact_law_cases() { return schemas_of(entries()); }
 

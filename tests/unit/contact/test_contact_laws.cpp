@@ -55,7 +55,7 @@ template <class... Laws>
 struct TypesOf<std::variant<Laws...>> {
   using Types = ::testing::Types<Laws...>;
 };
-TYPED_TEST_SUITE(EveryLaw, TypesOf<Law>::Types);
+TYPED_TEST_SUITE(EveryLaw, TypesOf<PairLaw>::Types);
 
 // Some pair and law of each kind, with which force and stiffness are of the order of 1 at an overlap of 1.
 template <class L>

@@ -144,7 +144,7 @@ TEST(Deck, ReadsContact) {
   const DeckFolder folder;
   const Deck deck = folder.read(full_deck);
   ASSERT_EQ(deck.contact_models.size(), 1u);
-  const auto& law = std::get<contact::PenaltyLaw>(deck.contact_models[0].model.law);
+  const auto& law = std::get<contact::PenaltyLaw>(std::get<contact::PairLaw>(deck.contact_models[0].model.law));
   EXPECT_EQ(law.radius, 2e-3);
   EXPECT_EQ(law.penalty, 1e12);
   EXPECT_EQ(deck.contact_models[0].model.friction, 0.3);
@@ -159,7 +159,7 @@ TEST(Deck, ReadsHertz) {
   const std::string law = changed(full_deck, R"(value="Short Range Force")", R"(value="Hertz")");
   const Deck deck = folder.read(changed(law, R"("Spring Constant" type="double" value="1.0e12")",
                                         R"("Effective Modulus" type="double" value="60e9")"));
-  const auto& hertz = std::get<contact::HertzLaw>(deck.contact_models[0].model.law);
+  const auto& hertz = std::get<contact::HertzLaw>(std::get<contact::PairLaw>(deck.contact_models[0].model.law));
   EXPECT_EQ(hertz.radius, 2e-3);
   EXPECT_EQ(hertz.effective_modulus, 60e9);
   EXPECT_EQ(deck.contact_models[0].model.friction, 0.3);

@@ -1,0 +1,306 @@
+#include "contact/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/largest_eigenvalue.hpp"
+#include "contact/laws/friction.hpp"
+#include "contact/search/search.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+// The stiffness that bounds the next step is that of so many times the present overlap.
+constexpr double growth = 2;
+
+// By how much the cell of a point reaches beyond it towards the surface of its body, m. Of a slab √3 times the root of
+// its second moment.
+double reach_of_cell(const PointCloud& cloud, double volume, int i) {
+  if (cloud.shapes.empty()) return cloud.at == PointsAt::nodes ? 0 : 0.5 * std::cbrt(volume);
+  const CellShape& shape = cloud.shapes[i];
+  const double area = shape.surface.norm();
+  if (!(area > 0.1 * std::pow(cloud.spacings[i], 2))) return std::sqrt(trace(shape.moments));
+  const Vector n = shape.surface / area;
+  return std::max(0.0, n.dot(shape.offset) + std::sqrt(3 * n.dot(to_tensor(shape.moments) * n)));
+}
+
+// Σ V ξ over the family, in units of its volume and the horizon: 0 inside a body.
+double one_sidedness(const Domain& domain, int i) {
+  Vector sum = Vector::Zero();
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) {
+    sum += domain.volume(j) * (domain.reference(j) - domain.reference(i));
+    volume += domain.volume(j);
+  });
+  return volume > 0 ? sum.norm() / (volume * domain.horizon(i)) : 1;
+}
+
+// How full a family is, in units of its horizon cubed.
+double fullness(const Domain& domain, int i) { return family_volume(domain, i) / std::pow(domain.horizon(i), 3); }
+
+// Points at a surface have families that are one-sided (0.3 at a flat face, horizon 1.75 spacings) or, in thin plates,
+// not full (0.65). One too many costs time; none of them may be missed.
+void find_surface(const Domain& domain, const BlockPair& blocks, std::vector<SurfacePoint>& points) {
+  constexpr double least_one_sided = 0.15, least_full = 0.8;
+  std::vector<double> fullest(domain.cloud.block_names.size(), 0);
+  for (const int i : blocks.points) {
+    double& most = fullest[domain.cloud.blocks[i]];
+    most = std::max(most, fullness(domain, i));
+  }
+  domain.communicator.max(fullest);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int i = blocks.points[k];
+    points[k].is_at_surface = one_sidedness(domain, i) > least_one_sided ||
+                              fullness(domain, i) < least_full * fullest[domain.cloud.blocks[i]];
+  }
+}
+
+SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other) {
+  const PointCloud& cloud = domain.cloud;
+  const double volume = domain.volume(i), spacing = cloud.spacings[i];
+  const double reach = reach_in_spacings * std::max(spacing, spacing_of_other);
+  const double beyond = reach_of_cell(cloud, volume, i);
+  const double first = cloud.at == PointsAt::nodes ? 0 : 0.5 * spacing_of_other;
+  return {.reach = reach,
+          .threshold = before_face(reach, beyond, spacing_of_other, first),
+          .slope = over_plane(reach, beyond),
+          .area = volume / spacing,
+          .spacing = spacing};
+}
+
+// Within a body, points that were near each other see each other from a share of that distance only.
+double reach_between(double reach, const Site& here, const Site& there, bool one_body) {
+  if (!one_body) return reach;
+  return largest_touching_distance(reach, (there.reference - here.reference).head<3>().matrix().norm(), true);
+}
+
+template <class Record>
+void exchange_records(const Pairs& pairs, std::vector<Record>& records) {
+  constexpr int width = sizeof(Record) / sizeof(double);
+  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(records.data()), width, width);
+}
+
+}  // namespace
+
+// ρ at a point and how it changes with the places.
+struct Surfaces::Felt {
+  double share = 0;
+  Vector gradient = Vector::Zero();  // by its own place, 1/m
+  double of_partners = 0;            // Σ |∂ρ/∂y_j|/√m_j
+};
+
+Surfaces::Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law) {
+  for (const int i : blocks.points) {
+    const int other = domain.cloud.blocks[i] == blocks.first ? blocks.second : blocks.first;
+    points_.push_back(surface_point(domain, i, domain.blocks[other].spacing));
+  }
+  find_surface(domain, blocks, points_);
+  if (!blocks.one_body) subtract_start(domain, blocks, law);
+}
+
+void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law) {
+  const std::vector<Vector> at_rest(domain.owned, Vector::Zero());
+  const std::vector<double> densities(domain.owned, 1);
+  SkinDistances none{std::vector<float>(blocks.points.size(), 0), 0};
+  const Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
+  take(domain, blocks, pairs);
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    while (blocks.points[at] != pairs.owned[k]) ++at;
+    points_[at].threshold = std::max(points_[at].threshold, feel(pairs, k).share);
+  }
+}
+
+void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& pairs) {
+  of_pairs_.clear();
+  std::size_t at = 0;
+  for (const int i : pairs.owned) {
+    while (blocks.points[at] != i) ++at;
+    of_pairs_.push_back(points_[at]);
+    const bool has_lost_bonds = !domain.families.broken.empty() && !domain.families.broken[i].empty();
+    if (has_lost_bonds) of_pairs_.back().is_at_surface = true;
+  }
+  facing_.assign(pairs.sites.size(), {});
+  gradient_.assign(pairs.owned.size(), Vector::Zero());
+}
+
+// Calls visit(partner, η, |η|, its reach for pairs.owned[k], that of pairs.owned[k] for it): 0 where the one does not
+// see the other.
+template <class Visit>
+void Surfaces::over_partners(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+  const Site& here = pairs.sites[k];
+  for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
+    const int partner = pairs.partners[p];
+    const Site& there = pairs.sites[partner];
+    const Vector eta = (there.current - here.current).head<3>().matrix();
+    const double own = of_pairs_[k].reach, others = facing_[partner].reach;
+    const double distance2 = eta.squaredNorm();
+    if (!(distance2 < std::max(own * own, others * others))) continue;
+    const double distance = std::sqrt(distance2);
+    const auto seen = [&](double reach) {
+      const double so_far = reach_between(reach, here, there, pairs.one_body);
+      return distance < so_far ? so_far : 0;
+    };
+    visit(partner, eta, distance, seen(others), seen(own));
+  }
+}
+
+Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
+  Felt felt;
+  if (!of_pairs_[k].is_at_surface) return felt;
+  over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double, double reach) {
+    if (reach == 0) return;
+    const Smoothing around(reach);
+    const double volume = pairs.sites[partner].volume(), slope = volume * around.slope_over_distance(distance);
+    felt.share += volume * around.value(distance);
+    felt.gradient -= slope * eta;
+    felt.of_partners += std::abs(slope) * distance / std::sqrt(pairs.masses[partner]);
+  });
+  return felt;
+}
+
+Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt,
+                                  double mass) const {
+  Facing facing{.reach = point.reach};
+  const double overlap = (felt.share - point.threshold) / point.slope;
+  if (!point.is_at_surface || !(overlap >= 0) || felt.share == 0) return facing;
+  const double by_share = point.area / (point.slope * point.slope);
+  facing.push = point.area * law.pressure(overlap) / point.slope;
+  facing.stiffness = by_share * law.slope(overlap);
+  facing.to_come = by_share * law.slope(growth * overlap);
+  facing.spread = felt.gradient.norm() / std::sqrt(mass) + felt.of_partners;
+  return facing;
+}
+
+// The Hessian Σ κ ∇ρ ⊗ ∇ρ of all points that feel, with M^(−1/2) on both sides, is at most a tensor of each point:
+// (Σ_m g_m·x_m)² ≤ S Σ_m (√m_m/|g_m|) (g_m·x_m)² with S = Σ_m |g_m|/√m_m (Cauchy and Schwarz).
+ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
+                                        std::vector<Vector>& force_density) {
+  bring_to_present(kinematics, pairs);
+  ForceResult result;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    const SurfacePoint& point = of_pairs_[k];
+    const Felt felt = feel(pairs, k);
+    gradient_[k] = felt.gradient;
+    facing_[k] = facing(law, point, felt, pairs.masses[k]);
+    if (facing_[k].push == 0) continue;
+    const double overlap = (felt.share - point.threshold) / point.slope;
+    result.energy += point.area * law.energy(overlap);
+    result.deepest.take({overlap / point.spacing, pairs.owned[k]});
+  }
+  exchange_records(pairs, facing_);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    const double root = std::sqrt(pairs.masses[k]);
+    Vector force = Vector::Zero();
+    Tensor springs = Tensor::Zero();
+    const auto add = [&](const Facing& felt_by, const Vector& gradient) {
+      const double length = gradient.norm();
+      if (length > 0) springs += felt_by.to_come * felt_by.spread / (root * length) * gradient * gradient.transpose();
+    };
+    add(facing_[k], gradient_[k]);
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double seen, double sees) {
+      const double own = facing_[k].push, others = facing_[partner].push;
+      double push = 0;
+      if (sees > 0) push += own * (pairs.sites[partner].volume() * Smoothing(sees).slope_over_distance(distance));
+      if (seen > 0 && facing_[partner].to_come > 0) {
+        const double slope = pairs.sites[k].volume() * Smoothing(seen).slope_over_distance(distance);
+        push += others * slope;
+        add(facing_[partner], slope * eta);
+      }
+      force += push * eta;
+    });
+    force_density[pairs.owned[k]] += force / pairs.sites[k].volume();
+    result.stiffness = std::max(result.stiffness, largest_eigenvalue(springs, result.stiffness));
+  }
+  return result;
+}
+
+namespace {
+
+// What the partners of a point must know of it for friction.
+struct Rubbing {
+  Vector velocity = Vector::Zero();
+  Vector drag = Vector::Zero();  // the friction on it over its ρ, N
+};
+
+}  // namespace
+
+// A point is dragged along by the mean velocity of what it feels, which takes the reaction in the same shares.
+void Surfaces::add_friction(const Kinematics& kinematics, double coefficient, double dt, Pairs& pairs,
+                            std::vector<Vector>& force_density, std::vector<Vector>& friction) const {
+  std::vector<Rubbing> rubbing(pairs.sites.size());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) rubbing[k].velocity = kinematics.velocities[pairs.owned[k]];
+  exchange_records(pairs, rubbing);
+  friction.assign(pairs.owned.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    if (facing_[k].push == 0) continue;
+    Vector velocity = Vector::Zero();
+    double share = 0, mobility = 0;
+    over_partners(pairs, k, [&](int partner, const Vector&, double distance, double, double reach) {
+      if (reach == 0) return;
+      const double part = pairs.sites[partner].volume() * Smoothing(reach).value(distance);
+      share += part;
+      velocity += part * rubbing[partner].velocity;
+      mobility += part / pairs.masses[partner];
+    });
+    // Both faces feel: each stops half of the sliding.
+    mobility = 2 * (mobility / share + 1 / pairs.masses[k]);
+    const double load = facing_[k].push * gradient_[k].norm();
+    friction[k] = friction_force(coefficient, load, velocity / share - rubbing[k].velocity,
+                                 gradient_[k].stableNormalized(), mobility, dt);
+    rubbing[k].drag = friction[k] / share;
+  }
+  exchange_records(pairs, rubbing);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    over_partners(pairs, k, [&](int partner, const Vector&, double distance, double reach, double) {
+      if (reach == 0 || facing_[partner].push == 0) return;
+      friction[k] -= pairs.sites[k].volume() * Smoothing(reach).value(distance) * rubbing[partner].drag;
+    });
+    force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
+  }
+}
+
+void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
+  struct Change {
+    Vector of_place = Vector::Zero();
+    double tension = 0;  // κ times the change of ρ
+  };
+  std::vector<Change> changes(pairs.sites.size());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) changes[k].of_place = field[pairs.owned[k]];
+  exchange_records(pairs, changes);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    if (facing_[k].stiffness == 0) continue;
+    double share = gradient_[k].dot(changes[k].of_place);
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double, double reach) {
+      if (reach == 0) return;
+      const double slope = pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance);
+      share += slope * eta.dot(changes[partner].of_place);
+    });
+    changes[k].tension = facing_[k].stiffness * share;
+  }
+  exchange_records(pairs, changes);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    Vector sum = changes[k].tension * gradient_[k];
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double reach, double) {
+      if (reach == 0 || facing_[partner].stiffness == 0) return;
+      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance);
+      sum -= changes[partner].tension * slope * eta;
+    });
+    result[pairs.owned[k]] += sum;
+  }
+}
+
+void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const {
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    Tensor sum = facing_[k].stiffness * gradient_[k] * gradient_[k].transpose();
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double reach, double) {
+      if (reach == 0 || facing_[partner].stiffness == 0) return;
+      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance);
+      sum += facing_[partner].stiffness * slope * slope * eta * eta.transpose();
+    });
+    springs[pairs.owned[k]] += sum;
+  }
+}
+
+}  // namespace strut::contact
