@@ -124,7 +124,7 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& c
   if (Surfaces* surfaces = contact_pair.surfaces ? &*contact_pair.surfaces : nullptr) {
     const auto& law = std::get<SurfaceLaw>(model.law);
     contact_pair.result = surfaces->add_normal_forces(kinematics, law, pairs, force_density);
-    if (rubs) surfaces->add_friction(kinematics, model.friction, dt, pairs, force_density, friction);
+    if (rubs) surfaces->add_friction(kinematics, law, model.friction, dt, pairs, force_density, friction);
   } else {
     const auto& law = std::get<PairLaw>(model.law);
     contact_pair.result = add_normal_forces(kinematics, law, pairs, force_density);
@@ -188,6 +188,11 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
 void Contact::serialize(Archive& archive, const Kinematics& kinematics, double dt) {
   archive.number("contact_stiffness", stiffness_);
   archive.number("penetration", penetration_);
+  for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
+    ContactPair& pair = contact_pairs_[m];
+    if (!pair.surfaces || pair.model.friction == 0) continue;
+    pair.surfaces->serialize(archive, "contact_" + std::to_string(m), kinematics.domain, pair.blocks);
+  }
   if (!archive.loading()) return;
   std::vector<Vector> forces(kinematics.domain.owned,
                              Vector::Zero());  // the solver has them; here are pairs and friction

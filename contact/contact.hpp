@@ -69,7 +69,7 @@ class Contact {
   struct ContactPair {
     Model model;
     BlockPair blocks;
-    double skin = 0;  // the usual skin distance of a point, m
+    double skin = 0;                        // the usual skin distance of a point, m
     std::optional<Surfaces> surfaces = {};  // where the model is one of surfaces
     // As of the last search.
     Frame frame = {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/friction.hpp"
@@ -11,8 +12,8 @@ namespace strut::contact {
 
 namespace {
 
-// The stiffness that bounds the next step is that of so many times the present overlap.
-constexpr double growth = 2;
+// The stiffness of the springs of friction, of that of the surfaces. With less than 1 they do not limit the time step.
+constexpr double of_friction = 0.5;
 
 // By how much the cell of a point reaches beyond it towards the surface of its body, m. Of a slab √3 times the root of
 // its second moment.
@@ -36,24 +37,13 @@ double one_sidedness(const Domain& domain, int i) {
   return volume > 0 ? sum.norm() / (volume * domain.horizon(i)) : 1;
 }
 
-// How full a family is, in units of its horizon cubed.
-double fullness(const Domain& domain, int i) { return family_volume(domain, i) / std::pow(domain.horizon(i), 3); }
-
-// Points at a surface have families that are one-sided (0.3 at a flat face, horizon 1.75 spacings) or, in thin plates,
-// not full (0.65). One too many costs time; none of them may be missed.
-void find_surface(const Domain& domain, const BlockPair& blocks, std::vector<SurfacePoint>& points) {
-  constexpr double least_one_sided = 0.15, least_full = 0.8;
-  std::vector<double> fullest(domain.cloud.block_names.size(), 0);
-  for (const int i : blocks.points) {
-    double& most = fullest[domain.cloud.blocks[i]];
-    most = std::max(most, fullness(domain, i));
-  }
-  domain.communicator.max(fullest);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const int i = blocks.points[k];
-    points[k].is_at_surface = one_sidedness(domain, i) > least_one_sided ||
-                              fullness(domain, i) < least_full * fullest[domain.cloud.blocks[i]];
-  }
+// Whether the body's surface may be a point's: its family is one-sided (0.3 at a flat face, horizon 1.75 spacings) or,
+// in thin plates, not full (0.4 of the volume within the horizon; inside it is 0.94 or more on a lattice). One too many
+// costs time; none may be missed.
+bool is_at_surface(const Domain& domain, int i) {
+  constexpr double least_one_sided = 0.15, least_full = 0.85;
+  const double full = 4 * std::numbers::pi / 3 * std::pow(domain.horizon(i), 3);
+  return one_sidedness(domain, i) > least_one_sided || family_volume(domain, i) < least_full * full;
 }
 
 SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other) {
@@ -61,12 +51,14 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other)
   const double volume = domain.volume(i), spacing = cloud.spacings[i];
   const double reach = reach_in_spacings * std::max(spacing, spacing_of_other);
   const double beyond = reach_of_cell(cloud, volume, i);
-  const double first = cloud.at == PointsAt::nodes ? 0 : 0.5 * spacing_of_other;
+  const bool nodes = cloud.at == PointsAt::nodes;
+  const Face other{reach, spacing_of_other, !nodes};
   return {.reach = reach,
-          .threshold = before_face(reach, beyond, spacing_of_other, first),
-          .slope = over_plane(reach, beyond),
-          .area = volume / spacing,
-          .spacing = spacing};
+          .threshold = other.share(beyond),
+          .slope = other.slope(beyond),
+          .area = (nodes ? 1 : 0.5) * volume / spacing,
+          .spacing = spacing,
+          .is_at_surface = is_at_surface(domain, i)};
 }
 
 // Within a body, points that were near each other see each other from a share of that distance only.
@@ -95,7 +87,9 @@ Surfaces::Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceL
     const int other = domain.cloud.blocks[i] == blocks.first ? blocks.second : blocks.first;
     points_.push_back(surface_point(domain, i, domain.blocks[other].spacing));
   }
-  find_surface(domain, blocks, points_);
+  overlaps_.assign(points_.size(), 0);
+  slips_.assign(points_.size(), Vector::Zero());
+  slips_before_ = slips_;
   if (!blocks.one_body) subtract_start(domain, blocks, law);
 }
 
@@ -105,27 +99,33 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   SkinDistances none{std::vector<float>(blocks.points.size(), 0), 0};
   const Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
   take(domain, blocks, pairs);
-  std::size_t at = 0;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    while (blocks.points[at] != pairs.owned[k]) ++at;
-    points_[at].threshold = std::max(points_[at].threshold, feel(pairs, k).share);
+    double& threshold = points_[places_[k]].threshold;
+    threshold = std::max(threshold, feel(pairs, k).share);
   }
 }
 
 void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& pairs) {
-  of_pairs_.clear();
-  std::size_t at = 0;
+  places_.clear();
+  at_surface_.clear();
+  std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
+  std::vector<double> overlaps(blocks.points.size(), 0);
+  int at = 0;
   for (const int i : pairs.owned) {
     while (blocks.points[at] != i) ++at;
-    of_pairs_.push_back(points_[at]);
+    places_.push_back(at);
     const bool has_lost_bonds = !domain.families.broken.empty() && !domain.families.broken[i].empty();
-    if (has_lost_bonds) of_pairs_.back().is_at_surface = true;
+    at_surface_.push_back(points_[at].is_at_surface || has_lost_bonds);
+    slips[at] = slips_[at];
+    overlaps[at] = overlaps_[at];
   }
+  slips_.swap(slips);  // a point without partners has none
+  overlaps_.swap(overlaps);
   facing_.assign(pairs.sites.size(), {});
   gradient_.assign(pairs.owned.size(), Vector::Zero());
 }
 
-// Calls visit(partner, η, |η|, its reach for pairs.owned[k], that of pairs.owned[k] for it): 0 where the one does not
+// Calls visit(partner, η, |η|², its reach for pairs.owned[k], that of pairs.owned[k] for it): 0 where the one does not
 // see the other.
 template <class Visit>
 void Surfaces::over_partners(const Pairs& pairs, std::size_t k, const Visit& visit) const {
@@ -134,43 +134,59 @@ void Surfaces::over_partners(const Pairs& pairs, std::size_t k, const Visit& vis
     const int partner = pairs.partners[p];
     const Site& there = pairs.sites[partner];
     const Vector eta = (there.current - here.current).head<3>().matrix();
-    const double own = of_pairs_[k].reach, others = facing_[partner].reach;
+    const double own = points_[places_[k]].reach, others = facing_[partner].reach;
     const double distance2 = eta.squaredNorm();
     if (!(distance2 < std::max(own * own, others * others))) continue;
-    const double distance = std::sqrt(distance2);
     const auto seen = [&](double reach) {
       const double so_far = reach_between(reach, here, there, pairs.one_body);
-      return distance < so_far ? so_far : 0;
+      return distance2 < so_far * so_far ? so_far : 0;
     };
-    visit(partner, eta, distance, seen(others), seen(own));
+    visit(partner, eta, distance2, seen(others), seen(own));
   }
 }
 
 Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
   Felt felt;
-  if (!of_pairs_[k].is_at_surface) return felt;
-  over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double, double reach) {
+  if (!at_surface_[k]) return felt;
+  over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double, double reach) {
     if (reach == 0) return;
     const Smoothing around(reach);
-    const double volume = pairs.sites[partner].volume(), slope = volume * around.slope_over_distance(distance);
-    felt.share += volume * around.value(distance);
+    const double volume = pairs.sites[partner].volume(), slope = volume * around.slope_over_distance(distance2);
+    felt.share += volume * around.value(distance2);
     felt.gradient -= slope * eta;
-    felt.of_partners += std::abs(slope) * distance / std::sqrt(pairs.masses[partner]);
+    felt.of_partners += std::abs(slope) * std::sqrt(distance2) / std::sqrt(pairs.masses[partner]);
   });
   return felt;
 }
 
-Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt,
-                                  double mass) const {
+// `overlap`: before, and now; 0 where there is none.
+Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass,
+                                  double& overlap) const {
   Facing facing{.reach = point.reach};
-  const double overlap = (felt.share - point.threshold) / point.slope;
-  if (!point.is_at_surface || !(overlap >= 0) || felt.share == 0) return facing;
+  const double before = overlap, now = (felt.share - point.threshold) / point.slope;
+  overlap = std::max(0.0, now);
+  if (!(now >= 0) || felt.share == 0) return facing;
   const double by_share = point.area / (point.slope * point.slope);
-  facing.push = point.area * law.pressure(overlap) / point.slope;
-  facing.stiffness = by_share * law.slope(overlap);
-  facing.to_come = by_share * law.slope(growth * overlap);
+  facing.push = point.area * law.pressure(now) / point.slope;
+  facing.stiffness = by_share * law.slope(now);
+  facing.to_come = by_share * law.slope(now + std::max(0.0, now - before));
   facing.spread = felt.gradient.norm() / std::sqrt(mass) + felt.of_partners;
   return facing;
+}
+
+// What each point feels: energy and deepest overlap.
+ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
+  ForceResult result;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    const SurfacePoint& point = points_[places_[k]];
+    const Felt felt = feel(pairs, k);
+    double& overlap = overlaps_[places_[k]];
+    gradient_[k] = felt.gradient;
+    facing_[k] = facing(law, point, felt, pairs.masses[k], overlap);
+    result.energy += point.area * law.energy(overlap);
+    result.deepest.take({overlap / point.spacing, pairs.owned[k]});
+  }
+  return result;
 }
 
 // The Hessian Σ κ ∇ρ ⊗ ∇ρ of all points that feel, with M^(−1/2) on both sides, is at most a tensor of each point:
@@ -178,39 +194,24 @@ Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& poi
 ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                         std::vector<Vector>& force_density) {
   bring_to_present(kinematics, pairs);
-  ForceResult result;
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    const SurfacePoint& point = of_pairs_[k];
-    const Felt felt = feel(pairs, k);
-    gradient_[k] = felt.gradient;
-    facing_[k] = facing(law, point, felt, pairs.masses[k]);
-    if (facing_[k].push == 0) continue;
-    const double overlap = (felt.share - point.threshold) / point.slope;
-    result.energy += point.area * law.energy(overlap);
-    result.deepest.take({overlap / point.spacing, pairs.owned[k]});
-  }
+  ForceResult result = feel_all(law, pairs);
   exchange_records(pairs, facing_);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    const double root = std::sqrt(pairs.masses[k]);
-    Vector force = Vector::Zero();
+    const double root = std::sqrt(pairs.masses[k]), volume = pairs.sites[k].volume();
     Tensor springs = Tensor::Zero();
     const auto add = [&](const Facing& felt_by, const Vector& gradient) {
       const double length = gradient.norm();
       if (length > 0) springs += felt_by.to_come * felt_by.spread / (root * length) * gradient * gradient.transpose();
     };
     add(facing_[k], gradient_[k]);
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double seen, double sees) {
-      const double own = facing_[k].push, others = facing_[partner].push;
-      double push = 0;
-      if (sees > 0) push += own * (pairs.sites[partner].volume() * Smoothing(sees).slope_over_distance(distance));
-      if (seen > 0 && facing_[partner].to_come > 0) {
-        const double slope = pairs.sites[k].volume() * Smoothing(seen).slope_over_distance(distance);
-        push += others * slope;
-        add(facing_[partner], slope * eta);
-      }
-      force += push * eta;
+    Vector force = -facing_[k].push * gradient_[k];
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach, double) {
+      if (reach == 0 || facing_[partner].to_come == 0) return;
+      const Vector gradient = -volume * Smoothing(reach).slope_over_distance(distance2) * eta;
+      force -= facing_[partner].push * gradient;
+      add(facing_[partner], gradient);
     });
-    force_density[pairs.owned[k]] += force / pairs.sites[k].volume();
+    force_density[pairs.owned[k]] += force / volume;
     result.stiffness = std::max(result.stiffness, largest_eigenvalue(springs, result.stiffness));
   }
   return result;
@@ -226,39 +227,50 @@ struct Rubbing {
 
 }  // namespace
 
-// A point is dragged along by the mean velocity of what it feels, which takes the reaction in the same shares.
-void Surfaces::add_friction(const Kinematics& kinematics, double coefficient, double dt, Pairs& pairs,
-                            std::vector<Vector>& force_density, std::vector<Vector>& friction) const {
+void Surfaces::add_friction(const Kinematics& kinematics, const SurfaceLaw& law, double coefficient, double dt,
+                            Pairs& pairs, std::vector<Vector>& force_density, std::vector<Vector>& friction) {
   std::vector<Rubbing> rubbing(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) rubbing[k].velocity = kinematics.velocities[pairs.owned[k]];
   exchange_records(pairs, rubbing);
   friction.assign(pairs.owned.size(), Vector::Zero());
+  slips_before_ = slips_;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    if (facing_[k].push == 0) continue;
+    Vector& slip = slips_[places_[k]];
+    if (facing_[k].push == 0) {
+      slip.setZero();
+      continue;
+    }
     Vector velocity = Vector::Zero();
-    double share = 0, mobility = 0;
-    over_partners(pairs, k, [&](int partner, const Vector&, double distance, double, double reach) {
+    double share = 0;
+    over_partners(pairs, k, [&](int partner, const Vector&, double distance2, double, double reach) {
       if (reach == 0) return;
-      const double part = pairs.sites[partner].volume() * Smoothing(reach).value(distance);
+      const double part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2);
       share += part;
       velocity += part * rubbing[partner].velocity;
-      mobility += part / pairs.masses[partner];
     });
-    // Both faces feel: each stops half of the sliding.
-    mobility = 2 * (mobility / share + 1 / pairs.masses[k]);
-    const double load = facing_[k].push * gradient_[k].norm();
-    friction[k] = friction_force(coefficient, load, velocity / share - rubbing[k].velocity,
-                                 gradient_[k].stableNormalized(), mobility, dt);
+    const Vector normal = gradient_[k].stableNormalized();
+    slip += dt * (velocity / share - rubbing[k].velocity);
+    slip -= slip.dot(normal) * normal;
+    const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
+    friction[k] = yielding_spring(coefficient * facing_[k].push * gradient_[k].norm(), stiffness, slip);
     rubbing[k].drag = friction[k] / share;
   }
   exchange_records(pairs, rubbing);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    over_partners(pairs, k, [&](int partner, const Vector&, double distance, double reach, double) {
+    over_partners(pairs, k, [&](int partner, const Vector&, double distance2, double reach, double) {
       if (reach == 0 || facing_[partner].push == 0) return;
-      friction[k] -= pairs.sites[k].volume() * Smoothing(reach).value(distance) * rubbing[partner].drag;
+      friction[k] -= pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].drag;
     });
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
   }
+}
+
+void Surfaces::serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks) {
+  std::vector<std::int64_t> ids;
+  for (const int i : blocks.points) ids.push_back(domain.id(i));
+  archive.points(name, ids);
+  archive.field("slip", 3, [this](std::size_t k, int c) -> double& { return slips_before_[k][c]; });
+  if (archive.loading()) slips_ = slips_before_;
 }
 
 void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
@@ -272,9 +284,9 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     if (facing_[k].stiffness == 0) continue;
     double share = gradient_[k].dot(changes[k].of_place);
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double, double reach) {
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double, double reach) {
       if (reach == 0) return;
-      const double slope = pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance);
+      const double slope = pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2);
       share += slope * eta.dot(changes[partner].of_place);
     });
     changes[k].tension = facing_[k].stiffness * share;
@@ -282,9 +294,9 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector sum = changes[k].tension * gradient_[k];
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double reach, double) {
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach, double) {
       if (reach == 0 || facing_[partner].stiffness == 0) return;
-      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance);
+      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
       sum -= changes[partner].tension * slope * eta;
     });
     result[pairs.owned[k]] += sum;
@@ -294,9 +306,9 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
 void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Tensor sum = facing_[k].stiffness * gradient_[k] * gradient_[k].transpose();
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance, double reach, double) {
+    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach, double) {
       if (reach == 0 || facing_[partner].stiffness == 0) return;
-      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance);
+      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
       sum += facing_[partner].stiffness * slope * slope * eta * eta.transpose();
     });
     springs[pairs.owned[k]] += sum;

@@ -1,13 +1,18 @@
 // Contact between the surfaces of two blocks (laws/surface.hpp). Each point at a surface feels for the other body: it
-// has the energy A E(g), with its share A of the surface and the overlap g = (ρ(y) − threshold)/slope at its place. The
-// force on every point is the derivative of the sum of these energies, so forces are central, equal and opposite, and
-// what a contact has stored it gives back. With a_i = A_i p(g_i)/slope_i and η = y_j − y_i
+// has the energy A E(g), with half of its share of the surface, A, and the overlap g = (ρ(y) − threshold)/slope at its
+// place. The force on every point is the derivative of the sum of these energies, so forces are central, equal and
+// opposite, and what a contact has stored it gives back. With a_i = A_i p(g_i)/slope_i and η = y_j − y_i
 //   f_i = Σ_j (a_i V_j W'_i + a_j V_i W'_j) η/|η|.
+//
+// Friction is a spring from each such point to the mean of what it feels, which takes the reaction in the same shares.
+// It yields at μ times the normal force (Coulomb): what sticks does not creep.
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "contact/forces.hpp"
 
 namespace strut::contact {
@@ -17,7 +22,7 @@ struct SurfacePoint {
   double reach = 0;      // from how far it sees another body, m
   double threshold = 0;  // ρ from which it touches
   double slope = 0;      // of ρ with the distance there, 1/m
-  double area = 0;       // its share of the surface, m²: its volume over its spacing
+  double area = 0;       // half of its share of the surface, m²: the other body's points have the other half
   double spacing = 0;    // m
   bool is_at_surface = false;
 };
@@ -34,10 +39,14 @@ class Surfaces {
   // As forces.hpp has them for pairs of points. `penetration`: the overlap in spacings of the point.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                 std::vector<Vector>& force_density);
-  void add_friction(const Kinematics& kinematics, double coefficient, double dt, Pairs& pairs,
-                    std::vector<Vector>& force_density, std::vector<Vector>& friction) const;
+  // With the slip of the step that led here, which lasted dt (s).
+  void add_friction(const Kinematics& kinematics, const SurfaceLaw& law, double coefficient, double dt, Pairs& pairs,
+                    std::vector<Vector>& force_density, std::vector<Vector>& friction);
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
   void add_springs(const Pairs& pairs, std::span<Tensor> springs) const;
+
+  // The stretch of the springs of friction at the start of the last step. `name`: of this pair of blocks.
+  void serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks);
 
  private:
   // What the partners of a point must know of how it feels.
@@ -45,7 +54,7 @@ class Surfaces {
     double reach = 0;
     double push = 0;       // a, N m
     double stiffness = 0;  // A p'/slope², N m: of the energy's second derivative by ρ
-    double to_come = 0;    // the same at `growth` times the overlap
+    double to_come = 0;    // the same if the overlap grows on as in the last step
     double spread = 0;     // Σ |∂ρ/∂y|/√m over all points that it depends on, 1/(m √kg)
   };
   struct Felt;
@@ -53,13 +62,17 @@ class Surfaces {
   template <class Visit>
   void over_partners(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   Felt feel(const Pairs& pairs, std::size_t k) const;
-  Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass) const;
+  Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass, double& overlap) const;
+  ForceResult feel_all(const SurfaceLaw& law, const Pairs& pairs);
   void subtract_start(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
-  std::vector<SurfacePoint> points_;     // of blocks.points
-  std::vector<SurfacePoint> of_pairs_;   // of pairs.owned
-  std::vector<Facing> facing_;           // of pairs.sites, as of the last forces
-  std::vector<Vector> gradient_;         // ∂ρ/∂y of pairs.owned by its own place, 1/m
+  std::vector<SurfacePoint> points_;          // of blocks.points
+  std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
+  std::vector<Vector> slips_, slips_before_;  // of blocks.points: the springs of friction; a step before, m
+  std::vector<int> places_;                   // of pairs.owned in blocks.points
+  std::vector<char> at_surface_;              // of pairs.owned
+  std::vector<Facing> facing_;                // of pairs.sites, as of the last forces
+  std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by its own place, 1/m
 };
 
 }  // namespace strut::contact

@@ -1,4 +1,4 @@
-// Coulomb friction between two points that touch.
+// Coulomb friction.
 #pragma once
 
 #include <algorithm>
@@ -7,16 +7,23 @@
 
 namespace strut::contact {
 
-// The force of friction on the first of two points, N. It drags along the tangential velocity of the second relative to
-// the first, with μ times the normal force, or with what brings that velocity to zero within dt if that is less.
-// `normal`: of the touching surfaces, unit length, either sign. `mobility`: velocity that a unit of impulse between
-// the two takes from their relative one, 1/kg; with n contacts on each point, n₁/m₁ + n₂/m₂.
+// The force of friction on the first of two points that touch, N. It drags along the tangential velocity of the second
+// relative to the first, with μ times the normal force, or with what brings that velocity to zero within dt if that is
+// less. `normal`: of the touching surfaces, unit length, either sign. `mobility`: velocity that a unit of impulse
+// between the two takes from their relative one, 1/kg; with n contacts on each point, n₁/m₁ + n₂/m₂.
 inline Vector friction_force(double coefficient, double normal_force, const Vector& relative_velocity,
                              const Vector& normal, double mobility, double dt) {
   const Vector sliding = relative_velocity - relative_velocity.dot(normal) * normal;
   const double speed = sliding.norm();
   if (speed == 0) return Vector::Zero();
   return std::min(coefficient * normal_force / speed, 1 / (mobility * dt)) * sliding;
+}
+
+// The force, N, of a spring (N/m) of this stretch (m), which yields where it exceeds `most` (N).
+inline Vector yielding_spring(double most, double stiffness, Vector& stretch) {
+  const double length = stretch.norm(), longest = most / stiffness;
+  if (length > longest) stretch *= longest / length;
+  return stiffness * stretch;
 }
 
 }  // namespace strut::contact

@@ -1,8 +1,8 @@
 // Contact between surfaces. What is around a place is told by a smooth share of the other body's material,
-//   ρ(x) = Σ V_j W(|y_j − x|),
-// with Wendland's C⁴ function W (Wendland, Adv. Comput. Math. 4, 1995), whose integral is 1: ρ goes from 0 to 1 across a
-// flat face, and hardly shows the lattice behind it. A point touches where ρ exceeds what a face has at the distance e,
-// by which the point's own cell reaches beyond it. The overlap g is that excess over the slope of ρ, and the pressure
+//   ρ(x) = Σ V_j W(|y_j − x|),  W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶,  whose integral is 1:
+// it goes from 0 to 1 across a flat face, and hardly shows the lattice behind it. A point touches where ρ exceeds what
+// a face has at the distance e, by which the point's own cell reaches beyond it. The overlap g is that excess over the
+// slope of ρ, and the pressure
 //   p(g) = K g, or K g/(1 − g/g_l), where there is a largest overlap g_l,
 // is the derivative of an energy a face, so that forces derive from it too (contact/surfaces.hpp).
 #pragma once
@@ -13,51 +13,62 @@
 
 namespace strut::contact {
 
-// With this reach of W in spacings a body slides over another of an equal lattice with a slope of 0.1 % (see
-// docs/theory.md); with less the lattice shows, with more the surfaces of thin members become blunt.
+// The reach R in spacings. Two equal lattices slide on each other with slopes of 0.2 % (docs/theory.md); with less the
+// lattice shows, with more the surfaces of thin members become blunt.
 inline constexpr double reach_in_spacings = 2.5;
 
-// W of a distance r and its slope over r, where r < `reach`.
+// W of the square of a distance r < `reach`, and its slope over r, which is finite at r = 0.
 class Smoothing {
  public:
-  explicit Smoothing(double reach) : inverse_(1 / reach), norm_(495 / (32 * std::numbers::pi) * cubed(inverse_)) {}
+  explicit Smoothing(double reach)
+      : inverse2_(1 / (reach * reach)), norm_(45045 / (4096 * std::numbers::pi) * inverse2_ / reach) {}
 
-  double value(double r) const {  // 1/m³
-    const double q = r * inverse_, p = 1 - q;
-    return norm_ * cubed(p) * cubed(p) * (1 + q * (6 + 35.0 / 3 * q));
+  double value(double r2) const { return norm_ * power(r2, 6); }                                  // 1/m³
+  double slope_over_distance(double r2) const { return -12 * norm_ * inverse2_ * power(r2, 5); }  // 1/m⁵
+
+ private:
+  double power(double r2, int n) const {
+    const double x = 1 - r2 * inverse2_, square = x * x;
+    return square * square * (n == 6 ? square : x);
   }
-  double slope_over_distance(double r) const {  // W'(r)/r, 1/m⁵: finite at r = 0
-    const double q = r * inverse_, p = 1 - q;
-    return -56.0 / 3 * norm_ * inverse_ * inverse_ * p * p * cubed(p) * (1 + 5 * q);
+
+  double inverse2_, norm_;
+};
+
+// Before the face of a body on a lattice.
+struct Face {
+  double reach;    // R, m
+  double spacing;  // of its layers, m
+  bool is_middle;  // its points are middles of cells, half a spacing behind the face; else nodes, of which those on the
+                   // face have half a volume
+
+  // ρ at the distance d, and −dρ/dd, 1/m.
+  double share(double d) const {
+    return over_layers(d, [this](double x) { return 6435.0 / 4096 / reach * std::pow(x, 7); });
+  }
+  double slope(double d) const {
+    const double factor = 6435.0 / 4096 * 14 / (reach * reach * reach);
+    return over_layers(d, [&, this](double x) { return factor * reach * std::sqrt(1 - x) * std::pow(x, 6); });
   }
 
  private:
-  static double cubed(double x) { return x * x * x; }
-
-  double inverse_, norm_;
+  // Of a layer at the distance z a function of 1 − z²/R².
+  template <class OfLayer>
+  double over_layers(double d, const OfLayer& of_layer) const {
+    const auto at = [&](double z) { return of_layer(1 - z * z / (reach * reach)); };
+    double sum = is_middle ? 0 : -0.5 * at(d);
+    for (double z = is_middle ? d + 0.5 * spacing : d; z < reach; z += spacing) sum += at(z);
+    return spacing * sum;
+  }
 };
 
-// ∫ W dA over a plane at the distance d < reach, 1/m: the slope of ρ before a face.
-inline double over_plane(double reach, double d) {
-  const double p = 1 - std::min(1.0, d / reach);
-  return 495.0 / 16 / reach * std::pow(p, 7) * (8.0 / 3 + p * (-6 + p * (41.0 / 9 - 7.0 / 6 * p)));
-}
-
-// ρ at the distance d before the face of a lattice of this spacing, whose first points are `first` behind the face: half
-// a spacing (middles of cells) or 0 (nodes, of which those on the face have half a volume).
-inline double before_face(double reach, double d, double spacing, double first) {
-  double share = first > 0 ? 0 : -0.5 * over_plane(reach, d);
-  for (double z = d + first; z < reach; z += spacing) share += over_plane(reach, z);
-  return spacing * share;
-}
-
 struct SurfaceLaw {
-  double factor = 0.25;         // of the stiffness of a layer one spacing thick
-  double largest_overlap = 0;   // of a spacing; 0: no limit
+  double factor = 0.25;        // of the stiffness of a layer one spacing thick
+  double largest_overlap = 0;  // of a spacing; 0: no limit
   // As the two blocks have it (setup).
-  double modulus = 0;           // M*, Pa: 1/M* = (1/M₁ + 1/M₂)/2, M of longitudinal waves
-  double radius = 0;            // m: from where a point may see another body
-  double spacing = 0;           // the mean of both blocks', m
+  double modulus = 0;  // M*, Pa: 1/M* = (1/M₁ + 1/M₂)/2, M of longitudinal waves
+  double radius = 0;   // m: from where a point may see another body
+  double spacing = 0;  // the mean of both blocks', m
 
   double stiffness() const { return factor * modulus / spacing; }  // K, Pa/m: of two faces
   double limit() const { return largest_overlap * spacing; }       // g_l, m

@@ -55,13 +55,14 @@ const RealKey largest_overlap(
     {.name = "Largest Overlap",
      .unit = "spacings",
      .range = {.low = 0, .high = 1},
-     .fallback = "0",
+     .fallback = "0.5",
      .meaning = "The pressure grows without bound as the overlap comes near it. 0: there is no limit."});
 
 Section surface() {
   return {.name = "Surface",
-          .meaning = "Smooth surfaces, where the cells of both bodies end; no constant to choose. A body touches where "
-                     "the smoothed share of the other one's material around its points exceeds that at a face.",
+          .meaning =
+              "Smooth surfaces, where the cells of both bodies end; no constant to choose. A body touches where "
+              "the smoothed share of the other one's material around its points exceeds that at a face.",
           .keys = {stiffness_factor, largest_overlap}};
 }
 

@@ -1,0 +1,300 @@
+// Contact between the surfaces of lattices that stand as they are told to: forces alone, nothing moves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "contact/search/search.hpp"
+#include "contact/surfaces.hpp"
+#include "points/partition.hpp"
+
+namespace strut::contact {
+namespace {
+
+constexpr double h = 1e-3, modulus = 1e11;
+
+// Middles of cubes, or nodes, of a box on a lattice.
+struct Box {
+  int nx, ny, nz;
+  PointsAt at = PointsAt::elements;
+};
+
+// The box's points in its own frame, its bottom face in the plane z = 0, its middle axis x = y = 0, and their volumes.
+std::vector<std::pair<Vector, double>> points_of(const Box& box) {
+  const bool nodes = box.at == PointsAt::nodes;
+  const int n[3] = {box.nx + nodes, box.ny + nodes, box.nz + nodes};
+  std::vector<std::pair<Vector, double>> points;
+  for (int i = 0; i < n[0] * n[1] * n[2]; ++i) {
+    const int c[3] = {i % n[0], i / n[0] % n[1], i / (n[0] * n[1])};
+    Vector X;
+    double volume = h * h * h;
+    for (int k = 0; k < 3; ++k) {
+      X[k] = h * (c[k] + (nodes ? 0 : 0.5));
+      if (nodes && (c[k] == 0 || c[k] == n[k] - 1)) volume /= 2;
+    }
+    X -= 0.5 * h * Vector(box.nx, box.ny, 0);
+    points.emplace_back(X, volume);
+  }
+  return points;
+}
+
+constexpr double far = 1;  // from where the second body is placed, m
+
+// Points of two bodies, each on the rank that the partition gives it to.
+Domain domain_of(const std::vector<std::vector<std::pair<Vector, double>>>& bodies, PointsAt at,
+                 const Communicator& world) {
+  PointCloud cloud;
+  cloud.at = at;
+  cloud.block_names = {"lower", "upper"};
+  std::int64_t id = 0;
+  for (int b = 0; b < 2; ++b) {
+    for (const auto& [X, volume] : bodies[b]) {
+      if (id++ % world.size() != world.rank()) continue;
+      cloud.ids.push_back(id - 1);
+      cloud.element_ids.push_back(id);
+      cloud.positions.push_back(X + Vector(0, 0, far * b));
+      cloud.volumes.push_back(volume);
+      cloud.spacings.push_back(h);
+      cloud.blocks.push_back(b);
+      cloud.sets.push_back(0);
+    }
+  }
+  return make_domain(partitioned(std::move(cloud), world), {{1.75 * h, 0}, {1.75 * h, 1}}, world);
+}
+
+// What two bodies do to each other as they stand.
+class Scene {
+ public:
+  Scene(const std::vector<std::vector<std::pair<Vector, double>>>& bodies, PointsAt at = PointsAt::elements,
+        SurfaceLaw law = {})
+      : domain_(domain_of(bodies, at, world_)), law_(law) {
+    law_.modulus = modulus;
+    law_.radius = reach_in_spacings * h;
+    law_.spacing = h;
+    for (const auto& [X, volume] : bodies[0]) height_ = std::max(height_, X[2] + (at == PointsAt::nodes ? 0 : h / 2));
+    for (int i = 0; i < domain_.owned; ++i) blocks_.points.push_back(i);
+    surfaces_.emplace(domain_, blocks_, law_);
+    velocities_.assign(domain_.owned, Vector::Zero());
+    densities_.assign(domain_.owned, 8000);
+  }
+
+  // The second body turned by R about its origin, which comes to `origin`, seen from the middle of the first one's top.
+  ForceResult place(const Vector& origin, const Tensor& R = Tensor::Identity()) {
+    for (int i = 0; i < domain_.owned; ++i) {
+      if (domain_.cloud.blocks[i] == 0) continue;
+      const Vector X = domain_.reference(i) - Vector(0, 0, far);
+      domain_.sites[i].current.head<3>() = (R * X + origin + Vector(0, 0, height_)).array();
+    }
+    const Kinematics kinematics{domain_, velocities_, densities_};
+    SkinDistances none{std::vector<float>(blocks_.points.size(), 0), 0};
+    pairs_ = find_pairs(kinematics, blocks_, law_.radius, none);
+    surfaces_->take(domain_, blocks_, pairs_);
+    density_.assign(domain_.owned, Vector::Zero());
+    ForceResult result = surfaces_->add_normal_forces(kinematics, law_, pairs_, density_);
+    result.energy = world_.sum(result.energy);
+    result.deepest.penetration = world_.max(result.deepest.penetration);
+    result.stiffness = world_.max(result.stiffness);
+    return result;
+  }
+
+  // What the tangent makes of the second body's motion by a unit vector, along it, N/m.
+  double stiffness(const Vector& along) {
+    std::vector<Vector> field(domain_.owned, Vector::Zero()), result = field;
+    for (int i = 0; i < domain_.owned; ++i)
+      if (domain_.cloud.blocks[i] == 1) field[i] = along;
+    surfaces_->add_stiffness(pairs_, field, result);
+    return sum([&](int i) { return Vector(field[i].dot(result[i]), 0, 0); })[0];
+  }
+
+  // Of the last place, on a body, N, and N m about 0.
+  Vector force(int body) const {
+    return sum([&](int i) { return domain_.cloud.blocks[i] == body ? force_on(i) : Vector(Vector::Zero()); });
+  }
+  Vector torque() const {
+    return sum([&](int i) { return Vector(domain_.current(i).cross(force_on(i))); });
+  }
+
+ private:
+  Vector force_on(int i) const { return domain_.volume(i) * density_[i]; }
+  template <class Of>
+  Vector sum(const Of& of) const {
+    Vector all = Vector::Zero();
+    for (int i = 0; i < domain_.owned; ++i) all += of(i);
+    world_.sum(std::span(all.data(), 3));
+    return all;
+  }
+
+  Communicator world_;
+  Domain domain_;
+  SurfaceLaw law_;
+  double height_ = 0;  // of the first body, m
+  BlockPair blocks_{0, 1, false, true, {}};
+  std::optional<Surfaces> surfaces_;
+  Pairs pairs_;
+  std::vector<Vector> velocities_, density_;
+  std::vector<double> densities_;
+};
+
+Tensor turned(double degrees, const Vector& axis) {
+  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()).toRotationMatrix();
+}
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+const PointsAt kinds[] = {PointsAt::elements, PointsAt::nodes};
+
+Scene two_boxes(PointsAt at) { return Scene({points_of({18, 18, 4, at}), points_of({6, 6, 4, at})}, at); }
+
+// Offsets that are no multiples of each other, over two spacings.
+Vector offset(int k) { return {0.37 * h * k / 6 + 0.01 * h, 0.61 * h * k / 6, 0}; }
+
+// The lattices are hardly felt: the largest slope seen is 0.92 % (cells, parallel lattices, 10 % overlap).
+TEST(Surfaces, EqualLatticesSlideAtAnyOffsetAndAngle) {
+  for (const PointsAt at : kinds) {
+    Scene scene = two_boxes(at);
+    for (const double angle : {0.0, 10.0, 45.0}) {
+      for (const double overlap : {0.005, 0.02, 0.1}) {
+        for (int k = 0; k < 12; ++k) {
+          scene.place(offset(k) - overlap * h * Vector::UnitZ(), turned(angle, Vector::UnitZ()));
+          const Vector force = scene.force(1);
+          EXPECT_GT(force[2], 0);
+          EXPECT_LT(std::hypot(force[0], force[1]), 0.01 * force[2]) << word(at) << angle << " " << overlap;
+        }
+      }
+    }
+  }
+}
+
+// The first touch, as a part of a spacing above the face; measured: between 0 and −0.01.
+TEST(Surfaces, TouchWhereTheCellsEnd) {
+  for (const PointsAt at : kinds) {
+    Scene scene = two_boxes(at);
+    for (const double angle : {0.0, 10.0, 45.0}) {
+      for (const double x : {0.0, 0.25, 0.5}) {
+        const auto touches = [&](double gap) {
+          return scene.place(Vector(x * h, 0.3 * x * h, gap), turned(angle, Vector::UnitZ())).energy > 0;
+        };
+        EXPECT_FALSE(touches(0.02 * h)) << word(at) << angle << " " << x;
+        EXPECT_TRUE(touches(-0.03 * h)) << word(at) << angle << " " << x;
+      }
+    }
+  }
+}
+
+// A round strut made of cubes, on a plate: it touches where its lowest cells end.
+TEST(Surfaces, StrutsTouchWhereTheirCellsEnd) {
+  for (const int radius : {2, 3}) {
+    std::vector<std::pair<Vector, double>> strut;
+    for (const auto& [X, volume] : points_of({16, 8, 8})) {
+      const Vector from_axis = X - Vector(0, 0, 4 * h);
+      if (std::hypot(from_axis[1], from_axis[2]) < radius * h) strut.emplace_back(from_axis, volume);
+    }
+    Scene scene({points_of({26, 18, 4}), strut});
+    EXPECT_EQ(scene.place(Vector(0, 0, (radius + 0.1) * h)).energy, 0) << radius;
+    EXPECT_GT(scene.place(Vector(0, 0, (radius - 0.1) * h)).energy, 0) << radius;
+  }
+}
+
+// K g: with p/(factor M) spacings of overlap under the pressure p. Of large boxes, so that their edges, where the faces
+// feel half, count little: the middle's share of the force is what a box of two more cells has more.
+TEST(Surfaces, PressureIsThatOfALayer) {
+  for (const PointsAt at : kinds) {
+    const double overlap = 0.02 * h;
+    const auto force_of = [&](int n) {
+      Scene scene({points_of({22, 22, 4, at}), points_of({n, n, 4, at})}, at);
+      scene.place(Vector(0.3 * h, 0.2 * h, -overlap));
+      return scene.force(1)[2];
+    };
+    // n² p + 4 n q + 4 r for any n.
+    const double pressure = (force_of(12) - 2 * force_of(10) + force_of(8)) / (8 * h * h);
+    EXPECT_NEAR(pressure, 0.25 * modulus * overlap / h, 0.1 * 0.25 * modulus * overlap / h) << word(at);
+  }
+}
+
+// By central differences of the energy over 2 Δ: off by Δ² times a third derivative, and by kinks where a point begins
+// to touch, both below 1e-4 of the force here; round-off ε E/Δ is less.
+TEST(Surfaces, ForceIsTheSlopeOfTheEnergy) {
+  const Tensor R = turned(25, Vector(1, 2, 3));
+  for (const PointsAt at : kinds) {
+    for (const double limit : {0.0, 0.5}) {
+      Scene scene({points_of({10, 10, 4, at}), points_of({4, 4, 4, at})}, at, {.largest_overlap = limit});
+      const Vector place(0.3 * h, -0.2 * h, -0.02 * h);
+      scene.place(place, R);
+      const Vector force = scene.force(1);
+      for (int c = 0; c < 3; ++c) {
+        const Vector step = 1e-4 * h * Vector::Unit(c);
+        const double slope = (scene.place(place + step, R).energy - scene.place(place - step, R).energy) / (2e-4 * h);
+        EXPECT_NEAR(-slope, force[c], 1e-4 * force.norm()) << word(at) << c;
+      }
+    }
+  }
+}
+
+TEST(Surfaces, ForcesAndTorquesAddUpToNothing) {
+  for (const PointsAt at : kinds) {
+    Scene scene = two_boxes(at);
+    scene.place(Vector(0.3 * h, -0.2 * h, -0.05 * h), turned(3, Vector(1, 2, 3)));
+    const double force = scene.force(1).norm();
+    ASSERT_GT(force, 0);
+    EXPECT_LT((scene.force(0) + scene.force(1)).norm(), 1e3 * epsilon * force);  // of some hundred points
+    EXPECT_LT(scene.torque().norm(), 1e3 * epsilon * force * 18 * h);
+  }
+}
+
+// Plates one cell thick, and two, push each other apart from where they touch until their middles are level; the work
+// to get there is a barrier of pressures near that of their own stiffness.
+TEST(Surfaces, ThinPlatesDoNotPassThroughEachOther) {
+  for (const int thick : {1, 2}) {
+    Scene scene({points_of({14, 14, thick}), points_of({8, 8, thick})});
+    double last = 0;
+    for (int k = 1; k <= 9 * thick; ++k) {
+      const double energy = scene.place(Vector(0.2 * h, 0.1 * h, -0.1 * k * h)).energy;
+      EXPECT_GT(energy, last) << thick << " " << k;
+      EXPECT_GT(scene.force(1)[2], 0);
+      last = energy;
+    }
+    EXPECT_GT(last / (64 * h * h), 0.02 * modulus * h);
+  }
+}
+
+// The tangent is the derivative of the forces but for the turning and curving of W, which are in proportion to the
+// pressure: at an overlap of 1e-3 spacings some 1e-2.
+TEST(Surfaces, StiffnessIsTheDerivativeOfTheForces) {
+  for (const PointsAt at : kinds) {
+    Scene scene = two_boxes(at);
+    const Vector place(0.3 * h, -0.2 * h, -1e-3 * h), step(0, 0, 1e-5 * h);
+    scene.place(place + step);
+    const double more = scene.force(1)[2];
+    scene.place(place - step);
+    const double less = scene.force(1)[2];
+    scene.place(place);
+    const double stiffness = scene.stiffness(Vector::UnitZ());
+    EXPECT_NEAR(stiffness, (less - more) / (2e-5 * h), 0.03 * stiffness) << word(at);
+  }
+}
+
+// The bound of ω² is one: a light cell on a plate that is held has ω² = K/m, which is less than what both may do.
+TEST(Surfaces, BoundOfTheFrequencyIsOne) {
+  Scene scene({points_of({10, 10, 3}), points_of({1, 1, 1})});
+  const ForceResult result = scene.place(Vector(0, 0, -0.01 * h));
+  const double exact = scene.stiffness(Vector::UnitZ()) / (8000 * h * h * h);
+  EXPECT_GT(exact, 0);
+  EXPECT_GE(result.stiffness, exact);
+  EXPECT_LT(result.stiffness, 4 * exact);
+}
+
+// Energy, pressure and slope as each other's derivatives, by central differences of 1e-6 g_l.
+TEST(SurfaceLaw, TheLimitHoldsTheOverlap) {
+  const SurfaceLaw law{.factor = 0.25, .largest_overlap = 0.1, .modulus = modulus, .radius = 2.5 * h, .spacing = h};
+  const double limit = 0.1 * h, d = 1e-6 * limit;
+  for (const double g : {0.1 * limit, 0.5 * limit, 0.9 * limit, 0.99 * limit}) {
+    EXPECT_NEAR((law.energy(g + d) - law.energy(g - d)) / (2 * d), law.pressure(g), 1e-5 * law.pressure(g));
+    EXPECT_NEAR((law.pressure(g + d) - law.pressure(g - d)) / (2 * d), law.slope(g), 1e-5 * law.slope(g));
+  }
+  EXPECT_GT(law.pressure(0.9 * limit), 9.9 * 0.25 * modulus * 0.09);
+}
+
+}  // namespace
+}  // namespace strut::contact
