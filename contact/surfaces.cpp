@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "contact/largest_eigenvalue.hpp"
@@ -14,6 +15,12 @@ namespace {
 
 // The stiffness of the springs of friction, of that of the surfaces. With less than 1 they do not limit the time step.
 constexpr double of_friction = 0.5;
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// No share of material grows faster than this over the reach when all that is near moves by a length: ∫ |W'| dV is
+// 6.3/R, and material may be denser than it was.
+constexpr double steepest_share = 10;
 
 // By how much the cell of a point reaches beyond it towards the surface of its body, m. Of a slab √3 times the root of
 // its second moment.
@@ -61,10 +68,11 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other)
           .is_at_surface = is_at_surface(domain, i)};
 }
 
-// Within a body, points that were near each other see each other from a share of that distance only.
+// From how far a point sees another: within a body, if they were near each other, from a share of that distance only.
 double reach_between(double reach, const Site& here, const Site& there, bool one_body) {
   if (!one_body) return reach;
-  return largest_touching_distance(reach, (there.reference - here.reference).head<3>().matrix().norm(), true);
+  const double apart2 = (there.reference - here.reference).head<3>().matrix().squaredNorm();
+  return reference_share * reference_share * apart2 < reach * reach ? reference_share * std::sqrt(apart2) : reach;
 }
 
 template <class Record>
@@ -107,7 +115,7 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
 
 void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& pairs) {
   places_.clear();
-  at_surface_.clear();
+  due_.clear();
   std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
   std::vector<double> overlaps(blocks.points.size(), 0);
   int at = 0;
@@ -115,7 +123,7 @@ void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& 
     while (blocks.points[at] != i) ++at;
     places_.push_back(at);
     const bool has_lost_bonds = !domain.families.broken.empty() && !domain.families.broken[i].empty();
-    at_surface_.push_back(points_[at].is_at_surface || has_lost_bonds);
+    due_.push_back(points_[at].is_at_surface || has_lost_bonds ? 0 : never);
     slips[at] = slips_[at];
     overlaps[at] = overlaps_[at];
   }
@@ -123,33 +131,42 @@ void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& 
   overlaps_.swap(overlaps);
   facing_.assign(pairs.sites.size(), {});
   gradient_.assign(pairs.owned.size(), Vector::Zero());
+  seen_.clear();
 }
 
-// Calls visit(partner, η, |η|², its reach for pairs.owned[k], that of pairs.owned[k] for it): 0 where the one does not
-// see the other.
+// Calls visit(partner, η, |η|², reach) for the partners that pairs.owned[k] sees.
 template <class Visit>
-void Surfaces::over_partners(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+void Surfaces::over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+  const Site& here = pairs.sites[k];
+  const double reach = points_[places_[k]].reach;
+  for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
+    const Site& there = pairs.sites[pairs.partners[p]];
+    const Vector eta = (there.current - here.current).head<3>().matrix();
+    const double distance2 = eta.squaredNorm();
+    if (!(distance2 < reach * reach)) continue;
+    const double seen = reach_between(reach, here, there, pairs.one_body);
+    if (distance2 < seen * seen) visit(pairs.partners[p], eta, distance2, seen);
+  }
+}
+
+// The same of the partners that touch and see pairs.owned[k].
+template <class Visit>
+void Surfaces::over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const {
   const Site& here = pairs.sites[k];
   for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
     const int partner = pairs.partners[p];
+    if (!facing_[partner].touches()) continue;
     const Site& there = pairs.sites[partner];
     const Vector eta = (there.current - here.current).head<3>().matrix();
-    const double own = points_[places_[k]].reach, others = facing_[partner].reach;
+    const double reach = reach_between(facing_[partner].reach, here, there, pairs.one_body);
     const double distance2 = eta.squaredNorm();
-    if (!(distance2 < std::max(own * own, others * others))) continue;
-    const auto seen = [&](double reach) {
-      const double so_far = reach_between(reach, here, there, pairs.one_body);
-      return distance2 < so_far * so_far ? so_far : 0;
-    };
-    visit(partner, eta, distance2, seen(others), seen(own));
+    if (distance2 < reach * reach) visit(partner, eta, distance2, reach);
   }
 }
 
 Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
   Felt felt;
-  if (!at_surface_[k]) return felt;
-  over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double, double reach) {
-    if (reach == 0) return;
+  over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
     const Smoothing around(reach);
     const double volume = pairs.sites[partner].volume(), slope = volume * around.slope_over_distance(distance2);
     felt.share += volume * around.value(distance2);
@@ -174,12 +191,33 @@ Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& poi
   return facing;
 }
 
-// What each point feels: energy and deepest overlap.
+// How far two points of the pairs may have moved towards each other since the search: twice the largest motion against
+// the mean of each step, added up.
+void Surfaces::advance_travel(const Pairs& pairs) {
+  if (seen_.size() != pairs.sites.size()) {
+    travel_ = 0;
+  } else {
+    Vector mean = Vector::Zero();
+    double largest2 = 0;
+    const auto way = [&](std::size_t s) { return Vector(pairs.sites[s].current.head<3>().matrix() - seen_[s]); };
+    for (std::size_t s = 0; s < seen_.size(); ++s) mean += way(s) / static_cast<double>(seen_.size());
+    for (std::size_t s = 0; s < seen_.size(); ++s) largest2 = std::max(largest2, (way(s) - mean).squaredNorm());
+    travel_ += 2 * std::sqrt(largest2);
+  }
+  seen_.clear();
+  for (const Site& site : pairs.sites) seen_.push_back(site.current.head<3>().matrix());
+}
+
+// What each point feels: energy and deepest overlap. One that does not touch is asked again when the motion since then
+// may have sufficed.
 ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
+  advance_travel(pairs);
   ForceResult result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    if (travel_ < due_[k]) continue;
     const SurfacePoint& point = points_[places_[k]];
     const Felt felt = feel(pairs, k);
+    due_[k] = travel_ + (point.threshold - felt.share) * point.reach / steepest_share;
     double& overlap = overlaps_[places_[k]];
     gradient_[k] = felt.gradient;
     facing_[k] = facing(law, point, felt, pairs.masses[k], overlap);
@@ -205,8 +243,7 @@ ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const Surf
     };
     add(facing_[k], gradient_[k]);
     Vector force = -facing_[k].push * gradient_[k];
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach, double) {
-      if (reach == 0 || facing_[partner].to_come == 0) return;
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       const Vector gradient = -volume * Smoothing(reach).slope_over_distance(distance2) * eta;
       force -= facing_[partner].push * gradient;
       add(facing_[partner], gradient);
@@ -236,14 +273,13 @@ void Surfaces::add_friction(const Kinematics& kinematics, const SurfaceLaw& law,
   slips_before_ = slips_;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector& slip = slips_[places_[k]];
-    if (facing_[k].push == 0) {
+    if (!facing_[k].touches()) {
       slip.setZero();
       continue;
     }
     Vector velocity = Vector::Zero();
     double share = 0;
-    over_partners(pairs, k, [&](int partner, const Vector&, double distance2, double, double reach) {
-      if (reach == 0) return;
+    over_felt(pairs, k, [&](int partner, const Vector&, double distance2, double reach) {
       const double part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2);
       share += part;
       velocity += part * rubbing[partner].velocity;
@@ -257,8 +293,7 @@ void Surfaces::add_friction(const Kinematics& kinematics, const SurfaceLaw& law,
   }
   exchange_records(pairs, rubbing);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    over_partners(pairs, k, [&](int partner, const Vector&, double distance2, double reach, double) {
-      if (reach == 0 || facing_[partner].push == 0) return;
+    over_feeling(pairs, k, [&](int partner, const Vector&, double distance2, double reach) {
       friction[k] -= pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].drag;
     });
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
@@ -282,10 +317,9 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) changes[k].of_place = field[pairs.owned[k]];
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    if (facing_[k].stiffness == 0) continue;
+    if (!facing_[k].touches()) continue;
     double share = gradient_[k].dot(changes[k].of_place);
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double, double reach) {
-      if (reach == 0) return;
+    over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       const double slope = pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2);
       share += slope * eta.dot(changes[partner].of_place);
     });
@@ -294,8 +328,7 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector sum = changes[k].tension * gradient_[k];
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach, double) {
-      if (reach == 0 || facing_[partner].stiffness == 0) return;
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
       sum -= changes[partner].tension * slope * eta;
     });
@@ -306,8 +339,7 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
 void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Tensor sum = facing_[k].stiffness * gradient_[k] * gradient_[k].transpose();
-    over_partners(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach, double) {
-      if (reach == 0 || facing_[partner].stiffness == 0) return;
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
       sum += facing_[partner].stiffness * slope * slope * eta * eta.transpose();
     });

@@ -56,11 +56,16 @@ class Surfaces {
     double stiffness = 0;  // A p'/slope², N m: of the energy's second derivative by ρ
     double to_come = 0;    // the same if the overlap grows on as in the last step
     double spread = 0;     // Σ |∂ρ/∂y|/√m over all points that it depends on, 1/(m √kg)
+
+    bool touches() const { return to_come > 0; }
   };
   struct Felt;
 
   template <class Visit>
-  void over_partners(const Pairs& pairs, std::size_t k, const Visit& visit) const;
+  void over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const;
+  template <class Visit>
+  void over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const;
+  void advance_travel(const Pairs& pairs);
   Felt feel(const Pairs& pairs, std::size_t k) const;
   Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass, double& overlap) const;
   ForceResult feel_all(const SurfaceLaw& law, const Pairs& pairs);
@@ -70,7 +75,9 @@ class Surfaces {
   std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
   std::vector<Vector> slips_, slips_before_;  // of blocks.points: the springs of friction; a step before, m
   std::vector<int> places_;                   // of pairs.owned in blocks.points
-  std::vector<char> at_surface_;              // of pairs.owned
+  std::vector<double> due_;                   // of pairs.owned: the travel at which one may come to touch, m
+  std::vector<Vector> seen_;                  // where pairs.sites were, m
+  double travel_ = 0;                         // since the search, m
   std::vector<Facing> facing_;                // of pairs.sites, as of the last forces
   std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by its own place, 1/m
 };

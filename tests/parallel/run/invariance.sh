@@ -59,6 +59,9 @@ contact_section='<ParameterList name="Contact">
     </ParameterList>
   </ParameterList>'
 
+# The same at surfaces.
+contact_of_surfaces=$(sed -e 's/value="Short Range Force"/value="Surface"/' -e '/Contact Radius/d; /Spring Constant/d' <<< "$contact_section")
+
 # problem NAME: sets what deck() reads.
 problem() {
   contact= damage= crack= tip= stabilization= viscosity=0 points=Elements formulation=Correspondence speed=80 horizon='name="Horizon" value="0.0085"'
@@ -72,7 +75,7 @@ problem() {
     cells)
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"' speed=200
       formulation="Quadratic Correspondence" blocks=$(block bar all copper) ;;
-    mixed | mixed-cells | meeting | breaking | tearing | snapping)
+    mixed | mixed-cells | meeting | touching | breaking | tearing | snapping)
       mesh_type="Text File" mesh_file=mixed.txt foot=below
       sets='<ParameterList name="Node Sets">
         <Parameter name="below" type="string" value="z &lt; 0.0045"/>
@@ -89,6 +92,7 @@ problem() {
     return 0
   fi
   mesh_file=apart.txt contact=$contact_section viscosity=0.06
+  [ $1 = touching ] && contact=$contact_of_surfaces
   if [ $1 = snapping ]; then  # the upper one ordinary, with bonds that break by their energy
     speed=100 damage='<Parameter name="Damage Model" type="string" value="by energy"/>'
     crack='<ParameterList name="Cracks">
@@ -214,7 +218,7 @@ END
 # for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
 # measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
-for name in bar fast nodes cells mixed mixed-cells meeting breaking tearing snapping; do
+for name in bar fast nodes cells mixed mixed-cells meeting touching breaking tearing snapping; do
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml

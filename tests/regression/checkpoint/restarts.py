@@ -146,10 +146,13 @@ def press():
 
 
 def cells():
-    """The impact, its copper by quadratic correspondence: law points of their own."""
+    """The impact, its copper by quadratic correspondence: law points of their own. Contact of surfaces."""
     text = "\n".join(impact()).replace("impact.", "cells.")
     model = 'value="Elastic Plastic Correspondence"/>'
     assert model in text
+    of_points = keys(Contact_Model="Short Range Force", Contact_Radius=1.1 * SPACING, Spring_Constant=1e12)
+    assert of_points in text
+    text = text.replace(of_points, keys(Contact_Model="Surface"))
     return [text.replace(model, model + '<Parameter name="Formulation" type="string" value="Quadratic Correspondence"/>')]
 
 
