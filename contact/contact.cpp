@@ -112,19 +112,19 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
   return false;
 }
 
-void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
+void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, ContactPair& contact_pair,
                          std::vector<Vector>& force_density) {
   Pairs& pairs = contact_pair.pairs;
   if (pairs.empty() && !pairs.halo) return;
   static Teuchos::Time& timer = phase("Contact forces");
   const Timed timed(timer);
   const Model& model = contact_pair.model;
-  const bool rubs = model.friction > 0 && dt > 0;
+  const bool rubs = model.friction > 0 && (dt > 0 || sliding.is_trial);
   std::vector<Vector>& friction = contact_pair.friction;
   if (Surfaces* surfaces = contact_pair.surfaces ? &*contact_pair.surfaces : nullptr) {
     const auto& law = std::get<SurfaceLaw>(model.law);
     contact_pair.result = surfaces->add_normal_forces(kinematics, law, pairs, force_density);
-    if (rubs) surfaces->add_friction(kinematics, law, model.friction, dt, pairs, force_density, friction);
+    if (rubs) surfaces->add_friction(sliding, law, model.friction, pairs, force_density, friction);
   } else {
     const auto& law = std::get<PairLaw>(model.law);
     contact_pair.result = add_normal_forces(kinematics, law, pairs, force_density);
@@ -135,7 +135,29 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, ContactPair& c
 void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
   for (ContactPair& contact_pair : contact_pairs_) {
     if (contact_pair.due) look(kinematics, dt, contact_pair);
-    add_forces(kinematics, dt, contact_pair, force_density);
+    add_forces(kinematics, dt, {kinematics.velocities, dt}, contact_pair, force_density);
+  }
+}
+
+void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way,
+                               std::vector<Vector>& force_density) {
+  for (ContactPair& contact_pair : contact_pairs_) {
+    if (contact_pair.due) look(kinematics, 0, contact_pair);
+    add_forces(kinematics, 0, {.of = way, .is_trial = true}, contact_pair, force_density);
+  }
+}
+
+double Contact::friction_work_of_trial(std::span<const Vector> way) const {
+  double work = 0;
+  for (const ContactPair& pair : contact_pairs_) {
+    if (pair.surfaces) work += pair.surfaces->friction_work(pair.pairs, pair.friction, way);
+  }
+  return work;
+}
+
+void Contact::commit() {
+  for (ContactPair& pair : contact_pairs_) {
+    if (pair.surfaces && pair.model.friction > 0) pair.surfaces->commit(pair.pairs, pair.friction);
   }
 }
 

@@ -37,8 +37,15 @@ class Contact {
   // here (s), 0 at the start.
   void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
+  // The same for a trial of an equilibrium: friction (of surfaces) starts where the last commit was; `way`: of the
+  // owned points since then, m.
+  void add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way, std::vector<Vector>& force_density);
+  // Before the last trial is committed: the work of friction since the last time, on this rank's points, J.
+  double friction_work_of_trial(std::span<const Vector> way) const;
+  void commit();
+
   // Collective, after add_forces. Adds the tangent stiffness of what touches, times a field of the owned points, to
-  // result (N/m times the field's unit). Without friction.
+  // result (N/m times the field's unit); of friction in trials.
   void add_stiffness(std::span<const Vector> field, std::span<Vector> result);
   void add_springs(std::span<Tensor> springs) const;  // what of it acts on a point by its own motion, N/m
 
@@ -89,7 +96,7 @@ class Contact {
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
-  void add_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
+  void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, ContactPair& contact_pair,
                   std::vector<Vector>& force_density);
 
   std::vector<ContactPair> contact_pairs_;

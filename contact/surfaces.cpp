@@ -116,7 +116,7 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
 void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& pairs) {
   places_.clear();
   due_.clear();
-  std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
+  std::vector<Vector> slips(blocks.points.size(), Vector::Zero()), before = slips;
   std::vector<double> overlaps(blocks.points.size(), 0);
   int at = 0;
   for (const int i : pairs.owned) {
@@ -125,9 +125,11 @@ void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& 
     const bool has_lost_bonds = !domain.families.broken.empty() && !domain.families.broken[i].empty();
     due_.push_back(points_[at].is_at_surface || has_lost_bonds ? 0 : never);
     slips[at] = slips_[at];
+    before[at] = slips_before_[at];
     overlaps[at] = overlaps_[at];
   }
   slips_.swap(slips);  // a point without partners has none
+  slips_before_.swap(before);
   overlaps_.swap(overlaps);
   facing_.assign(pairs.sites.size(), {});
   gradient_.assign(pairs.owned.size(), Vector::Zero());
@@ -258,38 +260,47 @@ namespace {
 
 // What the partners of a point must know of it for friction.
 struct Rubbing {
-  Vector velocity = Vector::Zero();
+  Vector way = Vector::Zero();   // m
   Vector drag = Vector::Zero();  // the friction on it over its ρ, N
 };
 
 }  // namespace
 
-void Surfaces::add_friction(const Kinematics& kinematics, const SurfaceLaw& law, double coefficient, double dt,
-                            Pairs& pairs, std::vector<Vector>& force_density, std::vector<Vector>& friction) {
+void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,
+                            std::vector<Vector>& force_density, std::vector<Vector>& friction) {
   std::vector<Rubbing> rubbing(pairs.sites.size());
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) rubbing[k].velocity = kinematics.velocities[pairs.owned[k]];
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) rubbing[k].way = sliding.times * sliding.of[pairs.owned[k]];
   exchange_records(pairs, rubbing);
   friction.assign(pairs.owned.size(), Vector::Zero());
-  slips_before_ = slips_;
+  grips_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector& slip = slips_[places_[k]];
-    if (!facing_[k].touches()) {
-      slip.setZero();
-      continue;
-    }
-    Vector velocity = Vector::Zero();
+    Vector& before = slips_before_[places_[k]];
+    if (!sliding.is_trial) before = slip;
+    slip.setZero();
+    if (!facing_[k].touches()) continue;
+    Vector way = Vector::Zero();
     double share = 0;
     over_felt(pairs, k, [&](int partner, const Vector&, double distance2, double reach) {
       const double part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2);
       share += part;
-      velocity += part * rubbing[partner].velocity;
+      way += part * rubbing[partner].way;
     });
     const Vector normal = gradient_[k].stableNormalized();
-    slip += dt * (velocity / share - rubbing[k].velocity);
+    slip = before + (way / share - rubbing[k].way);
     slip -= slip.dot(normal) * normal;
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
-    friction[k] = yielding_spring(coefficient * facing_[k].push * gradient_[k].norm(), stiffness, slip);
+    const double most = coefficient * facing_[k].push * gradient_[k].norm(), wanted = stiffness * slip.norm();
+    friction[k] = yielding_spring(most, stiffness, slip);
     rubbing[k].drag = friction[k] / share;
+    if (!sliding.is_trial) continue;
+    const bool slides = wanted > most;
+    grips_[k] = {.along = friction[k].stableNormalized(),
+                 .normal = normal,
+                 .spring = slides ? stiffness * most / wanted : stiffness,
+                 .by_share = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
+                 .share = share,
+                 .slides = slides};
   }
   exchange_records(pairs, rubbing);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
@@ -300,18 +311,27 @@ void Surfaces::add_friction(const Kinematics& kinematics, const SurfaceLaw& law,
   }
 }
 
-void Surfaces::serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks) {
-  std::vector<std::int64_t> ids;
-  for (const int i : blocks.points) ids.push_back(domain.id(i));
-  archive.points(name, ids);
-  archive.field("slip", 3, [this](std::size_t k, int c) -> double& { return slips_before_[k][c]; });
-  if (archive.loading()) slips_ = slips_before_;
+void Surfaces::commit(const Pairs& pairs, const std::vector<Vector>& friction) {
+  slips_before_ = slips_;
+  friction_before_.assign(points_.size(), Vector::Zero());
+  for (std::size_t k = 0; k < friction.size(); ++k) friction_before_[places_[k]] = friction[k];
+}
+
+double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
+                               std::span<const Vector> way) const {
+  double work = 0;
+  for (std::size_t k = 0; k < friction.size(); ++k) {
+    const Vector before = friction_before_.empty() ? Vector::Zero() : friction_before_[places_[k]];
+    work += 0.5 * (before + friction[k]).dot(way[pairs.owned[k]]);
+  }
+  return work;
 }
 
 void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
   struct Change {
     Vector of_place = Vector::Zero();
-    double tension = 0;  // κ times the change of ρ
+    Vector drag = Vector::Zero();  // the change of the friction over ρ
+    double tension = 0;            // κ times the change of ρ
   };
   std::vector<Change> changes(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) changes[k].of_place = field[pairs.owned[k]];
@@ -319,18 +339,30 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     if (!facing_[k].touches()) continue;
     double share = gradient_[k].dot(changes[k].of_place);
+    Vector way = Vector::Zero();
     over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      const double slope = pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2);
-      share += slope * eta.dot(changes[partner].of_place);
+      const Smoothing around(reach);
+      const double volume = pairs.sites[partner].volume();
+      share += volume * around.slope_over_distance(distance2) * eta.dot(changes[partner].of_place);
+      if (!grips_.empty()) way += volume * around.value(distance2) * changes[partner].of_place;
     });
     changes[k].tension = facing_[k].stiffness * share;
+    if (grips_.empty()) continue;
+    const Grip& grip = grips_[k];
+    Vector slip = way / grip.share - changes[k].of_place;
+    slip -= slip.dot(grip.normal) * grip.normal;
+    if (grip.slides) slip -= slip.dot(grip.along) * grip.along;
+    changes[k].drag = (grip.spring * slip + grip.by_share * share * grip.along) / grip.share;
   }
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector sum = changes[k].tension * gradient_[k];
+    if (!grips_.empty()) sum -= grips_[k].share * changes[k].drag;
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
-      sum -= changes[partner].tension * slope * eta;
+      const Smoothing around(reach);
+      const double volume = pairs.sites[k].volume();
+      sum -= changes[partner].tension * volume * around.slope_over_distance(distance2) * eta;
+      sum += volume * around.value(distance2) * changes[partner].drag;
     });
     result[pairs.owned[k]] += sum;
   }
@@ -339,12 +371,25 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
 void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Tensor sum = facing_[k].stiffness * gradient_[k] * gradient_[k].transpose();
+    if (!grips_.empty() && !grips_[k].slides) {
+      sum += grips_[k].spring * (Tensor::Identity() - grips_[k].normal * grips_[k].normal.transpose());
+    }
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
       sum += facing_[partner].stiffness * slope * slope * eta * eta.transpose();
     });
     springs[pairs.owned[k]] += sum;
   }
+}
+
+void Surfaces::serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks) {
+  std::vector<std::int64_t> ids;
+  for (const int i : blocks.points) ids.push_back(domain.id(i));
+  if (friction_before_.empty()) friction_before_.assign(points_.size(), Vector::Zero());
+  archive.points(name, ids);
+  archive.field("slip", 3, [this](std::size_t k, int c) -> double& { return slips_before_[k][c]; });
+  archive.field("friction", 3, [this](std::size_t k, int c) -> double& { return friction_before_[k][c]; });
+  if (archive.loading()) slips_ = slips_before_;
 }
 
 }  // namespace strut::contact

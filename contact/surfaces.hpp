@@ -27,6 +27,14 @@ struct SurfacePoint {
   bool is_at_surface = false;
 };
 
+// By how much points have moved: `of` them, velocities (m/s) or ways (m), times so much. A trial starts where the last
+// commit was; else one step follows the other.
+struct Sliding {
+  std::span<const Vector> of;
+  double times = 1;
+  bool is_trial = false;
+};
+
 class Surfaces {
  public:
   // Collective. Of two blocks where they stand at first. Bodies whose surfaces overlap from the start do not press each
@@ -39,13 +47,19 @@ class Surfaces {
   // As forces.hpp has them for pairs of points. `penetration`: the overlap in spacings of the point.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                 std::vector<Vector>& force_density);
-  // With the slip of the step that led here, which lasted dt (s).
-  void add_friction(const Kinematics& kinematics, const SurfaceLaw& law, double coefficient, double dt, Pairs& pairs,
+  // `friction`: on pairs.owned, N.
+  void add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,
                     std::vector<Vector>& force_density, std::vector<Vector>& friction);
+  // What the last trial has come to is where the next ones start. Before that: the work of friction since the last
+  // time, by the mean of the forces at both ends, J; `way`: of owned points since then, m.
+  void commit(const Pairs& pairs, const std::vector<Vector>& friction);
+  double friction_work(const Pairs& pairs, const std::vector<Vector>& friction, std::span<const Vector> way) const;
+
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
   void add_springs(const Pairs& pairs, std::span<Tensor> springs) const;
 
-  // The stretch of the springs of friction at the start of the last step. `name`: of this pair of blocks.
+  // The stretch of the springs of friction at the start of the last step or trial, and the friction there. `name`: of
+  // this pair of blocks.
   void serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks);
 
  private:
@@ -60,6 +74,15 @@ class Surfaces {
     bool touches() const { return to_come > 0; }
   };
   struct Felt;
+  // How friction at a point follows its motion.
+  struct Grip {
+    Vector along = Vector::Zero();   // the direction of the force
+    Vector normal = Vector::Zero();  // of the surface
+    double spring = 0;               // N/m, along the surface; of what slides across its direction only
+    double by_share = 0;             // N: the force of what slides, by the change of ρ
+    double share = 1;                // ρ
+    bool slides = false;
+  };
 
   template <class Visit>
   void over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const;
@@ -74,6 +97,8 @@ class Surfaces {
   std::vector<SurfacePoint> points_;          // of blocks.points
   std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
   std::vector<Vector> slips_, slips_before_;  // of blocks.points: the springs of friction; a step before, m
+  std::vector<Vector> friction_before_;       // of blocks.points, N: as of the last commit
+  std::vector<Grip> grips_;                   // of pairs.owned, of a trial
   std::vector<int> places_;                   // of pairs.owned in blocks.points
   std::vector<double> due_;                   // of pairs.owned: the travel at which one may come to touch, m
   std::vector<Vector> seen_;                  // where pairs.sites were, m

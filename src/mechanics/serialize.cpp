@@ -51,6 +51,7 @@ void keep_points(Archive& archive, Body& body) {
 
 // The law points of quadratic correspondence.
 void keep_cells(Archive& archive, MaterialBlock& block) {
+  archive.field("flowed", 1, [&block](std::size_t k, int) -> std::uint8_t& { return block.flowed[k]; });
   const int places = block.places_a_point();
   const auto field = [&](const std::string& name, int width, const auto& number) {
     archive.field("cell_" + name, width * places, [&block, width, number](std::size_t k, int c) -> double& {

@@ -18,11 +18,11 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
     std::visit(check, condition.kind);
   }
   for (const ContactModel& one : contact_models) {
-    if (one.model.friction == 0) continue;
+    if (one.model.friction == 0 || std::holds_alternative<contact::SurfaceLaw>(one.model.law)) continue;
     problems.add("Contact > Models > " + one.name + " > Friction Coefficient",
                  "'" + to_text(one.model.friction) +
-                     "'; expected 0 with Solver > QuasiStatic: there, friction is that of "
-                     "rigid planes and tools");
+                     "'; expected 0, or Contact Model 'Surface', with Solver > QuasiStatic: there, "
+                     "friction is that of surfaces, rigid planes and tools");
   }
   for (const Block& block : blocks) {
     if (!block.damage_model) continue;

@@ -81,8 +81,16 @@ void Equilibrium::add_contact() {
   contact_.append_to_agree(kinematics, agreed);
   body_.domain.communicator.max(agreed);
   contact_.take_agreed(agreed, 1);
-  contact_.add_forces(kinematics, 0, body_.force_density);
+  contact_.add_trial_forces(kinematics, step_way(), body_.force_density);
 }
+
+std::vector<Vector> Equilibrium::step_way() const {
+  std::vector<Vector> way(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) way[i] = body_.current(i) - committed_.place(i);
+  return way;
+}
+
+double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
 
 // The reactions are what balances the forces in held directions.
 Imbalance Equilibrium::measure(bool failed) {
@@ -134,6 +142,7 @@ void Equilibrium::commit() {
     body_.previous_velocity[i] = body_.velocity[i];
   }
   committed_.take(body_);
+  contact_.commit();
   tools_.commit();
   outer_before_ = outer_;
   forces_before_ = forces_;

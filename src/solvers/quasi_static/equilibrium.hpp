@@ -63,10 +63,12 @@ class Equilibrium {
   // on this rank.
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
+  double friction_work() const;  // between bodies
   // Collective. Of the last trial, for so many conditions of the deck.
   Reactions reactions(int conditions) const;
 
  private:
+  std::vector<Vector> step_way() const;  // of the owned points in this load step, m
   void add_contact();
   Imbalance measure(bool failed);
 

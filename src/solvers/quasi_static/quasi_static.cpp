@@ -111,7 +111,7 @@ void QuasiStatic::serialize(Archive& archive) {
   archive.number("last_dt", last_dt_);
   archive.number("steps", steps_);
   archive.number("external_work", external_);
-  archive.number("work_of_tools", by_tools_);
+  archive.number("work_of_contact", of_contact_);
   archive.number("largest_energy", largest_energy_);
 }
 
@@ -139,7 +139,7 @@ void QuasiStatic::commit(const Search& search) {
   Body& body = equilibrium_.body();
   equilibrium_.evaluate(true);
   external_ += body.domain.communicator.sum(equilibrium_.external_work());
-  by_tools_ += body.domain.communicator.sum(equilibrium_.tool_work());
+  of_contact_ += body.domain.communicator.sum(equilibrium_.tool_work() + equilibrium_.friction_work());
   last_step_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
   equilibrium_.commit();
@@ -163,7 +163,7 @@ Ledger QuasiStatic::ledger() {
   now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
   now.heat = stored.heat;
   now.external = external_;
-  now.contact = by_tools_ - body.domain.communicator.sum(contact().energy());
+  now.contact = of_contact_ - body.domain.communicator.sum(contact().energy());
   const double held = now.elastic + now.dissipated + now.stabilization;
   const double put_in = now.external + now.contact;
   largest_energy_ = std::max({largest_energy_, held, std::abs(put_in)});

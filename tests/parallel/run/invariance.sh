@@ -60,7 +60,8 @@ contact_section='<ParameterList name="Contact">
   </ParameterList>'
 
 # The same at surfaces.
-contact_of_surfaces=$(sed -e 's/value="Short Range Force"/value="Surface"/' -e '/Contact Radius/d; /Spring Constant/d' <<< "$contact_section")
+contact_of_surfaces=$(printf '%s\n' "$contact_section" |
+  sed -e 's/value="Short Range Force"/value="Surface"/' -e '/Contact Radius/d; /Spring Constant/d')
 
 # problem NAME: sets what deck() reads.
 problem() {

@@ -303,7 +303,7 @@ TEST(DeckErrors, NothingOfInertiaIsAskedOfQuasiStatic) {
             "  Boundary Conditions > flight > Type: 'Initial Velocity'" +
                 reason +
                 "  Contact > Models > touch > Friction Coefficient: '0.3'; expected 0 with Solver > QuasiStatic: "
-                "there, friction is that of rigid planes and tools");
+                "there, friction is that of surfaces, rigid planes and tools");
   const std::string open = R"(<ParameterList name="Boundary Conditions"><ParameterList name="end">
       <Parameter name="Type" type="string" value="Non-Reflecting End"/>
       <Parameter name="Node Set" type="string" value="all"/>
