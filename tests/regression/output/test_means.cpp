@@ -59,7 +59,7 @@ TEST(Means, AreThoseOfAMotionThatIsGiven) {
 // steps.
 TEST(ContactForce, ExplainsTheMomentumOfBothBlocks) {
   const RunFolder folder;
-  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0.3 * h, 0.2 * h, 5.05 * h}, 4, 4, 4, h));
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0.3 * h, 0.2 * h, 4.1 * h}, 4, 4, 4, h));
   Parts parts;
   parts.mesh_type = "Text File";
   parts.mesh_file = "points.txt";
@@ -93,7 +93,8 @@ TEST(ContactForce, ExplainsTheMomentumOfBothBlocks) {
       ASSERT_NEAR(64 * cube * (velocity[n] - velocity[0]), impulse, 1e-11 * momentum) << axis << n;
       ASSERT_NEAR(on_1[n] + on_2[n], 0, 1e-9 * momentum / 1e-5) << axis << n;  // of a force that stops it in 10 µs
     }
-    if (axis != 'Y') EXPECT_GT(std::abs(impulse), 0.05 * momentum) << axis << ": they have met";
+    if (axis == 'Y') continue;
+    EXPECT_GT(std::abs(impulse), 0.05 * momentum) << axis << ": they have met";
   }
 }
 

@@ -304,7 +304,7 @@ TEST_F(Mistake, MeansAndContactForcesOfTheHistory) {
   expect_error(with("Mean_Velocity_W"), {"expected Mean_ and the name of a variable (did you mean 'Mean_Velocity"});
   expect_error(with("Mean_Velocity_Z(slces)"), {"there is no node set or block 'slces'"});
   expect_error(with("Mean_Velocity_Z(slices)", "1000"),
-               {"History > Profiles > slices: layer 2 of 1000 holds no point"});
+               {"History > Profiles > slices: layer 1 of 1000 holds no point"});
   expect_error(with("Mean_Velocity_Z(slices)", "0"), {"History > Profiles > slices > Layers: '0'; expected"});
   expect_error(with("Contact_Force_Z(bar)"), {"in brackets two blocks, e.g. Contact_Force_Z(foam:plate)"});
   expect_error(with("Contact_Force_Z(bar:plat)"), {"there is no block 'plat' (did you mean 'plate'?)"});
