@@ -99,16 +99,16 @@ def shortening(deck, table, axis, words):
     means = [n for n in table if re.fullmatch(rf"Mean_Displacement_{letter}\([^ ]+\)", n)]
     if len(means) in (1, 2):
         return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)
-    places = layers(table, axis, words.layers)
-    if places is not None:
-        apart = np.abs(places[0][:, -1] - places[0][:, 0])
-        return (apart[0] - apart) * places[2] / (places[2] - 1), "the distance of the outer layers"
     moves = motion_of(deck, axis, times) if deck else {}
     ways = list(moves.values())
     if ways:
         low, high = min(ways, key=lambda w: w[-1]), max(ways, key=lambda w: w[-1])
         other = high if len(ways) > 1 else np.zeros(len(times))
         return signed(low - other), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
+    places = layers(table, axis, words.layers)
+    if places is not None:
+        apart = np.abs(places[0][:, -1] - places[0][:, 0])
+        return (apart[0] - apart) * places[2] / (places[2] - 1), "the distance of the outer layers"
     fail(f"nothing says how far the sample is shortened: add Mean_Displacement_{letter}(top) and "
          f"Mean_Displacement_{letter}(foot) to History > Variables, or name a column or an expression of t by --shortening")
 

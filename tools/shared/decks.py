@@ -63,12 +63,16 @@ class Deck:
             fail(f"{self.path}: {path} has no value to change")
         return self.text[:found.start()] + new.replace("\0", "") + self.text[found.end():]
 
+    @classmethod
+    def of(cls, path, text):
+        """Of a text, as if it stood there."""
+        deck = object.__new__(cls)
+        deck.path, deck.text, deck.root = path, text, tree.fromstring(text)
+        return deck
+
     def with_value(self, path, value):
         """The same, as a deck."""
-        other = object.__new__(Deck)
-        other.path, other.text = self.path, self.changed(path, value)
-        other.root = tree.fromstring(other.text)
-        return other
+        return Deck.of(self.path, self.changed(path, value))
 
     def number_of(self, element):
         return [e for e in self.root.iter("Parameter")].index(element)
@@ -125,7 +129,7 @@ class Recipe:
         return bodies or [common]
 
     def changed(self, key, value):
-        """The text with another value of a key, `key` or `body.key`."""
+        """The text with another value of a key, `key` or `body.key`; without the line where the value is empty."""
         body, _, name = key.rpartition(".")
         lines, number, found, named = self.text.splitlines(), -1, [], []
         wanted = [i for i, keys in enumerate(self.bodies()) if not body or keys.get("name", "body") == body]
@@ -143,7 +147,10 @@ class Recipe:
                 found.append(i)
         if not found:
             fail(f"{self.path}: there is no line '{key}'{nearest(name, named)}; there are {', '.join(dict.fromkeys(named))}")
-        for i in found:
+        for i in reversed(found):
+            if not value:
+                del lines[i]
+                continue
             lines[i] = re.sub(r"=(\s*)[^#]*?(\s*)(#.*)?$", lambda m: f"={m[1]}{value}{m[2]}{m[3] or ''}", lines[i])
         return "\n".join(lines) + "\n"
 
@@ -159,12 +166,17 @@ class Recipe:
 
 
 FUNCTIONS = {name: getattr(math, name) for name in
-             ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "log10", "sqrt")}
+             ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "log10", "sqrt", "fabs", "pow", "erf", "erfc", "gamma")}
 FUNCTIONS.update(abs=abs, min=min, max=max, pi=math.pi)
 
 
 def value_at(expression, t):
     """A deck's expression of the time alone; None where it says more than this reads."""
+    return value_of(expression, {"t": t})
+
+
+def value_of(expression, names):
+    """The number that an expression of these names is; None where it is none."""
     text = expression.replace("^", "**").replace("&&", " and ").replace("||", " or ").strip().rstrip(";")
     text = re.sub(r"^value\s*=(?!=)", "", text)
     if not re.fullmatch(r"[\w\s.+\-*/(),<>=?:]*", text):
@@ -173,6 +185,6 @@ def value_at(expression, t):
     if ternary:
         text = f"(({ternary[2]}) if ({ternary[1]}) else ({ternary[3]}))"
     try:
-        return float(eval(text, {"__builtins__": {}}, {**FUNCTIONS, "t": t}))  # letters, digits and signs only
+        return float(eval(text, {"__builtins__": {}}, {**FUNCTIONS, **names}))  # letters, digits and signs only
     except Exception:  # whatever Python makes of words that it does not know
         return None
