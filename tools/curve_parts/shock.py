@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 LEAST_LAYERS = 4
+LEAST_JUMP = 0.5      # of the usual difference of the velocities of both ends
 MIDDLE = (0.15, 0.85)  # of the height: where speed, strain and jump are taken, apart from both ends
 
 
@@ -62,7 +63,10 @@ def front(times, places, velocities):
     speed = 1 / inverse
     scatter = float(np.sqrt(np.mean((X[middle] - speed * (when[middle] - start))**2)))
     behind = float(np.median(when[middle]))
-    jump = abs(float(velocities[row_at(times, behind), -1] - velocities[row_at(times, behind), 0]))
+    apart = np.abs(velocities[:, -1] - velocities[:, 0])
+    jump = float(apart[row_at(times, behind)])
+    if jump < LEAST_JUMP * np.median(apart):
+        return None  # an elastic wave, ahead of crushing that comes later and everywhere
     return Front(X[np.isfinite(when)], when[np.isfinite(when)], float(speed), scatter, jump,
                  strain_behind(times, places, X, when, middle), jump / speed, behind)
 

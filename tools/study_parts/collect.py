@@ -130,7 +130,7 @@ def draw(axes, plot, rows):
         xs = np.unique(pairs[:, 0])
         groups = [pairs[pairs[:, 0] == x, 1] for x in xs]
         deviation = [g.std(ddof=1) if len(g) > 1 else 0 for g in groups]
-        line = axes.errorbar(xs, [g.mean() for g in groups], deviation, fmt="-", capsize=3, label=by)
+        line = axes.errorbar(xs, [g.mean() for g in groups], deviation if any(deviation) else None, fmt="-", capsize=3, label=by)
         axes.plot(*pairs.T, ".", color=line[0].get_color())
     if plot.beside:
         draw_beside(axes, plot, rows)
