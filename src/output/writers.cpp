@@ -79,6 +79,7 @@ void History::open(const Body& body) {
 // Collective.
 std::vector<double> History::contact_forces(const contact::Contact& contact, const Domain& domain) const {
   std::vector<double> forces;
+  if (contacts_.empty()) return forces;
   for (const ContactComponent& c : contacts_) forces.push_back(contact.force(domain, c.first, c.second)[c.component]);
   domain.communicator.sum(forces);
   return forces;

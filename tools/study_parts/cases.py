@@ -21,7 +21,7 @@ class Case:
         if recipe is not None:
             self.texts[os.path.basename(recipe.path)] = recipe.text
         self.recipe = recipe and os.path.basename(recipe.path)
-        self.mesh = os.path.basename(deck.get("Discretization", "Input Mesh File") or "")
+        self.mesh = deck.get("Discretization", "Input Mesh File") or ""
         self.source = deck
         self.process, self.started = None, 0.0
 
@@ -60,6 +60,7 @@ class Case:
         for name, text in self.texts.items():
             with open(os.path.join(self.folder, name), "w") as file:
                 file.write(text)
+        os.makedirs(os.path.join(self.folder, os.path.dirname(self.mesh)), exist_ok=True)
         link_files(self.source, self.texts, self.folder, self.mesh if self.recipe else None)
         self.put_state(over=False)
         return False
