@@ -27,7 +27,8 @@ def read(path):
 def vax_floats(data):
     """F_floating: the halves are exchanged and the exponent is two larger."""
     words = np.frombuffer(data, "<u2").astype(np.uint32)
-    return ((words[0::2] << 16) | words[1::2]).astype(np.uint32).view(np.float32) * 0.25
+    with np.errstate(invalid="ignore"):  # of a damaged file
+        return ((words[0::2] << 16) | words[1::2]).astype(np.uint32).view(np.float32) * 0.25
 
 
 def checked(path, shape, edges):
@@ -41,8 +42,8 @@ def aim(path, data):
     whole = "<i8" if new else "<i4"
     if len(data) < start + 5 * size or (not new and np.frombuffer(data[:8], "<i4").tolist() != [20, 140]):
         fail(f"{path} is not an AIM image of Scanco (version 020 or 030), or is damaged")
-    lengths = np.frombuffer(data[start:start + 3 * size], whole).astype(int)
-    header = start + int(lengths[0])
+    lengths = np.frombuffer(data[start:start + 3 * size], whole).tolist()
+    header = start + lengths[0]
     if min(lengths) < 0 or len(data) < header + 24 + 21 * size + 12:
         fail(f"{path} is damaged: it ends in its header")
     kind = int(np.frombuffer(data[header + 20:header + 24], "<i4")[0])
@@ -51,7 +52,7 @@ def aim(path, data):
     shape = tuple(int(n) for n in numbers[5:2:-1])
     edges = tuple(float(1e-3 * (e or 1)) for e in edges)
     checked(path, shape, edges)
-    return values_of(path, data[start + int(lengths.sum()):], kind, shape, size), edges
+    return values_of(path, data[start + sum(lengths):], kind, shape, size), edges
 
 
 def values_of(path, data, kind, shape, size):
