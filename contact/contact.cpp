@@ -236,6 +236,40 @@ DeepestPenetration Contact::deepest() const {
   return deepest;
 }
 
+namespace {
+
+bool is_of(const BlockPair& blocks, int first, int second) {
+  return (blocks.first == first && blocks.second == second) || (blocks.first == second && blocks.second == first);
+}
+
+}  // namespace
+
+bool Contact::between(int first, int second) const {
+  return std::any_of(contact_pairs_.begin(), contact_pairs_.end(),
+                     [&](const ContactPair& c) { return is_of(c.blocks, first, second); });
+}
+
+Vector Contact::force(const Domain& domain, int first, int second) const {
+  Vector sum = Vector::Zero();
+  for (const ContactPair& contact_pair : contact_pairs_) {
+    if (!is_of(contact_pair.blocks, first, second)) continue;
+    const Pairs& pairs = contact_pair.pairs;
+    const auto counts = [&](std::size_t k) { return domain.cloud.blocks[pairs.owned[k]] == first; };
+    const auto add = [&](std::size_t k, const Vector& force) {
+      if (counts(k)) sum += force;
+    };
+    if (contact_pair.surfaces) {
+      contact_pair.surfaces->for_each_normal_force(pairs, add);
+    } else {
+      for_each_normal_force(std::get<PairLaw>(contact_pair.model.law), pairs, add);
+    }
+    for (std::size_t k = 0; k < contact_pair.friction.size(); ++k) {
+      if (counts(k)) sum += contact_pair.friction[k];
+    }
+  }
+  return sum;
+}
+
 FrictionWork Contact::friction_work(double impulse_time, std::span<const Vector> before,
                                     std::span<const Vector> after) const {
   FrictionWork work;

@@ -65,6 +65,11 @@ class Contact {
   double penetration() const { return penetration_; }
   DeepestPenetration deepest() const;
 
+  // Whether there is an interaction between two blocks; of the last forces, what the block `first` of this rank feels
+  // from all points of `second`, with friction, N.
+  bool between(int first, int second) const;
+  Vector force(const Domain& domain, int first, int second) const;
+
   // Of the last forces of friction on this rank's points, over the time of an impulse (s) from the velocities `before`
   // to those `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;

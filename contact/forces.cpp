@@ -159,6 +159,16 @@ void add_friction(const Kinematics& kinematics, const PairLaw& law, double coeff
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
 }
 
+void for_each_normal_force(const PairLaw& law, const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) {
+  std::visit(
+      [&](const auto& one) {
+        for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+          for_each_touch(pairs, one, k, [&](const auto& touch) { visit(k, -touch.force() * touch.direction); });
+        }
+      },
+      law);
+}
+
 void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> springs) {
   for_each_spring(law, pairs, [&](std::size_t k, int, const Vector& n, double stiffness) {
     springs[pairs.owned[k]] += stiffness * n * n.transpose();

@@ -1,6 +1,7 @@
 // The forces of the pairs of points that a search has found.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "contact/laws/laws.hpp"
@@ -39,6 +40,10 @@ ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, 
 // pairs.owned[k] (N), so that its work can be counted. dt: the length of the step (s).
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
                   std::vector<Vector>& force_density, std::vector<Vector>& friction);
+
+// After add_normal_forces. What each point pairs.owned[k] feels, by visit(k, force in N).
+void for_each_normal_force(const PairLaw& law, const Pairs& pairs,
+                           const std::function<void(std::size_t, Vector)>& visit);
 
 // Collective, after add_normal_forces. Adds the tangent stiffness of the touching pairs, times a field of the body's
 // owned points, to result (N/m times the field's unit). The turning of a pair's direction is left out.

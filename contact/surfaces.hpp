@@ -8,6 +8,7 @@
 // It yields at μ times the normal force (Coulomb): what sticks does not creep.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,6 +48,7 @@ class Surfaces {
   // As forces.hpp has them for pairs of points. `penetration`: the overlap in spacings of the point.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                 std::vector<Vector>& force_density);
+  void for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const;
   // `friction`: on pairs.owned, N.
   void add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,
                     std::vector<Vector>& force_density, std::vector<Vector>& friction);

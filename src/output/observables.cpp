@@ -202,9 +202,13 @@ Generated from the tables in `src/output/observables.cpp`; do not edit by hand. 
 Each is a field of the points that the section `Output` of a deck can write (`Output Variables`). With `Max_` or `Min_`
 in front it is a column that the section `History` can write: the extreme over all points, or with the name of a node
 set or block, `Max_Displacement(foot)`, over its points. 3 components are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a
-tensor row by row. An extreme of several components is that of the root of the sum of their squares.
+tensor row by row. An extreme of several components is that of the root of the sum of their squares; one of them is named as
+in `Max_Displacement_Z` and `Min_Cauchy_Stress_ZZ`. `Mean_` is the mean over the same points, weighted by their reference
+volumes: `Mean_Displacement_Z(top)`. Where the brackets name a section of `History` > `Profiles`, there is a column for each of
+its layers, `Mean_Velocity_Z(slices 1)`, ….
 
-Besides, the history knows `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
+Besides, the history knows `Contact_Force_X(foam:plate)`, `_Y` and `_Z`, the force of contact on the block `foam` from the
+block `plate`, with friction (N); `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
 on the body (N), and of a crack that the section `History` > `Cracks` names `Crack_Tip(notch)`, how far it has come along its
 direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m/s).
 
@@ -222,12 +226,12 @@ std::string escaped(std::string text) {
   return text;
 }
 
-std::vector<std::string> names_of(const std::vector<Observable>& all, const std::vector<std::string>& prefixes) {
-  std::vector<std::string> names;
-  for (const std::string& prefix : prefixes) {
-    for (const Observable& o : all) names.push_back(prefix + o.name);
-  }
-  return names;
+// As in the names of an Exodus file's fields.
+std::vector<std::string> component_names(int components) {
+  if (components == 3) return {"X", "Y", "Z"};
+  if (components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
+  if (components == 9) return {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
+  return {};
 }
 
 const Observable* find(const std::vector<Observable>& all, const std::string& name) {
@@ -260,7 +264,7 @@ std::string observables_page() {
 
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where) {
-  const std::vector<std::string> valid = names_of(all, {""});
+  const std::vector<std::string> valid = names_of(all);
   std::vector<Observable> result;
   std::vector<std::string> problems;
   for (const std::string& name : names) {
@@ -275,6 +279,49 @@ std::vector<Observable> chosen(const std::vector<Observable>& all, const std::ve
   return result;
 }
 
+std::optional<PointNumber> PointNumber::find(const std::vector<Observable>& all, const std::string& name) {
+  if (const Observable* whole = strut::find(all, name)) return PointNumber{*whole, -1};
+  const std::size_t bar = name.rfind('_');
+  const Observable* of = bar == std::string::npos ? nullptr : strut::find(all, name.substr(0, bar));
+  if (!of) return std::nullopt;
+  const std::vector<std::string> components = component_names(of->components);
+  const auto found = std::find(components.begin(), components.end(), name.substr(bar + 1));
+  if (found == components.end()) return std::nullopt;
+  return PointNumber{*of, static_cast<int>(found - components.begin())};
+}
+
+std::vector<double> PointNumber::of(const Body& body) const {
+  std::vector<double> values;
+  observable.fill(body, values);
+  const int width = observable.components;
+  if (width == 1) return values;
+  std::vector<double> numbers(body.owned());
+  for (int i = 0; i < body.owned(); ++i) {
+    const double* first = &values[static_cast<std::size_t>(i) * width];
+    numbers[i] = component < 0 ? Eigen::Map<const Eigen::VectorXd>(first, width).norm() : first[component];
+  }
+  return numbers;
+}
+
+std::vector<std::string> names_of(const std::vector<Observable>& all) {
+  std::vector<std::string> names;
+  for (const Observable& o : all) names.push_back(o.name);
+  return names;
+}
+
+std::vector<std::string> names_of_numbers(const std::vector<Observable>& all,
+                                          const std::vector<std::string>& prefixes) {
+  std::vector<std::string> names;
+  for (const std::string& prefix : prefixes) {
+    for (const Observable& o : all) {
+      names.push_back(prefix + o.name);
+      for (const std::string& component : component_names(o.components))
+        names.push_back(prefix + o.name + "_" + component);
+    }
+  }
+  return names;
+}
+
 Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
                  const std::string& where)
     : name_(name) {
@@ -282,29 +329,24 @@ Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, co
   const std::string whole = name.substr(0, bracket);
   const std::string kind = whole.substr(0, 4);
   const bool extreme = kind == "Max_" || kind == "Min_";
-  const Observable* found = extreme ? find(all, whole.substr(4)) : nullptr;
+  const std::optional<PointNumber> found = extreme ? PointNumber::find(all, whole.substr(4)) : std::nullopt;
   if (!found) {
-    throw Error(where + " > " + name + ": expected Max_ or Min_ and the name of a variable" +
-                did_you_mean(whole, names_of(all, {"Max_", "Min_"})) + "; variables are " +
-                joined(names_of(all, {""})));
+    throw Error(where + " > " + name + ": expected Max_, Min_ or Mean_ and the name of a variable" +
+                did_you_mean(whole, names_of_numbers(all, {"Max_", "Min_", "Mean_"})) + "; variables are " +
+                joined(names_of(all)));
   }
   if (bracket != std::string::npos) {
     group_ = PointGroup(cloud, name.substr(bracket + 1, name.size() - bracket - 2), where + " > " + name);
   }
   sign_ = kind == "Max_" ? 1 : -1;
-  observable_ = *found;
+  number_ = *found;
 }
 
 double Extreme::local(const Body& body) const {
-  std::vector<double> values;
-  observable_.fill(body, values);
+  const std::vector<double> values = number_.of(body);
   double best = -std::numeric_limits<double>::infinity();
-  const int width = observable_.components;
   for (int i = 0; i < body.owned(); ++i) {
-    if (!group_.counts(body.domain.cloud, i)) continue;
-    const double* first = &values[static_cast<std::size_t>(i) * width];
-    const double value = width == 1 ? *first : Eigen::Map<const Eigen::VectorXd>(first, width).norm();
-    best = std::max(best, sign_ * value);
+    if (group_.counts(body.domain.cloud, i)) best = std::max(best, sign_ * values[i]);
   }
   return best;
 }

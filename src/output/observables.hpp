@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,23 @@ std::string observables_page();
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where);
 
-// "Max_X" and "Min_X" of an observable X (the length of a vector): collective, over all points of all ranks;
+// A number of each point: an observable of one component, one of the components of another ("Displacement_Z"), or the
+// root of the sum of their squares ("Displacement").
+struct PointNumber {
+  Observable observable;
+  int component = -1;  // -1: of all
+
+  // As `name` says; none where there is no such observable.
+  static std::optional<PointNumber> find(const std::vector<Observable>& all, const std::string& name);
+  std::vector<double> of(const Body& body) const;  // of the owned points
+};
+
+// What follows `prefixes` in names of numbers of points, for errors: observables, and their components.
+std::vector<std::string> names_of_numbers(const std::vector<Observable>& all, const std::vector<std::string>& prefixes);
+// The observables alone.
+std::vector<std::string> names_of(const std::vector<Observable>& all);
+
+// "Max_X" and "Min_X" of a number X of points: collective, over all points of all ranks;
 // "Max_X(foam)": over the points of the node set foam or, where there is no such set, of the block.
 class Extreme {
  public:
@@ -46,7 +63,7 @@ class Extreme {
 
  private:
   std::string name_;
-  Observable observable_;
+  PointNumber number_;
   double sign_ = 1;
   PointGroup group_;
 };

@@ -11,6 +11,7 @@ namespace {
 
 const std::string where = "History > Variables";
 const std::vector<std::string> reaction_names = {"Reaction_X", "Reaction_Y", "Reaction_Z"};
+const std::vector<std::string> contact_names = {"Contact_Force_X", "Contact_Force_Y", "Contact_Force_Z"};
 const std::vector<std::string> crack_names = {"Crack_Tip", "Crack_Speed"};
 
 std::string before_bracket(const std::string& name) { return name.substr(0, name.find('(')); }
@@ -74,6 +75,31 @@ CrackColumn crack_column(const std::vector<deck::WatchedCrack>& watched, const B
   return {name, place, kind == 1};
 }
 
+// The place of a block by its name; throws where there is none.
+int block_of(const std::vector<std::string>& names, const std::string& wanted, const std::string& path) {
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  throw Error(path + ": there is no block '" + wanted + "'" + did_you_mean(wanted, names) + "; there are " +
+              joined(names));
+}
+
+ContactComponent contact_force(const contact::Contact& contact, const std::vector<std::string>& blocks,
+                               const std::string& name) {
+  const std::string path = where + " > " + name;
+  const std::string kind = before_bracket(name);
+  const auto found = std::find(contact_names.begin(), contact_names.end(), kind);
+  const std::size_t colon = name.find(':');
+  if (found == contact_names.end() || kind == name || name.back() != ')' || colon == std::string::npos) {
+    throw Error(path + ": expected one of " + joined(contact_names) + did_you_mean(kind, contact_names) +
+                " and in brackets two blocks, e.g. Contact_Force_Z(foam:plate), the force on foam from plate");
+  }
+  const int first = block_of(blocks, name.substr(kind.size() + 1, colon - kind.size() - 1), path);
+  const int second = block_of(blocks, name.substr(colon + 1, name.size() - colon - 2), path);
+  if (first == second) throw Error(path + ": the forces of a block on itself add up to nothing; expected two blocks");
+  if (contact.between(first, second)) return {name, first, second, static_cast<int>(found - contact_names.begin())};
+  throw Error(path + ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
+}
+
 // Collective: an unknown name throws on all ranks, before they count.
 Extreme extreme(const std::vector<Observable>& all, const Domain& domain, const std::string& name) {
   Extreme extreme(all, domain.cloud, name, where);
@@ -83,7 +109,7 @@ Extreme extreme(const std::vector<Observable>& all, const Domain& domain, const 
 
 }  // namespace
 
-OutputVariables output_variables_of(const deck::Deck& deck, const Body& body) {
+OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, const contact::Contact& contact) {
   const std::vector<Observable> all = observables(body);
   OutputVariables variables;
   deck::Problems problems;
@@ -101,6 +127,10 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body) {
         variables.reactions.push_back(reaction(deck.conditions, name));
       } else if (means(name, "Crack", crack_names)) {
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
+      } else if (means(name, "Contact", contact_names)) {
+        variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
+      } else if (name.starts_with("Mean_")) {
+        variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
       } else {
         variables.extremes.push_back(extreme(all, body.domain, name));
       }

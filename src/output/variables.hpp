@@ -2,8 +2,10 @@
 #pragma once
 
 #include "conditions/reactions.hpp"
+#include "contact/contact.hpp"
 #include "deck/deck.hpp"
 #include "output/crack_tip.hpp"
+#include "output/means.hpp"
 #include "output/observables.hpp"
 
 namespace strut {
@@ -25,16 +27,24 @@ struct CrackColumn {
   double of(const CrackTip& tip) const { return is_speed ? tip.speed() : tip.tip(); }
 };
 
+// "Contact_Force_X(foam:plate)": a component of the force of contact on the first block from the second, N.
+struct ContactComponent {
+  std::string name;
+  int first, second, component;
+};
+
 struct OutputVariables {
   std::vector<Observable> frame;             // Output > Output Variables
   std::vector<Extreme> extremes;             // History > Variables
   std::vector<ReactionComponent> reactions;  // History > Variables
   std::vector<CrackColumn> crack_columns;    // History > Variables
   std::vector<CrackTip> cracks;              // that these are of
+  std::vector<Mean> means;                   // History > Variables
+  std::vector<ContactComponent> contacts;    // History > Variables
 };
 
 // Collective. Throws one Error for all unknown names, extremes over no point, reactions of what has none, and cracks
-// where there can be none.
-OutputVariables output_variables_of(const deck::Deck& deck, const Body& body);
+// where there can be none; contact of blocks that have none with each other.
+OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, const contact::Contact& contact);
 
 }  // namespace strut

@@ -46,7 +46,9 @@ History::History(const deck::Deck& deck, const OutputVariables& variables)
       extremes_(variables.extremes),
       reactions_(variables.reactions),
       crack_columns_(variables.crack_columns),
-      cracks_(variables.cracks) {}
+      cracks_(variables.cracks),
+      means_(variables.means),
+      contacts_(variables.contacts) {}
 
 void History::open(const Body& body) {
   if (!enabled_) return;
@@ -67,10 +69,23 @@ void History::open(const Body& body) {
   for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
   for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
   for (const CrackColumn& column : crack_columns_) names.push_back(column.name);
+  for (const Mean& mean : means_) {
+    for (std::string& name : mean.columns()) names.push_back(std::move(name));
+  }
+  for (const ContactComponent& contact : contacts_) names.push_back(contact.name);
   file_.emplace(path_, body.domain.communicator, names, before_);
 }
 
-void History::write(const Ledger& now, const Reactions& reactions, const Body& body) {
+// Collective.
+std::vector<double> History::contact_forces(const contact::Contact& contact, const Domain& domain) const {
+  std::vector<double> forces;
+  if (contacts_.empty()) return forces;
+  for (const ContactComponent& c : contacts_) forces.push_back(contact.force(domain, c.first, c.second)[c.component]);
+  domain.communicator.sum(forces);
+  return forces;
+}
+
+void History::write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body) {
   static Teuchos::Time& timer = phase("History");
   const Timed timed(timer);
   std::vector<double> row{now.time,          now.dt,          now.kinetic,     now.elastic,    now.dissipated,
@@ -86,6 +101,10 @@ void History::write(const Ledger& now, const Reactions& reactions, const Body& b
   row.resize(tips);
   for (const ReactionComponent& reaction : reactions_) row.push_back(reaction.of(reactions));
   for (const CrackColumn& column : crack_columns_) row.push_back(column.of(cracks_[column.crack]));
+  for (const Mean& mean : means_) {
+    for (const double value : mean.values(body)) row.push_back(value);
+  }
+  for (const double force : contact_forces(contact, body.domain)) row.push_back(force);
   file_->write(row);
   schedule.done(now.time);
   last_ = now.time;

@@ -41,13 +41,14 @@ class FieldWriter {
   std::optional<io::ExodusWriter> writer_;
 };
 
-// The table of the ledger and of asked-for extremes, reactions and cracks over time.
+// The table of the ledger and of asked-for extremes, means, reactions, contact forces and cracks over time.
 class History {
  public:
   History(const deck::Deck& deck, const OutputVariables& variables);
 
-  void open(const Body& body);                                                  // as FieldWriter
-  void write(const Ledger& now, const Reactions& reactions, const Body& body);  // collective
+  void open(const Body& body);  // as FieldWriter
+  // Collective.
+  void write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body);
   void serialize(Archive& archive, double time);
 
   bool has(double time) const { return time == last_; }
@@ -56,6 +57,8 @@ class History {
   Schedule schedule;
 
  private:
+  std::vector<double> contact_forces(const contact::Contact& contact, const Domain& domain) const;
+
   bool enabled_;
   double last_ = never;
   std::filesystem::path path_;
@@ -63,6 +66,8 @@ class History {
   std::vector<ReactionComponent> reactions_;
   std::vector<CrackColumn> crack_columns_;
   std::vector<CrackTip> cracks_;
+  std::vector<Mean> means_;
+  std::vector<ContactComponent> contacts_;
   std::int64_t before_ = 0;  // bytes that a restored run finds
   std::optional<io::HistoryFile> file_;
 };
@@ -95,7 +100,7 @@ struct OutputWriters {
     if (wanted(frames)) frames.write(now, body);
     if (!wanted(history)) return std::nullopt;
     const Ledger ledger = solver.ledger();
-    history.write(ledger, reactions(), body);
+    history.write(ledger, reactions(), solver.contact(), body);
     return ledger;
   }
 

@@ -31,7 +31,7 @@ double measured_step(const deck::Deck& deck, CentralDifference& solver) {
 void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
   const deck::Deck deck = deck::read(deck_file, communicator);
   Scene scene = set_up(deck, communicator);
-  output_variables_of(deck, scene.body);
+  output_variables_of(deck, scene.body, scene.contact);
   if (scene.quasi_static) {
     const std::string text = describe_scene(scene);
     if (communicator.rank() == 0) {

@@ -129,7 +129,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   Scene scene = set_up(deck, communicator);
   say(communicator, describe_scene(scene));
   const OutputVariables variables =
-      output_variables_of(deck, scene.body);  // all names are checked before a file is replaced
+      output_variables_of(deck, scene.body, scene.contact);  // all names are checked before a file is replaced
   OutputWriters writers(deck, variables);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,

@@ -84,7 +84,7 @@ std::string with_mesh(const fs::path& folder, const std::string& stem, std::stri
 void set_up_and_step(const fs::path& file, const Communicator& world) {
   const deck::Deck deck = deck::read(file, world);
   Scene scene = set_up(deck, world);
-  output_variables_of(deck, scene.body);
+  output_variables_of(deck, scene.body, scene.contact);
   if (scene.quasi_static) return;
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);

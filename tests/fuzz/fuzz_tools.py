@@ -79,6 +79,15 @@ def nrrd(encoding, pack):
     return header.encode() + pack(image().tobytes())
 
 
+def scanco(kind, data):
+    """AIM 020, without its log."""
+    head = bytearray(140)
+    head[20:24] = kind.to_bytes(4, "little")
+    head[36:48] = np.array([12, 6, 5], "<i4").tobytes()
+    head[108:120] = 3 * b"\x80\x40\x00\x00"  # 1 mm, as a VAX has it
+    return np.array([20, 140, 0, len(data), 0], "<i4").tobytes() + bytes(head) + data
+
+
 def tetrahedra():
     points = np.array([(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)], float)
     cells = [("tetra", np.array([(0, 1, 2, 4), (7, 6, 5, 3)])), ("triangle", np.array([(0, 1, 2)]))]
@@ -112,12 +121,16 @@ def samples(folder):
     put("image.nrrd", nrrd("raw", bytes))
     put("packed.nrrd", nrrd("gzip", gzip.compress))
     put("image.raw", image().tobytes())
+    put("image.aim", scanco(0x00160001, image().tobytes()))
+    runs = b"".join(bytes([1, value]) for value in image().tobytes())
+    put("packed.aim", scanco(0x00080002, (4 + len(runs)).to_bytes(4, "little") + runs))
     places = "\n".join(" ".join(f"{c / 10:g}" for c in place[::-1]) for place in np.argwhere(image()))
     put("list.pts", places.encode())
     put("list.pts.gz", gzip.compress(places.encode()))
     size = ("--size", "1")
     found = {name: ("voxels", size) for name in ("image.tif", "packed.tif", "image.vti", "image.vtk", "image.mha",
-                                                 "image.nrrd", "packed.nrrd", "list.pts", "list.pts.gz")}
+                                                 "image.nrrd", "packed.nrrd", "list.pts", "list.pts.gz",
+                                                 "image.aim", "packed.aim")}
     found["image.raw"] = ("voxels", (*size, "--shape", "12", "6", "5", "--type", "uint8"))
     for name, form, words in (("mesh.msh", "gmsh", {}), ("text.msh", "gmsh", {"binary": False}),
                               ("old.msh", "gmsh22", {"binary": False}), ("mesh.vtu", "vtu", {}), ("mesh.vtk", "vtk", {}),

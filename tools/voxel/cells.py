@@ -20,6 +20,13 @@ def mesh_of(solid, cell, origin, elements, block):
     return nodes, [block_of], sets
 
 
+def by_material(blocks, materials, names):
+    """A block each of the materials (1, 2, …, of the elements in their order); one that has none is left out."""
+    (_, kind, elements, volumes), = blocks
+    parts = [(name, materials == number) for number, name in enumerate(names, 1)]
+    return [(name, kind, elements[there], None if volumes is None else volumes[there]) for name, there in parts if there.any()]
+
+
 def coordinates(places, cell, origin, offset):
     return np.stack([origin[a] + (places[2 - a] + offset) * cell[a] for a in range(3)], axis=1)
 

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 import points
+import scanco
+import units
 from strut_tools import captured, fail, nearest
 
 VTK_READERS = {".nrrd": ("vtkIOImage", "vtkNrrdReader"), ".nhdr": ("vtkIOImage", "vtkNrrdReader"),
@@ -15,7 +17,19 @@ VTK_READERS = {".nrrd": ("vtkIOImage", "vtkNrrdReader"), ".nhdr": ("vtkIOImage",
                ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
 TIFF = (".tif", ".tiff")
 TEXT = (".pts", ".txt", ".xyz", ".dat")
-RAW_TYPES = {"uint8": "<u1", "uint16": "<u2", "float32": "<f4"}
+SCANCO = (".aim", ".isq")
+RAW_TYPES = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "float32": "f4",
+             "float64": "f8"}
+BYTE_ORDERS = {"little": "<", "big": ">"}
+
+
+@dataclass
+class Raw:
+    """A file of bare numbers: x runs fastest."""
+    shape: list             # voxels along x, y, z
+    type: str               # of RAW_TYPES
+    order: str = "little"   # of bytes
+    header: int = 0         # bytes before the numbers
 
 
 @dataclass
@@ -25,8 +39,8 @@ class Image:
     kind: str
 
 
-def read(path, raw_shape=None, raw_type=None, array=None):
-    """raw_shape and raw_type: of a file of bare numbers, x runs fastest."""
+def read(path, raw=None, array=None, unit=None):
+    """raw: how to read bare numbers; unit: of the file's lengths, in place of what it says, as a word."""
     if re.search(r"[*?\[]", path) and not os.path.exists(path):
         return slices(sorted_naturally(glob.glob(path)), path)
     if not os.path.exists(path):
@@ -37,16 +51,19 @@ def read(path, raw_shape=None, raw_type=None, array=None):
         return slices(sorted_naturally(names), path)
     if os.path.getsize(path) == 0:
         fail(f"{path} is empty")
-    if raw_shape:
-        return raw(path, raw_shape, raw_type)
+    if raw:
+        return bare(path, raw)
+    if ending in SCANCO or re.search(r"\.aim(;\d+)?$", path.lower()):  # VMS numbers its versions: a.aim;2
+        values, spacing = scanco.read(path)
+        return Image(values, spacing, "Scanco's")
     if ending in TIFF:
         return Image(tiff(path), None, "TIFF")
     if ending in VTK_READERS:
-        return checked(path, *by_vtk(path, *VTK_READERS[ending], array), ending)
+        return checked(path, *by_vtk(path, *VTK_READERS[ending], array), ending, unit)
     if ending in TEXT:
         solid, spacing = points.lattice(path)
         return Image(solid, spacing, "list of points")
-    known = [*VTK_READERS, *TIFF, *TEXT]
+    known = [*VTK_READERS, *TIFF, *SCANCO, *TEXT]
     fail(f"{path}: '{ending}' is not a format that is known{nearest(ending, known)}; there are {' '.join(known)} "
          "(lists of points also .gz), and any file with --shape and --type")
 
@@ -62,12 +79,16 @@ def sorted_naturally(names):
     return sorted(names, key=lambda name: [int(p) if p.isdigit() else p for p in re.split(r"(\d+)", name)])
 
 
-def raw(path, shape, kind):
-    size = int(np.prod(shape)) * np.dtype(RAW_TYPES[kind]).itemsize
+def bare(path, raw):
+    kind = np.dtype(BYTE_ORDERS[raw.order] + RAW_TYPES[raw.type])
+    size = raw.header + int(np.prod(raw.shape)) * kind.itemsize
     found = os.path.getsize(path)
     if found != size:
-        fail(f"{path} has {found} bytes, expected {size}: {' x '.join(map(str, shape))} numbers of type {kind}")
-    return Image(np.fromfile(path, RAW_TYPES[kind]).reshape(shape[::-1]), None, f"raw {kind}")
+        after = f" after {raw.header} bytes" if raw.header else ""
+        more = "" if found < size else f"; is there a header? --header {found - size + raw.header}"
+        fail(f"{path} has {found} bytes, expected {size}: {' x '.join(map(str, raw.shape))} numbers of type {raw.type}{after}{more}")
+    values = np.fromfile(path, kind, offset=raw.header).reshape(raw.shape[::-1])
+    return Image(values.astype(kind.newbyteorder("="), copy=False), None, f"raw {raw.type}, {raw.order}-endian")
 
 
 # TIFF: a page is a layer in z, a row of it runs along x, rows follow each other in y
@@ -218,9 +239,10 @@ def array_of(path, image, name):
     return vtk_to_numpy(found).reshape(shape[::-1])
 
 
-def checked(path, values, image, ending):
-    spacing = tuple(abs(s) for s in image.GetSpacing())
+def checked(path, values, image, ending, unit):
+    factor = units.factor_of(unit, "--units") if unit else units.of_file(path, ending)
+    spacing = tuple(abs(s) * (factor or 1) for s in image.GetSpacing())
     if not all(0 < s < np.inf for s in spacing):
         fail(f"{path}: spacing {spacing}, expected three numbers > 0")
     # VTK says 1 where a file says nothing; a voxel of 1 m is none.
-    return Image(values, None if spacing == (1, 1, 1) else spacing, ending[1:].upper())
+    return Image(values, None if spacing == (1, 1, 1) else spacing, ending[1:].upper() + (f", lengths of {factor:g} m" if factor else ""))

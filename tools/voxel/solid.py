@@ -67,6 +67,22 @@ def solid_of(path, values, threshold, invert):
     return solid, f"{threshold:g}, {how}; solid is {'<=' if invert else '>'} it"
 
 
+def materials_of(path, values, ranges):
+    """The number of the material of each voxel, 1, 2, …; 0: void. ranges: (name, low, high), of low < value <= high."""
+    if values.dtype == bool:
+        fail(f"{path} says itself which voxels are solid: --material does not apply")
+    if np.issubdtype(values.dtype, np.floating) and not np.isfinite(values).all():
+        fail(f"{path}: {np.count_nonzero(~np.isfinite(values))} voxels are not finite")
+    out = np.zeros(values.shape, np.uint8)
+    for number, (name, low, high) in enumerate(ranges, 1):
+        there = (values > low) & (values <= high)
+        if not there.any():
+            fail(f"{path}: no voxel is of the material '{name}', from {low:g} to {high:g}; the values go from "
+                 f"{values.min():g} to {values.max():g}")
+        out[there] = number
+    return out
+
+
 # Grey -> how much of a voxel is solid
 
 
@@ -114,6 +130,18 @@ def coarsened(solid, n):
         slab = solid[z * n:(z + 1) * n, :cy * n, :cx * n].reshape(n, cy, n, cx, n)
         out[z] = 2 * slab.sum(axis=(0, 2, 4), dtype=np.int64) >= n**3
     return out
+
+
+def coarsened_materials(materials, n):
+    """The material of most of the n x n x n voxels that are solid; 0 where coarsened() has void."""
+    solid = coarsened(materials > 0, n)
+    best, out = np.zeros(solid.shape, np.int64), np.zeros(solid.shape, np.uint8)
+    for number in range(1, int(materials.max()) + 1):
+        cut = tuple(slice(n * size) for size in solid.shape)
+        counts = (materials[cut] == number).reshape([m for size in solid.shape for m in (size, n)]).sum(axis=(1, 3, 5))
+        out[counts > best] = number
+        best = np.maximum(best, counts)
+    return np.where(solid, out, 0).astype(np.uint8)
 
 
 def refined(solid, n):

@@ -16,6 +16,8 @@ const WhenKeys when("", 1000);
 
 const AnyKey<bool> variable(
     "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block; "
+    "`Mean_Velocity_Z(foam)`, or `Mean_Velocity_Z(slices)` for each layer of the section `slices` of Profiles; "
+    "`Contact_Force_Z(foam:plate)` for the force (N) of contact on the block `foam` from `plate`; "
     "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body, "
     "e.g. of prescribed motion, a symmetry plane or a rigid tool; "
     "`Crack_Tip(notch)` (m) and `Crack_Speed(notch)` (m/s) of the crack `notch` in Cracks.");
@@ -50,6 +52,24 @@ const Section cracks = {.name = "Cracks",
                                       .meaning = "One crack.",
                                       .keys = {direction, start, damage, node_set, rows}}}};
 
+const VectorKey across({.name = "Direction",
+                        .fallback = "0 0 1",
+                        .meaning = "Across the layers, of any length but zero."});
+const IntegerKey layers({.name = "Layers",
+                         .range = {.low = 1, .high = 10000},
+                         .meaning = "How many; each holds a point."});
+const Section profiles = {
+    .name = "Profiles",
+    .meaning =
+        "Layers of equal thickness in the reference state, of which the history has means: of "
+        "`Mean_Velocity_Z(slices)` the columns `Mean_Velocity_Z(slices 1)`, `Mean_Velocity_Z(slices 2)`, ….",
+    .sections = {
+        {.name = any_name, .required = true, .meaning = "One set of layers.", .keys = {across, layers, node_set}}}};
+
+Profile read_profile(const Values& values, Problems& problems) {
+  return {values.name(), read_direction(values, across, problems), values[layers], values[node_set]};
+}
+
 WatchedCrack read_crack(const Values& values, Problems& problems) {
   const Vector along = read_direction(values, direction, problems);
   return {values.name(), along, values[start], values[damage], values[node_set], values[rows]};
@@ -61,7 +81,7 @@ Section history_section() {
   return {.name = name,
           .meaning = "Numbers of the whole body in time, as a table (CSV). Without this section there is none.",
           .keys = {file, when.frequency, when.interval},
-          .sections = {variables, cracks}};
+          .sections = {variables, cracks, profiles}};
 }
 
 History read_history(const Values& deck, const Solver& solver, Problems& problems) {
@@ -70,6 +90,8 @@ History read_history(const Values& deck, const Solver& solver, Problems& problem
   History history{
       .enabled = true, .file = (*values)[file], .variables = switched_on(values->section(variables.name), variable)};
   for (const Values& one : values->section(cracks.name).sections()) history.cracks.push_back(read_crack(one, problems));
+  for (const Values& one : values->section(profiles.name).sections())
+    history.profiles.push_back(read_profile(one, problems));
   read_when(*values, when, solver.duration(), history, problems);
   return history;
 }

@@ -22,6 +22,14 @@ struct WatchedCrack {
   int rows = 0;                  // of the history, for its speed
 };
 
+// Layers of the body across a direction, of equal thickness in the reference state.
+struct Profile {
+  std::string name;
+  Vector direction = Vector::UnitZ();  // of length 1
+  int layers = 0;
+  std::string node_set = "all";  // or a block
+};
+
 struct History {
   bool enabled = false;
   std::filesystem::path file;
@@ -29,6 +37,7 @@ struct History {
   std::optional<double> interval;
   std::vector<std::string> variables;  // e.g. "Max_Displacement"; checked by output_variables_of (output/variables.cpp)
   std::vector<WatchedCrack> cracks;
+  std::vector<Profile> profiles;
 };
 
 Section history_section();

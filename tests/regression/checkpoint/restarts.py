@@ -88,9 +88,9 @@ def plane(name, z, normal, **more):
     return section(name, keys(Type="Rigid Plane", Node_Set="all", Friction_Coefficient=0.2, **more), place, direction)
 
 
-def sinks(name, frame_every, line_every, *reactions):
+def sinks(name, frame_every, line_every, *reactions, more=(), profiles=""):
     fields = ("Displacement", "Velocity", "Cauchy_Stress", "Equivalent_Plastic_Strain", "Dilatation")
-    variables = [f"Reaction_Z({reaction})" for reaction in reactions] + ["Max_Equivalent_Plastic_Strain"]
+    variables = [f"Reaction_Z({reaction})" for reaction in reactions] + ["Max_Equivalent_Plastic_Strain", *more]
     flags = lambda names: "\n".join(f'<Parameter name="{n}" type="bool" value="true"/>' for n in names)
     return [
         section(
@@ -98,7 +98,8 @@ def sinks(name, frame_every, line_every, *reactions):
             keys(Output_Filename=f"{name}.e", Output_Frequency=frame_every),
             section("Output Variables", flags(fields)),
         ),
-        section("History", keys(Filename=f"{name}.csv", Frequency=line_every), section("Variables", flags(variables))),
+        section("History", keys(Filename=f"{name}.csv", Frequency=line_every), section("Variables", flags(variables)),
+                *([section("Profiles", profiles)] if profiles else [])),
     ]
 
 
@@ -126,7 +127,8 @@ def impact():
             plane("wall", 0.0, 1),
         ),
         section("Solver", keys(Final_Time=1.5e-4)),
-        *sinks("impact", 7, 2, "wall"),
+        *sinks("impact", 7, 2, "wall", more=("Contact_Force_X(block_1:block_2)", "Contact_Force_Z(block_2:block_1)",
+                                             "Mean_Velocity_Z(cuts)"), profiles=section("cuts", keys(Layers=3))),
     ]
 
 

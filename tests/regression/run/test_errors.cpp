@@ -248,7 +248,7 @@ TEST_F(Mistake, UnknownVariables) {
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Max_Displacment\""),
                {"History > Variables > Max_Displacment", "did you mean 'Max_Displacement'"});
   expect_error(changed(deck, "\"Max_Displacement\"", "\"Displacement\""),
-               {"History > Variables > Displacement", "expected Max_ or Min_"});
+               {"History > Variables > Displacement", "expected Max_, Min_ or Mean_"});
   expect_error(
       changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(fot)\""),
       {"History > Variables > Max_Displacement(fot): there is no node set or block 'fot' (did you mean 'foot'?)",
@@ -292,6 +292,24 @@ TEST_F(Mistake, CracksOfTheHistory) {
   expect_error(with("Crack_Tip(notch)", key("Direction", "0 0 0")),
                {"History > Cracks > notch > Direction: is zero; expected a direction"});
   expect_error(with("Crack_Tip(notch)", key("Rows", "1")), {"History > Cracks > notch > Rows: '1'; expected"});
+}
+
+TEST_F(Mistake, MeansAndContactForcesOfTheHistory) {
+  const auto with = [](const std::string& name, const std::string& layers = "3") {
+    Parts parts = right_parts();
+    parts.history = key("Filename", "@/history.csv") + section("Profiles", section("slices", key("Layers", layers))) +
+                    section("Variables", key(name, "true"));
+    return parts.text();
+  };
+  expect_error(with("Mean_Velocity_W"), {"expected Mean_ and the name of a variable (did you mean 'Mean_Velocity"});
+  expect_error(with("Mean_Velocity_Z(slces)"), {"there is no node set or block 'slces'"});
+  expect_error(with("Mean_Velocity_Z(slices)", "1000"),
+               {"History > Profiles > slices: layer 1 of 1000 holds no point"});
+  expect_error(with("Mean_Velocity_Z(slices)", "0"), {"History > Profiles > slices > Layers: '0'; expected"});
+  expect_error(with("Contact_Force_Z(bar)"), {"in brackets two blocks, e.g. Contact_Force_Z(foam:plate)"});
+  expect_error(with("Contact_Force_Z(bar:plat)"), {"there is no block 'plat' (did you mean 'plate'?)"});
+  expect_error(with("Contact_Force_Z(bar:bar)"), {"the forces of a block on itself add up to nothing"});
+  expect_error(with("Contact_Forc_Z(bar:plate)"), {"(did you mean 'Contact_Force_Z'?)"});
 }
 
 // What a run has written is lost only to a run that begins.

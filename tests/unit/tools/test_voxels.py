@@ -26,6 +26,9 @@ import numpy as np  # noqa: E402
 import tifffile  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+sys.path[:0] = [os.path.join(ROOT, "tools", part) for part in ("shared", "voxel")]
+import images  # noqa: E402
+
 CT_FOAM = os.environ.get("STRUT_CT_FOAM", os.path.join(ROOT, "..", "shared", "data", "ct-foam.pts.gz"))
 
 
@@ -312,6 +315,38 @@ class Cells(ToolTest):
         self.assertIn("void 51", said["levels"])  # 36 of 1511 void voxels have 100
         self.assertEqual(len(cells), 8)
 
+    def test_materials_are_blocks_that_share_nodes(self):
+        image = box((6, 8, 10), (1, 5), (1, 7), (0, 4)) * 90 + box((6, 8, 10), (1, 5), (1, 7), (4, 10)) * 200
+        image[2, 3, 2] = 100  # belongs to the first: not larger than 100
+        words = ("--material", "foam", 50, 100, "--material", "skin", 100, "inf")
+        said, mesh = self.voxels(image, *words, "--slices", self.path("slices.png"))
+        self.assertEqual({name: len(elements) for name, elements in mesh.blocks.items()}, {"foam": 4 * 24, "skin": 6 * 24})
+        self.assertEqual(said["materials"], "foam 96, skin 144")
+        self.assertEqual(len(mesh.nodes), 5 * 7 * 11)  # of one box
+        places = mesh.nodes[mesh.blocks["foam"]].mean(axis=1)
+        self.assertLess(places[:, 0].max(), 4e-3)
+        self.assertIn("foam_xmin", mesh.sets)
+        self.assertGreater(os.path.getsize(self.path("slices.png")), 20000)
+        _, mesh = self.voxels(image, *words, "--refine", 2)
+        self.assertEqual({name: len(elements) for name, elements in mesh.blocks.items()}, {"foam": 8 * 96, "skin": 8 * 144})
+        # Of 2 x 2 x 2 the material of most, where half is solid: along z and y the first and the last cell are half filled,
+        # and those at the edges a quarter: 4 + 2 + 2 of the 3 x 4 are left.
+        _, mesh = self.voxels(image, *words, "--coarsen", 2)
+        self.assertEqual({name: len(elements) for name, elements in mesh.blocks.items()}, {"foam": 2 * 8, "skin": 3 * 8})
+
+    def test_slices_show_the_scan_and_what_is_kept(self):
+        sys.path[:0] = [os.path.join(ROOT, "tools")]
+        from picture_parts import slices
+
+        image = np.arange(2 * 4 * 6).reshape(2, 4, 6)
+        self.assertEqual(slices.slice_of(image, "z").tolist(), image[1].tolist())
+        self.assertEqual(slices.slice_of(image, "y").tolist(), image[:, 2].tolist())
+        self.assertEqual(slices.slice_of(image, "x").tolist(), image[:, :, 3].tolist())
+        tifffile.imwrite(self.path("a.tif"), np.asarray(image, "u1"), photometric="minisblack")
+        done = self.run_tool("picture", "--scan", self.path("a.tif"), self.path("a.png"))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater(os.path.getsize(self.path("a.png")), 10000)
+
     def test_wrong_cells(self):
         tifffile.imwrite(self.path("a.tif"), box((4, 4, 4), (0, 2), (0, 4), (0, 4)), photometric="minisblack")
         for words, expected in ((("--cells", 1), "from 2 to 16"), (("--cells", 17), "from 2 to 16"),
@@ -375,6 +410,56 @@ def nrrd(values, encoding="raw"):
     return header.encode() + (gzip.compress(data) if encoding == "gzip" else data)
 
 
+def vax(x):
+    """The bytes of a float as a VAX has them."""
+    bits = int(np.float32(4 * x).view(np.uint32))
+    return np.array([bits >> 16, bits & 0xffff], "<u2").tobytes()
+
+
+def scanco(kind, data, shape, spacing, new):
+    whole = "<i8" if new else "<i4"
+    numbers = np.zeros(21, whole)
+    numbers[3:6] = shape[::-1]
+    head = (bytes(20) + np.array([kind], "<i4").tobytes() + numbers.tobytes() + b"".join(vax(1e3 * s) for s in spacing))
+    head = head.ljust(280 if new else 140, b"\0")
+    if kind in (0x00150001, 0x00080002):
+        data = np.array([len(data) + np.dtype(whole).itemsize], whole).tobytes() + data
+    log = b"! Processing Log\nTime   now\n"
+    before = np.array([40 if new else 20, len(head), len(log), len(data), 0], whole).tobytes()
+    return (b"AIMDATA_V030   \0" if new else b"") + before + head + log + data
+
+
+def packed_bits(bits):
+    even = np.pad(bits, [(0, n % 2) for n in bits.shape])
+    out = np.zeros([n // 2 for n in even.shape], np.uint8)
+    for z, y, x in np.ndindex(2, 2, 2):
+        out |= even[z::2, y::2, x::2].astype(np.uint8) << (x + 2 * y + 4 * z)
+    return out.tobytes()
+
+
+def runs_of_bits(values, one):
+    out, now, run = bytearray([0, one]), 0, 0
+    for v in [*values, None]:
+        if v is not None and (v != 0) == (now != 0):
+            run += 1
+            continue
+        while run >= 255:
+            out.append(255)  # 254 of them, and it goes on
+            run -= 254
+        out.append(run)
+        now, run = one - now, 1
+    return bytes(out)
+
+
+def isq(values, spacing):
+    head = bytearray(512)
+    head[:16] = b"CTDATA-HEADER_V1"
+    sizes = values.shape[::-1]
+    head[44:68] = np.array([*sizes, *(round(1e6 * s * n) for s, n in zip(spacing, sizes))], "<i4").tobytes()
+    head[508:512] = np.array([1], "<i4").tobytes()
+    return bytes(head) + bytes(512) + values.astype("<i2").tobytes()
+
+
 class Formats(ToolTest):
     spacing = (1e-3, 2e-3, 3e-3)
 
@@ -404,9 +489,49 @@ class Formats(ToolTest):
         self.check(self.write("a.nhdr", head + b"\ndata file: a.raw.gz\n"))
 
     def test_raw(self):
-        for kind in ("uint8", "uint16", "float32"):
-            path = self.write("a.raw", self.image.astype(kind).tobytes())
-            self.check(path, "--shape", 12, 10, 8, "--type", kind, "--voxel-size", *self.spacing)
+        kinds = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "float32": "f4",
+                 "float64": "f8"}
+        for (kind, code), (order, sign), header in itertools.product(kinds.items(), (("little", "<"), ("big", ">")), (0, 37)):
+            expected = self.image.astype(int) - (100 if not kind.startswith("u") else 0)
+            path = self.write("a.raw", bytes(header) + expected.astype(sign + code).tobytes())
+            found = images.read(path, images.Raw([12, 10, 8], kind, order, header)).values
+            np.testing.assert_array_equal(found, expected, err_msg=f"{kind} {order} {header}")
+        path = self.write("a.raw", bytes(37) + self.image.astype(">i2").tobytes())
+        self.check(path, "--shape", 12, 10, 8, "--type", "int16", "--byte-order", "big", "--header", 37,
+                   "--voxel-size", *self.spacing, "--threshold", 100)
+
+    def test_scanco(self):
+        bits = self.image > 100
+        plain = {0x00010001: (bits * 100, "i1"), 0x00170002: (self.image * 255.0, "<u2"), 0x00020002: (self.image - 100.0, "<i2"),
+                 0x00030004: (self.image * 1e6, "<i4"), 0x001a0004: (self.image * 0.25, "<f4")}
+        kinds = {kind: (values, values.astype(code).tobytes()) for kind, (values, code) in plain.items()}
+        ones = bits * 127
+        kinds.update({0x00060001: (ones, packed_bits(bits) + b"\x7f"), 0x00150001: (ones, runs_of_bits(ones.ravel(), 127)),
+                      0x00080002: (ones, b"".join(bytes([1, v]) for v in ones.ravel().tolist()))})
+        for (kind, (values, data)), new in itertools.product(kinds.items(), (False, True)):
+            found = images.read(self.write("a.aim", scanco(kind, data, self.image.shape, self.spacing, new)))
+            np.testing.assert_array_equal(found.values, values, err_msg=f"{kind:#x} {new}")
+            np.testing.assert_allclose(found.spacing, self.spacing, rtol=1e-6)  # floats
+        self.check(self.write("a.aim", scanco(0x00060001, kinds[0x00060001][1], self.image.shape, self.spacing, True)))
+        found = images.read(self.write("a.isq", isq(self.image, self.spacing)))
+        np.testing.assert_array_equal(found.values, self.image)
+        np.testing.assert_allclose(found.spacing, self.spacing, rtol=1e-12)
+
+    def test_units_of_the_file_and_in_place_of_them(self):
+        mm = [1e3 * s for s in self.spacing]
+        for field in ('space units: "mm" "mm" "mm"', 'units: "mm" "mm" "mm"', 'units: "millimeters"'):
+            text = nrrd(self.image).replace(b"spacings: 0.001 0.002 0.003", b"spacings: 1 2 3\n" + field.encode())
+            self.check(self.write("a.nrrd", text))
+        plain = nrrd(self.image).replace(b"0.001 0.002 0.003", b"1 2 3")
+        self.check(self.write("a.nrrd", plain), "--units", "mm")
+        for unit, factor in (("mm", 1), ("um", 1e3), ("cm", 0.1)):
+            head = ("ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nDistanceUnits = "
+                    f"{unit}\nElementSpacing = {' '.join(f'{factor * s:g}' for s in mm)}\nDimSize = 12 10 8\n"
+                    "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n")
+            self.check(self.write("a.mha", head.encode() + self.image.tobytes()))
+        # A spacing of 1 is one, where its unit is said.
+        text = nrrd(self.image).replace(b"spacings: 0.001 0.002 0.003", b'spacings: 1 1 1\nunits: "um" "um" "um"')
+        self.check(self.write("a.nrrd", text), spacing=(1e-6, 1e-6, 1e-6))
 
     def test_tiff_of_many_pages(self):
         for kind, words in itertools.product(("u1", "u2", "f4"), ({}, {"compression": "zlib"}, {"imagej": True})):
@@ -503,6 +628,29 @@ class Damaged(ToolTest):
         path = self.write("a.raw", bytes(999))
         self.refused("voxels", "999 bytes, expected 1000", path, "--shape", 10, 10, 10, "--type", "uint8", "--size", 1)
         self.refused("voxels", "both --shape and --type", path, "--shape", 10, 10, 10)
+        raw = ("--shape", 9, 9, 9, "--type", "uint8", "--size", 1)
+        self.refused("voxels", "is there a header. --header 270", path, *raw)
+        self.refused("voxels", "999 bytes, expected 739: 9 x 9 x 9 numbers of type uint8 after 10 bytes", path, *raw, "--header", 10)
+        self.refused("voxels", "--header: expected bytes", path, "--header", 3, "--size", 1)
+
+    def test_units_and_materials_that_are_none(self):
+        tifffile.imwrite(self.path("a.tif"), self.image)
+        path = self.path("a.tif")
+        grey = self.write("a.nrrd", nrrd(self.image.astype("u1")).replace(b"endian", b'units: "mm" "parsec" "mm"\nendian'))
+        self.refused("voxels", "'parsec' is not a unit of length", grey)
+        self.refused("voxels", "--units: 'milimeter' is not .* .did you mean 'millimeter'", grey, "--units", "milimeter")
+        self.refused("voxels", "have values in common", path, "--size", 1, "--material", "a", 0, 5, "--material", "b", 4, 9)
+        self.refused("voxels", "the lower and the higher limit", path, "--size", 1, "--material", "a", 5, 1)
+        self.refused("voxels", "no voxel is of the material 'a', from 5 to 9", path, "--size", 1, "--material", "a", 5, 9)
+        self.refused("voxels", "does without --cells", path, "--size", 1, "--material", "a", 0, 5, "--cells", 2)
+
+    def test_scanco_that_is_cut_off(self):
+        self.write("a.aim", scanco(0x00020002, self.image.astype("<i2").tobytes(), self.image.shape, (1e-3,) * 3, False))
+        self.cut_off(self.path("a.aim"))
+        self.write("a.isq", isq(self.image, (1e-3,) * 3))
+        self.cut_off(self.path("a.isq"))
+        whole = scanco(0x00990002, self.image.astype("<i2").tobytes(), self.image.shape, (1e-3,) * 3, True)
+        self.refused("voxels", "Scanco's type 0x00990002, which is not known", self.write("b.aim", whole))
 
     def test_slices_that_do_not_match(self):
         os.mkdir(self.path("s"))

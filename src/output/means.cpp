@@ -1,0 +1,88 @@
+#include "output/means.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+Layers::Layers(const std::string& set, const Body& body, const std::string& path)
+    : Layers(deck::Profile{.name = "", .layers = 1, .node_set = set}, body, path) {}
+
+Layers::Layers(const deck::Profile& profile, const Body& body, const std::string& path)
+    : direction_(profile.direction), count_(profile.layers) {
+  const Communicator& ranks = body.domain.communicator;
+  if (profile.node_set != "all") group_ = PointGroup(body.domain.cloud, profile.node_set, path);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int i = 0; i < body.owned(); ++i) {
+    if (!group_.counts(body.domain.cloud, i)) continue;
+    const double place = direction_.dot(body.domain.reference(i)), half = 0.5 * std::cbrt(body.domain.volume(i));
+    low = std::min(low, place - half);
+    high = std::max(high, place + half);
+  }
+  low_ = ranks.min(low);
+  thickness_ = (ranks.max(high) - low_) / count_;
+  std::vector<double> points(count_);
+  for (int i = 0; i < body.owned(); ++i) {
+    if (const int layer = of(body, i); layer >= 0) points[layer] += 1;
+  }
+  ranks.sum(points);
+  const auto none = std::find(points.begin(), points.end(), 0.0);
+  if (none == points.end()) return;
+  if (count_ == 1) throw Error(path + ": the node set or block holds no point");
+  throw Error(path + ": layer " + std::to_string(none - points.begin() + 1) + " of " + std::to_string(count_) +
+              " holds no point; expected fewer Layers");
+}
+
+int Layers::of(const Body& body, int i) const {
+  if (!group_.counts(body.domain.cloud, i)) return -1;
+  if (count_ == 1) return 0;
+  const double place = (direction_.dot(body.domain.reference(i)) - low_) / thickness_;
+  return std::clamp(static_cast<int>(place), 0, count_ - 1);
+}
+
+std::vector<std::string> Mean::columns() const {
+  if (layers_.count() == 1) return {name_};
+  std::vector<std::string> names;
+  const std::string start = name_.substr(0, name_.size() - 1);
+  for (int layer = 1; layer <= layers_.count(); ++layer) names.push_back(start + " " + std::to_string(layer) + ")");
+  return names;
+}
+
+std::vector<double> Mean::values(const Body& body) const {
+  const std::vector<double> numbers = number_.of(body);
+  const int count = layers_.count();
+  std::vector<double> sums(2 * static_cast<std::size_t>(count));  // of numbers times volumes, then of volumes
+  for (int i = 0; i < body.owned(); ++i) {
+    const int layer = layers_.of(body, i);
+    if (layer < 0) continue;
+    sums[layer] += body.domain.volume(i) * numbers[i];
+    sums[count + layer] += body.domain.volume(i);
+  }
+  body.domain.communicator.sum(sums);
+  std::vector<double> means(count);
+  for (int layer = 0; layer < count; ++layer) means[layer] = sums[layer] / sums[count + layer];
+  return means;
+}
+
+Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
+             const std::string& name, const std::string& where) {
+  const std::string path = where + " > " + name;
+  const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
+  const std::string whole = name.substr(0, bracket);
+  const auto number = whole.starts_with("Mean_") ? PointNumber::find(all, whole.substr(5)) : std::nullopt;
+  if (!number) {
+    throw Error(path + ": expected Mean_ and the name of a variable" +
+                did_you_mean(whole, names_of_numbers(all, {"Mean_"})) + "; variables are " + joined(names_of(all)));
+  }
+  if (bracket == std::string::npos) return {name, *number, Layers()};
+  const std::string set = name.substr(bracket + 1, name.size() - bracket - 2);
+  const auto is_wanted = [&](const deck::Profile& profile) { return profile.name == set; };
+  const auto profile = std::find_if(profiles.begin(), profiles.end(), is_wanted);
+  if (profile == profiles.end()) return {name, *number, Layers(set, body, path)};
+  return {name, *number, Layers(*profile, body, "History > Profiles > " + set)};
+}
+
+}  // namespace strut

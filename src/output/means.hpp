@@ -1,0 +1,53 @@
+// Means over the points of a set, or over each of the layers of a profile, as the history shows them: "Mean_X(foam)".
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "deck/sections/history.hpp"
+#include "output/observables.hpp"
+
+namespace strut {
+
+// Layers of the points of a set across a direction, of equal thickness, from the outermost points' outer faces (half a
+// spacing, the cube root of the volume, out) in the reference state.
+class Layers {
+ public:
+  Layers() = default;  // one, of all points
+  // Collective. Throws Error on all ranks: there is no such set; a layer that holds no point. `path`: who asks.
+  Layers(const deck::Profile& profile, const Body& body, const std::string& path);
+  // Collective. One, of a node set or block.
+  Layers(const std::string& set, const Body& body, const std::string& path);
+
+  int count() const { return count_; }
+  int of(const Body& body, int i) const;  // the layer of an owned point; -1: none
+
+ private:
+  PointGroup group_;
+  Vector direction_ = Vector::UnitZ();
+  double low_ = 0, thickness_ = 0;  // m
+  int count_ = 1;
+};
+
+// Weighted by reference volumes.
+class Mean {
+ public:
+  Mean(std::string name, PointNumber number, Layers layers)
+      : name_(std::move(name)), number_(std::move(number)), layers_(std::move(layers)) {}
+
+  // Of the columns: "Mean_X(foam)", or of layers "Mean_X(slices 1)", ….
+  std::vector<std::string> columns() const;
+  std::vector<double> values(const Body& body) const;  // collective
+
+ private:
+  std::string name_;
+  PointNumber number_;
+  Layers layers_;
+};
+
+// Collective. `name`: "Mean_X", or with a set, block or profile in brackets. Throws Error on all ranks.
+Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
+             const std::string& name, const std::string& where);
+
+}  // namespace strut

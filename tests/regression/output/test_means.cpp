@@ -1,0 +1,102 @@
+// Means, layers and contact forces of the history: of motions that are known, and beside the momentum that they
+// explain.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+constexpr double h = 1e-3;            // spacing, m
+constexpr double cube = 8930 * 1e-9;  // kg, of a point
+
+// The history, of every step, of a run with these variables.
+Table history_of(const RunFolder& folder, Parts parts, const std::vector<std::string>& variables,
+                 const std::string& profiles = "") {
+  std::string names;
+  for (const std::string& name : variables) names += key(name, "true");
+  parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", "1") +
+                  section("Variables", names) + (profiles.empty() ? "" : section("Profiles", profiles));
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  testing::internal::GetCapturedStdout();
+  return read_history(folder / "history.csv");
+}
+
+// A bar of 4 x 4 x 6 cubes whose points fly with v = (1, 2, 3 + z/mm) m/s, from the first row on.
+TEST(Means, AreThoseOfAMotionThatIsGiven) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = along("x", "Initial Velocity", "all", "x", "1") + along("y", "Initial Velocity", "all", "y", "2") +
+                     along("z", "Initial Velocity", "all", "z", "3 + 1000*z");
+  parts.times = key("Final Time", "1e-7");
+  const std::string profiles =
+      section("thirds", key("Layers", "3")) + section("across", key("Layers", "2") + key("Direction", "-1 0 0"));
+  const Table table = history_of(
+      folder, parts,
+      {"Mean_Velocity_Y", "Mean_Velocity_Z(top)", "Mean_Velocity_Z(thirds)", "Mean_Coordinate_Z(thirds)",
+       "Mean_Coordinate_X(across)", "Max_Velocity_Z(foot)", "Min_Velocity_Z(foot)", "Mean_Deformation_Gradient_ZZ"},
+      profiles);
+  const auto first = [&](const std::string& name) { return table.at(name).front(); };
+  // Round-off of sums of 96 points.
+  EXPECT_NEAR(first("Mean_Velocity_Y"), 2, 1e-13);
+  EXPECT_NEAR(first("Mean_Velocity_Z(top)"), 3 + 5.5, 1e-13);
+  EXPECT_NEAR(first("Max_Velocity_Z(foot)"), 3 + 0.5, 1e-13);
+  EXPECT_NEAR(first("Min_Velocity_Z(foot)"), 3 + 0.5, 1e-13);
+  EXPECT_NEAR(first("Mean_Deformation_Gradient_ZZ"), 1, 1e-13);
+  for (int layer = 1; layer <= 3; ++layer) {
+    const std::string column = "(thirds " + std::to_string(layer) + ")";
+    EXPECT_NEAR(first("Mean_Velocity_Z" + column), 3 + 2 * layer - 1, 1e-13) << layer;
+    EXPECT_NEAR(first("Mean_Coordinate_Z" + column), (2 * layer - 1) * h, 1e-16) << layer;
+  }
+  EXPECT_NEAR(first("Mean_Coordinate_X(across 1)"), 3 * h, 1e-16);
+  EXPECT_NEAR(first("Mean_Coordinate_X(across 2)"), 1 * h, 1e-16);
+}
+
+// Two cubes of 64 points meet, not face to face, with friction: what the one feels is what the other does not, and its
+// impulse, by the trapezoidal rule of central differences, the momentum of the block, to the round-off of some hundred
+// steps.
+TEST(ContactForce, ExplainsTheMomentumOfBothBlocks) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 4, 4, 4, h) + cubes(2, {0.3 * h, 0.2 * h, 4.1 * h}, 4, 4, 4, h));
+  Parts parts;
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  parts.blocks.clear();
+  for (const std::string name : {"block_1", "block_2"}) {
+    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Separate Body", "true"));
+  }
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e11", "0.3");
+  parts.conditions = along("fall", "Initial Velocity", "block_2", "z", "-20") +
+                     along("slide", "Initial Velocity", "block_2", "x", "7");
+  parts.times = key("Final Time", "20e-6");
+  parts.verlet = key("Fixed dt", "1e-7");
+  std::vector<std::string> names;
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    for (const std::string pair : {"(block_1:block_2)", "(block_2:block_1)"})
+      names.push_back(std::string("Contact_Force_") + axis + pair);
+    names.push_back(std::string("Mean_Velocity_") + axis + "(block_2)");
+  }
+  const Table table = history_of(folder, parts, names);
+  const std::vector<double>& time = table.at("Time");
+  const double momentum = 64 * cube * 20;
+  for (const char axis : {'X', 'Y', 'Z'}) {
+    const std::string force = std::string("Contact_Force_") + axis;
+    const std::vector<double>&on_1 = table.at(force + "(block_1:block_2)"),
+          &on_2 = table.at(force + "(block_2:block_1)"),
+          &velocity = table.at(std::string("Mean_Velocity_") + axis + "(block_2)");
+    double impulse = 0;
+    for (std::size_t n = 1; n < time.size(); ++n) {
+      impulse += 0.5 * (on_2[n - 1] + on_2[n]) * (time[n] - time[n - 1]);
+      ASSERT_NEAR(64 * cube * (velocity[n] - velocity[0]), impulse, 1e-11 * momentum) << axis << n;
+      ASSERT_NEAR(on_1[n] + on_2[n], 0, 1e-9 * momentum / 1e-5) << axis << n;  // of a force that stops it in 10 µs
+    }
+    if (axis == 'Y') continue;
+    EXPECT_GT(std::abs(impulse), 0.05 * momentum) << axis << ": they have met";
+  }
+}
+
+}  // namespace
+}  // namespace strut::regression

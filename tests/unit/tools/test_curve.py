@@ -1,0 +1,244 @@
+#!/usr/bin/python3
+"""tools/curve on curves and shocks whose numbers are known in closed form, and run as a user runs it."""
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import matplotlib  # noqa: F401
+    import netCDF4  # noqa: F401
+    import numpy as np
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
+sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
+from curve_parts import measures, shock  # noqa: E402
+from decks import Deck, Recipe, value_at  # noqa: E402
+
+E, YIELD, UNLOADING = 100e6, 2e6, 150e6  # Pa
+DENSE, K = 0.5, 60e6                     # strain from which on the stress rises, Pa per strain
+LAST = 0.6
+STRAIN = np.unique(np.concatenate([np.linspace(0, LAST, 6001), [YIELD / E, DENSE]]))  # with both corners: no rounding
+
+
+def stress_at(e):
+    return np.minimum(E * e, YIELD) + K * np.maximum(e - DENSE, 0)
+
+
+def measured(strain, stress):
+    return {m.name: m.value for m in measures.of_curve(strain, stress)}
+
+
+class Curves(unittest.TestCase):
+    """Elastic, a plateau, then a straight rise: all is known in closed form. Trapezoids are exact on straight lines, so that
+    only round-off of some thousand terms is left: 1e-10; the largest efficiency is on a row, 1e-4 apart."""
+
+    def test_gradient_plateau_and_its_end(self):
+        found = measured(STRAIN, stress_at(STRAIN))
+        self.assertAlmostEqual(found["quasi_elastic_gradient"] / E, 1, 10)
+        self.assertAlmostEqual(found["plateau_stress"] / YIELD, 1, 10)
+        self.assertAlmostEqual(found["plateau_stress_20_40"] / YIELD, 1, 10)
+        self.assertAlmostEqual(found["plateau_end"], DENSE + 0.3 * YIELD / K, 10)
+        self.assertIsNone(found["elastic_gradient"])
+
+    def test_a_hardening_plateau_has_the_mean_of_its_range(self):
+        found = measured(STRAIN, stress_at(STRAIN) + 3e6 * STRAIN)
+        self.assertAlmostEqual(found["plateau_stress"], YIELD + 3e6 * 0.25, 3)
+        self.assertAlmostEqual(found["plateau_stress_20_40"], YIELD + 3e6 * 0.30, 3)
+
+    def test_energy_to_the_end_of_the_plateau(self):
+        found = measured(STRAIN, stress_at(STRAIN))
+        W = YIELD * (0.5 - 0.5 * YIELD / E)  # to 50 %, where the plateau has not yet ended
+        self.assertEqual(found["energy_strain"], 0.5)
+        self.assertAlmostEqual(found["absorbed_energy"] / W, 1, 10)
+        self.assertAlmostEqual(found["absorption_efficiency"], W / (YIELD * 0.5), 10)
+
+    def test_densification_is_where_the_efficiency_is_largest(self):
+        W = YIELD * (DENSE - 0.5 * YIELD / E)
+        # A straight rise with K W > Y²: d/dx (W + Y x + K x²/2)/(Y + K x) is negative at once.
+        found = measured(STRAIN, stress_at(STRAIN))
+        self.assertAlmostEqual(found["densification_strain"], DENSE, 12)
+        self.assertAlmostEqual(found["largest_efficiency"], W / YIELD, 10)
+        self.assertAlmostEqual(found["densification_energy"] / W, 1, 10)
+        # A rise by C x²: the efficiency is largest where C² x⁴/3 - 2 C W x + Y² = 0.
+        C = 400e6
+        x = min(r.real for r in np.roots([C * C / 3, 0, 0, -2 * C * W, YIELD**2]) if abs(r.imag) < 1e-12 and r.real > 0)
+        found = measured(STRAIN, np.minimum(E * STRAIN, YIELD) + C * np.maximum(STRAIN - DENSE, 0)**2)
+        self.assertGreater(x, 5e-3)
+        self.assertAlmostEqual(found["densification_strain"], DENSE + x, delta=1e-4)  # a row
+        # Around a maximum it is off by the square of the row's distance, and by trapezoids of 1e-4.
+        self.assertAlmostEqual(found["largest_efficiency"], (W + YIELD * x + C * x**3 / 3) / (YIELD + C * x * x), 6)
+
+    def test_a_loop_of_unloading_gives_the_elastic_gradient_and_changes_nothing_else(self):
+        at = 0.15
+        drop = np.linspace(0, 0.9 * YIELD / UNLOADING, 200)
+        loop = np.concatenate([at - drop, (at - drop)[::-1]])
+        back = YIELD - UNLOADING * (at - loop)
+        before, after = STRAIN <= at, STRAIN > at
+        strain = np.concatenate([STRAIN[before], loop, STRAIN[after]])
+        stress = np.concatenate([stress_at(STRAIN[before]), back, stress_at(STRAIN[after])])
+        found, plain = measured(strain, stress), measured(STRAIN, stress_at(STRAIN))
+        self.assertAlmostEqual(found.pop("elastic_gradient") / UNLOADING, 1, 9)
+        plain.pop("elastic_gradient")
+        for name, value in plain.items():
+            self.assertEqual(found[name], value, name)
+
+    def test_a_curve_that_ends_early_has_what_it_has(self):
+        found = measured(STRAIN[:1500], stress_at(STRAIN[:1500]))
+        for name in ("plateau_stress", "plateau_stress_20_40", "plateau_end", "densification_strain"):
+            self.assertIsNone(found[name], name)
+        self.assertAlmostEqual(found["quasi_elastic_gradient"] / E, 1, 10)
+
+
+V, U, RHO, H = 80.0, 100.0, 400.0, 0.02  # m/s, m/s, kg/m³, m
+TIMES = np.linspace(0, 0.95 * H / U, 400)
+LAYERS = (np.arange(20) + 0.5) / 20 * H
+
+
+def shocked(times=TIMES):
+    """Places and velocities of layers of a foam at rest whose face is pushed at V: a shock of speed U runs through it."""
+    passed = np.maximum(times[:, None] - LAYERS / U, 0)
+    return LAYERS + V * passed, np.where(passed > 0, V, 0.0)
+
+
+class Shocks(unittest.TestCase):
+    def test_a_shock_has_its_speed_strain_and_jump(self):
+        front = shock.front(TIMES, *shocked())
+        row = TIMES[1]  # an arrival is known to half a row
+        self.assertAlmostEqual(front.speed, U, delta=U * row / (0.7 * H / U))
+        self.assertLess(front.scatter, U * row)
+        self.assertEqual(front.jump_of_velocity, V)
+        self.assertAlmostEqual(front.strain, V / U, 9)
+        self.assertAlmostEqual(front.strain_by_speed, V / U, delta=0.01)
+
+    def test_a_bar_that_is_crushed_evenly_has_no_front(self):
+        even = np.outer(np.ones(len(TIMES)), V * (1 - LAYERS / H))
+        self.assertIsNone(shock.front(TIMES, LAYERS + even * TIMES[:, None], even))
+
+
+DECK = """<ParameterList>
+  <!-- <Parameter name="Input Mesh File" value="no.g"/> -->
+  <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
+    <Parameter name="Input Mesh File" type="string" value="block.g"/></ParameterList>
+  <ParameterList name="Materials"><ParameterList name="stuff">
+    <Parameter name="Density" type="double" value="4000"/></ParameterList></ParameterList>
+  <ParameterList name="Blocks"><ParameterList name="one"><Parameter name="Block Names" type="string" value="all"/>
+    <Parameter name="Material" type="string" value="stuff"/></ParameterList></ParameterList>
+  <ParameterList name="Boundary Conditions"><ParameterList name="top">
+    <Parameter name="Type" type="string" value="Prescribed Displacement"/>
+    <Parameter name="Coordinate" type="string" value="z"/>
+    <Parameter name="Value" type="string" value="-1e-2*t"/></ParameterList></ParameterList>
+  <ParameterList name="History"><Parameter name="Filename" type="string" value="block.csv"/></ParameterList>
+</ParameterList>
+"""
+RECIPE = "shape = foam   # a comment\nsize = 5e-3 8e-3 20e-3\nrelative_density = 0.1\nspacing=1e-3\n"
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.keep.name)
+        (self.folder / "block.xml").write_text(DECK)
+        (self.folder / "block.recipe").write_text(RECIPE)
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def curve(self, *words):
+        return subprocess.run([TOOLS / "curve", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+
+    def history(self, columns, cut=""):
+        rows = [list(columns), *np.array(list(columns.values())).T.tolist()]
+        (self.folder / "block.csv").write_text("\n".join(",".join(map(str, [*r, 0 if i else "strut 0.1"]))
+                                                         for i, r in enumerate(rows)) + "\n" + cut)
+
+    def table(self, name):
+        with open(self.folder / name, newline="") as file:
+            return list(csv.reader(file))
+
+    def made(self, *words):
+        done = self.curve(*words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return {row[0]: float(row[1]) for row in self.table("block-measures.csv")[1:] if row[1]}
+
+    def error(self, *words):
+        """One line, and no trace of Python."""
+        done = self.curve(*words)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def test_a_slow_crush_by_its_deck_while_it_is_running(self):
+        force = 4e-5 * stress_at(STRAIN)
+        self.history({"Time": STRAIN * 20e-3 / 1e-2, "Reaction_Z(top)": -force, "Reaction_Z(bottom)": force}, "1.25,-3")
+        found = self.made("block.xml")
+        # Nine digits in the file.
+        self.assertAlmostEqual(found["plateau_stress"] / YIELD, 1, 8)
+        self.assertAlmostEqual(found["plateau_end"], DENSE + 0.3 * YIELD / K, 8)
+        rows = self.table("block-curve.csv")
+        self.assertEqual(rows[0], ["Time (s)", "Strain (1)", "Stress (Pa) of Reaction_Z(top)",
+                                   "Stress (Pa) of Reaction_Z(bottom)", "Energy (J/m3)"])
+        self.assertEqual(len(rows), 1 + len(STRAIN))
+        self.assertGreater((self.folder / "block-curve.png").stat().st_size, 10000)
+
+    def test_an_impact_by_its_layers(self):
+        places, velocities = shocked(TIMES)
+        columns = {"Time": TIMES}
+        for k in range(20):
+            columns[f"Mean_Velocity_Z(cuts {k + 1})"] = velocities[:, k]
+            columns[f"Mean_Coordinate_Z(cuts {k + 1})"] = places[:, k]
+        columns["Reaction_Z(piston)"] = np.full(len(TIMES), 4e-5 * (1e6 + RHO * U * V))
+        columns["Reaction_Z(rear)"] = np.full(len(TIMES), -4e-5 * 1e6)
+        self.history(columns)
+        found = self.made("block.xml", "--shortening", f"{V}*t")
+        self.assertAlmostEqual(found["shock_stress"] / (RHO * U * V), 1, 2)  # by the speed, to half a row in 400
+        self.assertAlmostEqual(found["stress_jump"] / (RHO * U * V), 1, 8)
+        self.assertAlmostEqual(found["strain_behind"], V / U, 8)
+        self.assertGreater(len(self.table("block-front.csv")), 15)
+        given = ("--area", 4e-5, "--height", H, "--density", RHO)
+        other = self.made("block.csv", *given)  # by the distance of the outer layers, which a shock shortens to the same
+        self.assertAlmostEqual(other["largest_strain"], 0.95 * V / U, delta=0.06)  # half a layer at each end
+
+    def test_errors_are_one_line_that_helps(self):
+        columns = {"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)}
+        self.assertIn("block.csv does not exist: --results names", self.error("block.xml"))
+        self.history({"Time": STRAIN, "Max_Displacement": STRAIN})
+        self.assertIn("has no force along z: add e.g. Reaction_Z(top)", self.error("block.xml"))
+        self.history(columns)
+        self.assertIn("no column 'Reaction_Z(tp)' in the history (did you mean 'Reaction_Z(top)'?)",
+                      self.error("block.xml", "--force", "Reaction_Z(tp)"))
+        self.assertIn("name --area (m2) and --height (m)", self.error("block.csv"))
+        self.assertIn("nothing says how far the sample is shortened", self.error("block.csv", "--area", 1, "--height", 1))
+        self.assertIn("--area: expected a number > 0", self.error("block.xml", "--area", 0))
+        self.assertIn("unknown option '--heigt' (did you mean '--height'?)", self.error("block.xml", "--heigt", 1))
+        (self.folder / "block.xml").write_text(DECK.replace("History", "Histry"))
+        self.assertIn("has no history", self.error("block.xml"))
+
+
+class Decks(unittest.TestCase):
+    def test_keys_are_changed_where_they_stand(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.xml"
+            path.write_text(DECK)
+            changed = Deck(str(path)).changed("Boundary Conditions > top > Value", "-2*t")
+            self.assertEqual(changed, DECK.replace("-1e-2*t", "-2*t"))
+            (pathlib.Path(folder) / "a.recipe").write_text("spacing = 1\n[body]\nname = a\nsize = 1 2 3 # m\n[body]\nname = b\nsize = 4 5 6\n")
+            recipe = Recipe(str(pathlib.Path(folder) / "a.recipe"))
+            self.assertEqual(recipe.changed("a.size", "7 8 9"), recipe.text.replace("1 2 3", "7 8 9"))
+            self.assertEqual(recipe.changed("spacing", "2"), recipe.text.replace("spacing = 1", "spacing = 2"))
+
+    def test_expressions_of_the_time(self):
+        self.assertEqual(value_at("-2*t^2", 3), -18)
+        self.assertEqual(value_at("t < 1 ? 5 : 2*t", 3), 6)
+        self.assertIsNone(value_at("x*t", 3))
+        self.assertIsNone(value_at("__import__('os')", 3))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""tools/stiffness, run as a user runs it: on a homogeneous block, on a laminate and on a cubic lattice of struts, which are
+known in closed form."""
+import csv
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import matplotlib  # noqa: F401
+    import netCDF4  # noqa: F401
+    import numpy as np
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
+sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
+from stiffness_parts import tensors  # noqa: E402
+
+
+def deck(mesh, materials, formulation="Correspondence"):
+    """materials: block -> E, nu."""
+    def section(name, inside):
+        return f'<ParameterList name="{name}">{inside}</ParameterList>\n'
+
+    def key(name, value):
+        return f'<Parameter name="{name}" type="string" value="{value}"/>\n'
+    laws = "".join(section(block, key("Material Model", "Elastic Correspondence") + key("Density", 1000) +
+                           key("Formulation", formulation) +
+                           key("Young's Modulus", E) + key("Poisson's Ratio", nu)) for block, (E, nu) in materials.items())
+    blocks = "".join(section(block, key("Block Names", block) + key("Material", block) + key("Horizon Factor", 1.75))
+                     for block in materials)
+    return ("<ParameterList>\n" + section("Discretization", key("Type", "Exodus") + key("Input Mesh File", mesh)) +
+            section("Materials", laws) + section("Blocks", blocks) + "</ParameterList>\n")
+
+
+class Samples(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.keep.name)
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def stiffness(self, *words):
+        return subprocess.run([TOOLS / "stiffness", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+
+    def tensors_of(self, name, *words):
+        done = self.stiffness(f"{name}.xml", name, *words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        with open(self.folder / name / "stiffness.csv", newline="") as file:
+            rows = list(csv.reader(file))[1:]
+        self.assertGreater((self.folder / name / "stiffness.png").stat().st_size, 20000)
+        return {kind: np.array([[float(x) for x in row[2:]] for row in rows if row[0] == kind])
+                for kind in dict.fromkeys(row[0] for row in rows)}
+
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_a_homogeneous_block_has_the_stiffness_of_its_material(self):
+        (self.folder / "block.recipe").write_text("name = block\nshape = box\nsize = 3e-3 4e-3 4e-3\nspacing = 0.5e-3\n")
+        (self.folder / "block.xml").write_text(deck("block.g", {"block": (117e9, 0.35)}))
+        # All points whose neighbors' families are cut by a face are held. Strains are 1e-5, and so are terms of second order.
+        for kind, C in self.tensors_of("block", "--layers", 4).items():
+            np.testing.assert_allclose(C, tensors.isotropic(117e9, 0.35), rtol=2e-5, atol=2e-5 * 117e9, err_msg=kind)
+
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_a_laminate_has_backus_averages_as_the_spacing_falls(self):
+        stuff = {"a": (120e9, 0.35), "b": (30e9, 0.2)}
+        (self.folder / "laminate.xml").write_text(deck("laminate.g", stuff))
+        found = []
+        for n in (8, 16):  # cells in a layer
+            h = 2e-3 / n
+            (self.folder / "laminate.recipe").write_text(f"shape = box\nspacing = {h}\nsize = {8 * h} {8 * h} 2e-3\n"
+                                                         "[body]\nname = a\n[body]\nname = b\norigin = 0 0 2e-3\n")
+            (self.folder / "laminate.g").unlink(missing_ok=True)
+            # What a layer is as wide as does not matter: sideways it strains evenly, and all points are held there.
+            found.append(self.tensors_of("laminate", "--layers", 4, 4, 1, "--boundaries", "mixed")["mixed"])
+        expected = backus([tensors.isotropic(*law) for law in stuff.values()])
+        errors = [np.abs(C / 1e9 - expected / 1e9).max() for C in found]
+        # Faces and the interface take a share of the order of the spacing: of twice the finer less the coarser the square
+        # is left, (1/16)² of the largest jump of moduli, 40 GPa, and a few times that; measured 0.08 GPa.
+        self.assertLess(errors[1], 0.6 * errors[0])
+        self.assertLess(errors[0], 0.03 * 55)
+        np.testing.assert_allclose(2 * found[1] - found[0], expected, atol=0.16e9)
+
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_a_cubic_lattice_of_struts_bears_by_the_struts_along_the_load(self):
+        program, n, thick = os.environ["STRUT_MESH"], 24, 4
+        inside = np.abs(np.arange(n) + 0.5 - n / 2) < thick / 2  # one strut of 4 x 4 cells along each axis
+        x, y, z = np.meshgrid(inside, inside, inside, indexing="ij")
+        cells = np.argwhere((x & y) | (y & z) | (z & x))
+        corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])
+        ids, elements = np.unique((cells[:, None] + corners).reshape(-1, 3), axis=0, return_inverse=True)
+        mesh = (f"strut-mesh arrays 1\nnodes {len(ids)}\n".encode() + (1e-3 / n * ids).astype("<f8").tobytes() +
+                f"block lattice HEX8 {len(cells)} 8\n".encode() + elements.astype("<i4").tobytes() + b"end\n")
+        subprocess.run([program, "--arrays", self.folder / "lattice.g"], input=mesh, check=True, capture_output=True)
+        (self.folder / "lattice.xml").write_text(deck("lattice.g", {"lattice": (70e9, 0.0)}, "Quadratic Correspondence"))
+        C = self.tensors_of("lattice", "--boundaries", "mixed")["mixed"]
+        cube = C.diagonal()
+        np.testing.assert_allclose(cube[:3], cube[0], rtol=1e-4)  # the solver's tolerance of forces is 1e-5
+        np.testing.assert_allclose(cube[3:], cube[3], rtol=1e-4)
+        # Along the load a bar of the section (t/L)²: at most with a rigid node; held by points half a cell within the ends,
+        # beyond which nothing is strained, and taken as a mean over all, it may be less by that cell of 24.
+        bar = 70e9 * (thick / n)**2
+        self.assertGreater(cube[0], bar * (1 - 1 / n))
+        self.assertLess(cube[0], bar / (1 - thick / n))
+        self.assertLess(np.abs(C[:3, :3] - np.diag(cube[:3])).max(), 0.05 * bar)  # ν = 0: only the node ties them
+        # Shear bends the struts, E (t/L)⁴/2 of slender ones that are clamped where they cross: less for their own shear, by
+        # 12 E I/(κ G A L²) = 2.4 (t/L)², more for a rigid node by (1 - t/L)^-3 at the most.
+        slender = 0.5 * 70e9 * (thick / n)**4
+        self.assertGreater(cube[3], slender / (1 + 2.4 * (thick / n)**2))
+        self.assertLess(cube[3], slender / (1 - thick / n)**3)
+
+    def test_errors_are_one_line_that_helps(self):
+        (self.folder / "a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))
+
+        def error(*words):
+            done = self.stiffness(*words)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            return done.stderr
+        self.assertIn("a.g does not exist", error("a.xml", "out"))
+        (self.folder / "a.g").write_text("no mesh")
+        self.assertIn("a.g is not an Exodus mesh", error("a.xml", "out"))
+        self.assertIn("unknown option '--strin' (did you mean '--strain'?)", error("a.xml", "out", "--strin", 1))
+        self.assertIn("expected --strain in (0, 0.01)", error("a.xml", "out", "--strain", 1))
+
+
+def backus(layers):
+    """Layers of one thickness, isotropic, across z (Backus, J. Geophys. Res. 67 (1962) 4427)."""
+    la, mu = (np.array([C[i] for C in layers]) for i in ((0, 1), (3, 3)))
+    M = la + 2 * mu
+    c33, q = 1 / np.mean(1 / M), np.mean(la / M)
+    C = np.zeros((6, 6))
+    C[0, 0] = C[1, 1] = np.mean(4 * mu * (la + mu) / M) + c33 * q**2
+    C[0, 1] = C[1, 0] = np.mean(2 * mu * la / M) + c33 * q**2
+    C[0, 2] = C[2, 0] = C[1, 2] = C[2, 1] = c33 * q
+    C[2, 2] = c33
+    C[3, 3] = C[4, 4] = 1 / np.mean(1 / mu)
+    C[5, 5] = np.mean(mu)
+    return C
+
+
+class Tensors(unittest.TestCase):
+    def test_numbers_of_an_isotropic_and_of_a_cubic_body(self):
+        C = tensors.isotropic(200.0, 0.3)
+        e = tensors.engineering(C)
+        for name, value in {"E_x": 200, "G_yz": 200 / 2.6, "nu_zx": 0.3}.items():
+            self.assertAlmostEqual(e[name], value, 10)
+        np.testing.assert_allclose(tensors.bounds(C), [200 / 1.2, 200 / 2.6] * 2)
+        self.assertAlmostEqual(tensors.anisotropy(C), 0, 12)
+        # Copper (Simmons & Wang 1971): E of [100], [110], [111] 66.7, 130.3, 191.1 GPa (Meyers & Chawla), Zener 3.2.
+        C = np.diag([168.4] * 3 + [75.4] * 3)
+        C[:3, :3] += 121.4 * (1 - np.eye(3))
+        directions = np.array([(1, 0, 0), (2**-0.5, 2**-0.5, 0), (3**-0.5,) * 3])
+        np.testing.assert_allclose(tensors.young(C, directions), [66.7, 130.3, 191.1], rtol=2e-3)  # printed digits
+        self.assertAlmostEqual(tensors.zener(C), 3.21, 2)
+        # Of a cubic body A^U = 6/5 (√A − 1/√A)² (Ranganathan & Ostoja-Starzewski 2008).
+        A = tensors.zener(C)
+        self.assertAlmostEqual(tensors.anisotropy(C), 1.2 * (A**0.5 - A**-0.5)**2, 10)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""tools/study: whole studies of bars in free flight, whose outcome is known, and of programs that fail or are stopped."""
+import csv
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import matplotlib  # noqa: F401
+    import netCDF4  # noqa: F401
+    import numpy  # noqa: F401
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
+
+TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
+sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
+from study_parts import plan  # noqa: E402
+
+DECK = """<ParameterList>
+  <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
+    <Parameter name="Input Mesh File" type="string" value="bar.g"/></ParameterList>
+  <ParameterList name="Materials"><ParameterList name="copper">
+    <Parameter name="Material Model" type="string" value="Elastic Correspondence"/>
+    <Parameter name="Density" type="double" value="8930"/>
+    <Parameter name="Young's Modulus" type="double" value="117e9"/>
+    <Parameter name="Poisson's Ratio" type="double" value="0.35"/></ParameterList></ParameterList>
+  <ParameterList name="Blocks"><ParameterList name="bar"><Parameter name="Block Names" type="string" value="all"/>
+    <Parameter name="Material" type="string" value="copper"/>
+    <Parameter name="Horizon Factor" type="double" value="1.75"/></ParameterList></ParameterList>
+  <ParameterList name="Boundary Conditions"><ParameterList name="flight">
+    <Parameter name="Type" type="string" value="Initial Velocity"/>
+    <Parameter name="Coordinate" type="string" value="z"/>
+    <Parameter name="Value" type="string" value="-1"/></ParameterList></ParameterList>
+  <ParameterList name="Solver"><Parameter name="Final Time" type="double" value="1e-6"/></ParameterList>
+  <ParameterList name="History"><Parameter name="Filename" type="string" value="bar.csv"/>
+    <ParameterList name="Variables"><Parameter name="Mean_Displacement_Z" type="bool" value="true"/>
+      <Parameter name="Mean_Velocity_Z" type="bool" value="true"/></ParameterList></ParameterList>
+</ParameterList>
+"""
+RECIPE = "name = bar\nshape = box\nsize = 4e-3 4e-3 8e-3\nspacing = 1e-3  # of a cube\n"
+STUDY = """
+deck = bar.xml     # beside this file
+vary speed = 10 20
+vary spacing = 1e-3 2e-3
+set Boundary Conditions > flight > Value = -{speed}
+set Solver > Final Time = {1e-5/speed}
+set recipe spacing = {spacing}
+collect = Mean_Displacement_Z Mean_Velocity_Z
+plot = speed Mean_Velocity_Z by spacing beside -speed
+"""
+# Stands for strut: the first case waits for a signal, leaves a checkpoint, and ends when it is called once more.
+SLOW = """#!/bin/sh
+for deck in "$@"; do :; done
+echo " 50 %  t = 1 s"
+printf 'Time,Mean_Velocity_Z,strut\\n0,1,0\\n1,2,0\\n' > bar.csv
+if [ "$1" = --continue ]; then echo went on >> ../went; exit 0; fi
+if grep -q 'value="-20"' $deck; then echo "deck.xml: error: it was expected" >&2; exit 1; fi
+trap 'touch bar.restart; exit 3' TERM
+while :; do sleep 0.1; done
+"""
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.keep.name)
+        for name, text in (("bar.xml", DECK), ("bar.recipe", RECIPE), ("bar.study", STUDY)):
+            (self.folder / name).write_text(text)
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def start(self, *words, **environment):
+        return subprocess.Popen([TOOLS / "study", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                cwd=self.folder, env={**os.environ, **environment})
+
+    def study(self, *words, **environment):
+        process = self.start(*words, **environment)
+        out, errors = process.communicate(timeout=200)
+        return process.returncode, out, errors
+
+    def rows(self):
+        with open(self.folder / "out/study.csv", newline="") as file:
+            return list(csv.DictReader(file))
+
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_bars_fly_as_far_as_they_must_and_only_once(self):
+        status, out, errors = self.study("bar.study", "out")
+        self.assertEqual((status, errors), (0, ""), out)
+        rows = self.rows()
+        self.assertEqual([(r["speed"], r["spacing"]) for r in rows],
+                         [("10", "1e-3"), ("10", "2e-3"), ("20", "1e-3"), ("20", "2e-3")])
+        self.assertEqual([float(r["points"]) for r in rows], [128, 16, 128, 16])
+        for row in rows:  # nine digits in the table
+            self.assertAlmostEqual(float(row["Mean_Displacement_Z"]), -1e-5, delta=1e-13)
+            self.assertAlmostEqual(float(row["Mean_Velocity_Z"]), -float(row["speed"]), delta=1e-6)
+        self.assertGreater((self.folder / "out/study.png").stat().st_size, 10000)
+        logs = [path.stat().st_mtime_ns for path in sorted(self.folder.glob("out/*/log"))]
+        again = self.study("bar.study", "out")
+        self.assertEqual(again[0], 0)
+        self.assertEqual(logs, [path.stat().st_mtime_ns for path in sorted(self.folder.glob("out/*/log"))])
+        # A value that has changed is a run of its own; the others stay.
+        (self.folder / "bar.study").write_text(STUDY.replace("10 20", "10 40"))
+        self.assertIn("speed=40,spacing=1e-3\n", self.study("bar.study", "out", "--list")[1])
+        self.assertIn("speed=10,spacing=1e-3: done\n", self.study("bar.study", "out", "--list")[1])
+
+    def test_a_study_that_was_stopped_goes_on_and_a_run_that_fails_does_not_stop_it(self):
+        program = self.folder / "slow"
+        program.write_text(SLOW)
+        program.chmod(0o755)
+        true = self.folder / "mesh"
+        true.write_text("#!/bin/sh\nexit 0\n")
+        true.chmod(0o755)
+        (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3").split("collect")[0] + "collect = Mean_Velocity_Z\n")
+        programs = {"STRUT": str(program), "STRUT_MESH": str(true)}
+        first = self.start("bar.study", "out", "--jobs", "2", **programs)
+        waited = self.folder / "out/speed=10,spacing=1e-3/bar.csv"
+        for _ in range(200):
+            if waited.exists():
+                break
+            time.sleep(0.1)
+        time.sleep(0.5)
+        first.send_signal(signal.SIGTERM)
+        _, errors = first.communicate(timeout=60)
+        self.assertEqual((first.returncode, errors), (1, "tools/study: stopped by a signal; the same command goes on with it\n"))
+        status, out, errors = self.study("bar.study", "out", "--jobs", "2", **programs)
+        self.assertEqual((self.folder / "out/went").read_text(), "went on\n")
+        self.assertEqual((status, errors), (1, "tools/study: 1 of 2 runs have failed: see the table\n"))
+        self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
+                         [("2", ""), ("", "deck.xml: error: it was expected")])
+
+    def test_errors_are_one_line_that_helps(self):
+        def error(old, new):
+            (self.folder / "bar.study").write_text(STUDY.replace(old, new))
+            status, _, errors = self.study("bar.study", "out", "--list")
+            self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+            return errors
+        self.assertIn("line 3: there is no key 'very speed' (did you mean", error("vary speed", "very speed"))
+        self.assertIn("no key 'Boundary Conditions > flight > Valu' (did you mean 'Value'?)", error("> Value", "> Valu"))
+        self.assertIn("no section 'Solvr' (did you mean 'Solver'?)", error("Solver", "Solvr"))
+        self.assertIn("'{sped}' is no number of what varies (did you mean 'speed'?)", error("{speed}", "{sped}"))
+        self.assertIn("no line 'spacng' (did you mean 'spacing'?)", error("recipe spacing", "recipe spacng"))
+        self.assertIn("expected 'plot = X Y", error("plot = speed", "plot ="))
+        self.assertIn("nobar.xml cannot be read", error("bar.xml", "nobar.xml"))
+
+    def test_values_go_together_or_in_all_combinations(self):
+        study = plan.Study("here")
+        plan.take_vary(study, "here", ["a", "b"], "one word, | two words, 6")
+        plan.take_vary(study, "here", ["c"], "1 2")
+        self.assertEqual(study.cases(), [{"a": "one word", "b": "", "c": "1"}, {"a": "one word", "b": "", "c": "2"},
+                                         {"a": "two words", "b": "6", "c": "1"}, {"a": "two words", "b": "6", "c": "2"}])
+        self.assertEqual(plan.filled("{a} {c} {2^3*c}", study.cases()[3], "here"), "two words 2 16")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,157 @@
+"""What ISO 13314:2011 and the literature read off a curve of compression: nominal stress (Pa) over nominal strain.
+
+Sources. ISO: ISO 13314:2011, Mechanical testing of metals, ductility testing, compression test for porous and cellular
+metals. Efficiency: Li, Magkiriadis & Harrigan, Compressive strain at the onset of densification of cellular solids,
+J. Cellular Plastics 42 (2006) 371; Tan, Reid, Harrigan, Zou & Li, Dynamic compressive strength properties of aluminium
+foams, J. Mech. Phys. Solids 53 (2005) 2174.
+"""
+from dataclasses import dataclass
+
+import numpy as np
+
+PLATEAUS = {"": (0.2, 0.3), "_20_40": (0.2, 0.4)}
+END_OF_PLATEAU = 1.3  # times the plateau stress (ISO)
+ENERGY_TO = 0.5       # strain to which energy is given where the plateau has no end before (ISO)
+GRADIENT = (0.2, 0.7)  # parts of the plateau stress between which gradients are taken (ISO: of the loop)
+MOST_UNLOADED = 0.5   # a loop unloads at least this part of the stress
+
+
+@dataclass
+class Measure:
+    name: str
+    value: float | None  # None: the curve does not have it
+    unit: str
+    meaning: str
+
+
+def loading(strain, stress):
+    """The rows in which the strain is larger than ever before: without loops of unloading."""
+    before = np.concatenate([[-np.inf], np.maximum.accumulate(strain)[:-1]])
+    keep = strain > before
+    return strain[keep], stress[keep]
+
+
+def energies(strain, stress):
+    """∫ σ dε from the first row to each, J/m³."""
+    return np.concatenate([[0], np.cumsum(0.5 * (stress[1:] + stress[:-1]) * np.diff(strain))])
+
+
+def mean_between(strain, stress, low, high):
+    """∫ σ dε / ∫ dε, the bounds interpolated: the mean at equal intervals of strain. None beyond the curve."""
+    if len(strain) < 2 or strain[0] > low or strain[-1] < high:
+        return None
+    W = energies(strain, stress)
+    inside = (strain > low) & (strain < high)
+    e = np.concatenate([[low], strain[inside], [high]])
+    s = np.interp(e, strain, stress)
+    return float(energies(e, s)[-1] / (high - low)) if len(W) else None
+
+
+def crossing(x, y, level):
+    """The x from which on y stays above a level; None where it does not, or always is."""
+    below = np.flatnonzero(y < level)
+    if len(below) == 0 or below[-1] == len(y) - 1:
+        return None
+    i = below[-1]
+    return float(x[i] + (level - y[i]) / (y[i + 1] - y[i]) * (x[i + 1] - x[i]))
+
+
+def first_crossing(x, y, level):
+    above = np.flatnonzero(y >= level)
+    if len(above) == 0:
+        return None
+    i = above[0]
+    return float(x[0]) if i == 0 else float(x[i - 1] + (level - y[i - 1]) / (y[i] - y[i - 1]) * (x[i] - x[i - 1]))
+
+
+def slope(strain, stress, low, high):
+    """Of the straight line through the rows with stresses from low to high; None with fewer than three."""
+    there = (stress >= low) & (stress <= high)
+    if there.sum() < 3 or np.ptp(strain[there]) == 0:
+        return None
+    return float(np.polyfit(strain[there], stress[there], 1)[0])
+
+
+def quasi_elastic_gradient(strain, stress, scale):
+    """Of the first rise, between the two parts of the scale."""
+    end = np.flatnonzero(stress > GRADIENT[1] * scale)
+    rows = slice(0, end[0] if len(end) else len(stress))
+    return slope(strain[rows], stress[rows], GRADIENT[0] * scale, GRADIENT[1] * scale)
+
+
+def elastic_gradient(strain, stress, scale):
+    """Of the longest unloading, between the two parts of the scale; None where none goes down to the lower part."""
+    best = None
+    start = 0
+    for i in range(1, len(strain) + 1):
+        if i < len(strain) and strain[i] < strain[i - 1]:
+            continue
+        if i - start > 2 and stress[i - 1] < MOST_UNLOADED * stress[start]:
+            here = slope(strain[start:i], stress[start:i], GRADIENT[0] * scale, GRADIENT[1] * scale)
+            if here is not None and (best is None or i - start > best[0]):
+                best = (i - start, here)
+        start = i
+    return best and best[1]
+
+
+def densification(strain, stress):
+    """The strain at which the efficiency ∫ σ dε / σ is largest, of the last of equal ones, and the efficiency there; None
+    where it is largest at the end: it may rise further."""
+    W = energies(strain, stress)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        efficiency = np.where(stress > 0, W / stress, 0)
+    # Beyond the first rise alone: before it stress is next to nothing, and the efficiency anything.
+    efficiency[:np.argmax(stress >= 0.5 * np.median(stress))] = 0
+    i = len(efficiency) - 1 - int(np.argmax(efficiency[::-1]))
+    return None if i == len(efficiency) - 1 else (float(strain[i]), float(efficiency[i]))
+
+
+def of_curve(strain, stress):
+    """All measures of a curve with loops of unloading or without."""
+    e, s = loading(np.asarray(strain, float), np.asarray(stress, float))
+    plateau = {key: mean_between(e, s, *between) for key, between in PLATEAUS.items()}
+    known = plateau[""] or plateau["_20_40"]
+    scale = known or float(s.max())
+    of = "plateau stress" if known else "largest stress, as the curve has no plateau yet"
+    end = None
+    if known:
+        beyond = e >= PLATEAUS[""][0]
+        end = crossing(e[beyond], s[beyond], END_OF_PLATEAU * known)
+    return [
+        Measure("quasi_elastic_gradient", quasi_elastic_gradient(e, s, scale), "Pa",
+                f"slope of the first rise, 20 to 70 % of the {of} (ISO)"),
+        Measure("elastic_gradient", elastic_gradient(strain, stress, scale), "Pa",
+                f"slope of unloading, 70 to 20 % of the {of} (ISO)"),
+        *[Measure(f"plateau_stress{key}", value, "Pa", f"mean from {100 * low:g} to {100 * high:g} % strain (ISO)")
+          for (key, (low, high)), value in zip(PLATEAUS.items(), plateau.values())],
+        Measure("plateau_end", end, "1", "strain from which on the stress is above 1.3 times the plateau stress (ISO)"),
+        *energy_measures(e, s, end),
+        *densification_measures(e, s),
+        Measure("largest_strain", float(e[-1]), "1", "of the curve"),
+        Measure("largest_stress", float(s.max()), "Pa", "of the curve"),
+    ]
+
+
+def energy_measures(e, s, end):
+    to = min(end if end is not None else ENERGY_TO, ENERGY_TO, float(e[-1]))
+    cut = e < to
+    e, s = np.concatenate([e[cut], [to]]), np.concatenate([s[cut], [np.interp(to, e, s)]])
+    W = float(energies(e, s)[-1])
+    whole = to > e[0] and s.max() > 0
+    return [
+        Measure("energy_strain", to, "1", "to which energy is taken: the plateau's end, at most 50 % (ISO)"),
+        Measure("absorbed_energy", W, "J/m3", "integral of stress over strain to there, per volume of the foam (ISO)"),
+        Measure("absorption_efficiency", W / (float(s.max()) * (to - e[0])) if whole else None, "1",
+                "that over the largest stress to there times the strain (ISO)"),
+    ]
+
+
+def densification_measures(e, s):
+    found = densification(e, s)
+    strain, efficiency = found or (None, None)
+    W = None if strain is None else float(np.interp(strain, e, energies(e, s)))
+    return [
+        Measure("densification_strain", strain, "1", "where energy over stress is largest (Tan et al. 2005, Li et al. 2006)"),
+        Measure("largest_efficiency", efficiency, "1", "energy over stress there (Li et al. 2006)"),
+        Measure("densification_energy", W, "J/m3", "integral of stress over strain to there"),
+    ]

@@ -1,0 +1,94 @@
+"""Tables, CSV with units and the figure of a curve."""
+import csv
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+
+def say(about, found):
+    for what, text in about.items():
+        print(f"{what:<18} {text}")
+    print()
+    for m in found:
+        value = "-" if m.value is None else f"{m.value:.5g}"
+        print(f"{m.name:<24} {value:>12} {'' if m.unit == '1' else m.unit:<6} {m.meaning}")
+
+
+def rows_to(path, header, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(rows)
+
+
+def write_curve(path, times, strain, names, stresses):
+    W = np.concatenate([[0], np.cumsum(0.5 * (stresses[0][1:] + stresses[0][:-1]) * np.diff(strain))])
+    header = ["Time (s)", "Strain (1)", *[f"Stress (Pa) of {name}" for name in names[:2]], "Energy (J/m3)"]
+    rows_to(path, header, [[f"{x:.9g}" for x in row] for row in zip(times, strain, *stresses, W)])
+
+
+def write_measures(path, found):
+    rows_to(path, ["Measure", "Value", "Unit", "Definition"],
+            [[m.name, "" if m.value is None else f"{m.value:.9g}", m.unit, m.meaning] for m in found])
+
+
+def write_front(path, front):
+    rows_to(path, ["Distance from the end that is hit (m)", "Arrival of the front (s)"],
+            [[f"{x:.9g}", f"{t:.9g}"] for x, t in zip(front.places, front.arrivals)])
+
+
+def scaled(pascals):
+    """A factor and its unit for axes."""
+    largest = np.abs(pascals).max()
+    return next(((f, u) for f, u in ((1e-9, "GPa"), (1e-6, "MPa"), (1e-3, "kPa")) if largest * f >= 1), (1, "Pa"))
+
+
+def figure(path, title, times, strain, names, stresses, found, front):
+    ends = len(stresses) > 1 or front is not None
+    columns = 1 + ends + (front is not None)
+    drawing, panels = plt.subplots(1, columns, figsize=(5.4 * columns, 4.2), layout="constrained", squeeze=False)
+    panels = list(panels[0])
+    factor, unit = scaled(np.concatenate(stresses))
+    draw_curve(panels[0], strain, factor * stresses[0], {m.name: m.value for m in found}, factor)
+    panels[0].set_ylabel(f"nominal stress, {unit}")
+    if ends:
+        for name, stress in zip(names, stresses):
+            panels[1].plot(1e3 * times, factor * stress, linewidth=1.2, label=name)
+        panels[1].set(xlabel="t, ms", ylabel=f"nominal stress at the ends, {unit}")
+        panels[1].legend(frameon=False)
+    if front is not None:
+        panels[2].plot(1e3 * front.arrivals, 1e3 * front.places, ".", label="front")
+        t = np.array([front.arrivals.min(), front.arrivals.max()])
+        middle = np.median(front.places), front.behind
+        panels[2].plot(1e3 * t, 1e3 * (middle[0] + front.speed * (t - np.interp(middle[0], front.places, front.arrivals))),
+                       linewidth=1, label=f"{front.speed:.4g} m/s")
+        panels[2].set(xlabel="t, ms", ylabel="reference distance from the end that is hit, mm")
+        panels[2].legend(frameon=False)
+    for panel in panels:
+        panel.grid(alpha=0.3)
+    drawing.suptitle(title, fontsize=12)
+    drawing.savefig(path, dpi=110)
+    plt.close(drawing)
+
+
+def draw_curve(axes, strain, stress, found, factor):
+    axes.plot(strain, stress, linewidth=1.4, color="black")
+    for name, low, high in (("plateau_stress", 0.2, 0.3), ("plateau_stress_20_40", 0.2, 0.4)):
+        if found.get(name) is not None:
+            axes.plot([low, high], [factor * found[name]] * 2, linewidth=3, alpha=0.6, label=name.replace("_", " "))
+    for name in ("plateau_end", "densification_strain"):
+        if found.get(name) is not None:
+            axes.axvline(found[name], linestyle=":" if name == "plateau_end" else "--", color="grey",
+                         label=name.replace("_", " "))
+    gradient = found.get("quasi_elastic_gradient")
+    if gradient:
+        top = 1.1 * stress.max()
+        axes.plot([0, top / (factor * gradient)], [0, top], linewidth=0.8, label="quasi-elastic gradient")
+        axes.set_ylim(min(0, stress.min()), top)
+    axes.set_xlabel("nominal strain")
+    axes.set_xlim(0, 1.02 * strain.max())
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False)

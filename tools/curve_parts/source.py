@@ -1,0 +1,225 @@
+"""From a deck and its history to nominal stress and strain: which columns are force and shortening, area and height."""
+import csv
+import os
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+from decks import Recipe, value_at, value_in
+from strut_tools import fail, nearest
+
+FORCES = re.compile(r"(Reaction|Contact_Force)_([XYZ])\((.+)\)")
+LAYERS = re.compile(r"Mean_(Velocity|Coordinate)_([XYZ])\((.+) (\d+)\)")
+
+
+def history(path):
+    """Columns by name, in their order. A run may be writing: a last line without its end does not count."""
+    if not os.path.isfile(path):
+        fail(f"{path} does not exist: --results names the folder that the run was started from")
+    try:
+        with open(path, newline="") as file:
+            text = file.read()
+        rows = list(csv.reader(text[:text.rfind("\n") + 1].splitlines()))
+        table = np.array([[float(x) for x in row] for row in rows[1:] if len(row) == len(rows[0])])
+    except (UnicodeDecodeError, ValueError, IndexError) as error:
+        fail(f"{path} is not a history: {error}")
+    if not rows or "Time" not in rows[0] or len(table) < 2:
+        fail(f"{path} is not a history, or has not yet two rows")
+    return {name: table[:, i] for i, name in enumerate(rows[0])}
+
+
+@dataclass
+class Sample:
+    area: float      # m²
+    height: float    # m
+    density: float | None  # kg/m³, mass over area and height
+    found: dict = field(default_factory=dict)  # how
+
+
+def column(table, name, option):
+    if name not in table:
+        fail(f"{option}: there is no column '{name}' in the history{nearest(name, list(table))}; there are {', '.join(list(table)[:-1])}")
+    return table[name]
+
+
+def forces(table, words):
+    """The names of the columns of force along the axis, the chosen ones first; and the axis, 0 to 2."""
+    named = [name for name in (words.force, words.other) if name]
+    for name in named:
+        column(table, name, "--force")
+    known = {name: FORCES.fullmatch(name) for name in table if FORCES.fullmatch(name)}
+    axis = words.axis
+    if axis is None:
+        axes = [known[name][2] for name in named if name in known] or [m[2] for m in known.values()]
+        axis = "z" if "Z" in axes or not axes else axes[0].lower()
+    along = named or [name for name, m in known.items() if m[2].lower() == axis]
+    if not along:
+        fail(f"the history has no force along {axis}: add e.g. Reaction_{axis.upper()}(top) or "
+             f"Contact_Force_{axis.upper()}(foam:plate) to History > Variables, or name a column by --force")
+    return along, "xyz".index(axis)
+
+
+def signed(values):
+    """Compression counts positive: the sign by which the largest magnitude is."""
+    values = np.asarray(values, float)
+    return values if values.max() + values.min() >= 0 else -values
+
+
+# Shortening
+
+
+def motion_of(deck, axis, times):
+    """{condition: how far it has moved along the axis at these times}, of those whose deck says so."""
+    letter, moves = "xyz"[axis], {}
+    for name, keys in deck.sections("Boundary Conditions").items():
+        kind, value = value_in(keys, "Type"), value_in(keys, "Value")
+        if kind in ("Prescribed Displacement", "Prescribed Velocity") and letter in value_in(keys, "Coordinate"):
+            way = [value_at(value, t) for t in times]
+            if None not in way and kind == "Prescribed Velocity":
+                way = np.concatenate([[0], np.cumsum(0.5 * (np.array(way[1:]) + way[:-1]) * np.diff(times))])
+        elif kind and kind.startswith("Rigid ") and value_in(keys, f"Travel {letter.upper()}"):
+            way = [value_at(value_in(keys, f"Travel {letter.upper()}"), t) for t in times]
+        else:
+            continue
+        if len(way) and not any(w is None for w in way):
+            moves[name] = np.array(way)
+    return moves
+
+
+def shortening(deck, table, axis, words):
+    """In m, positive, and how it was found."""
+    letter, times = "XYZ"[axis], table["Time"]
+    if words.shortening:
+        if words.shortening in table:
+            return signed(table[words.shortening]), words.shortening
+        way = [value_at(words.shortening, t) for t in times]
+        if None in way:
+            column(table, words.shortening, "--shortening")
+        return signed(way), words.shortening
+    means = [n for n in table if re.fullmatch(rf"Mean_Displacement_{letter}\([^ ]+\)", n)]
+    if len(means) in (1, 2):
+        return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)
+    moves = motion_of(deck, axis, times) if deck else {}
+    ways = list(moves.values())
+    if ways:
+        low, high = min(ways, key=lambda w: w[-1]), max(ways, key=lambda w: w[-1])
+        other = high if len(ways) > 1 else np.zeros(len(times))
+        return signed(low - other), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
+    places = layers(table, axis, words.layers)
+    if places is not None:
+        apart = np.abs(places[0][:, -1] - places[0][:, 0])
+        return (apart[0] - apart) * places[2] / (places[2] - 1), "the distance of the outer layers"
+    fail(f"nothing says how far the sample is shortened: add Mean_Displacement_{letter}(top) and "
+         f"Mean_Displacement_{letter}(foot) to History > Variables, or name a column or an expression of t by --shortening")
+
+
+def layers(table, axis, wanted=None):
+    """Places and velocities (rows x layers) of a profile of the history, and how many; None where there is none."""
+    found = {}
+    for name in table:
+        match = LAYERS.fullmatch(name)
+        if match and "XYZ".index(match[2]) == axis:
+            found.setdefault(match[3], {}).setdefault(match[1], []).append((int(match[4]), name))
+    whole = {name: kinds for name, kinds in found.items() if len(kinds) == 2}
+    if wanted and wanted not in whole:
+        fail(f"--layers: the history has no layers '{wanted}'{nearest(wanted, list(whole))}: it needs "
+             f"Mean_Coordinate_{'XYZ'[axis]}({wanted}) and Mean_Velocity_{'XYZ'[axis]}({wanted})")
+    if not whole:
+        return None
+    kinds = whole[wanted or next(iter(whole))]
+    places, velocities = (np.stack([table[name] for _, name in sorted(kinds[kind])], axis=1)
+                          for kind in ("Coordinate", "Velocity"))
+    return places, velocities, places.shape[1]
+
+
+# Area, height, density
+
+
+def sample(deck, axis, block, words):
+    found, across = {}, [a for a in range(3) if a != axis]
+    size = size_of(deck, block, words, found) if words.area is None or words.height is None else None
+    area = words.area if words.area is not None else size[across[0]] * size[across[1]]
+    height = words.height if words.height is not None else size[axis]
+    return Sample(area, height, density_of(deck, block, area * height, words, found), found)
+
+
+def size_of(deck, block, words, found):
+    recipe = deck and deck.recipe()
+    body = Recipe(recipe).body(block) or Recipe(recipe).body() if recipe else None
+    if body and body.get("shape") in ("foam", "box"):
+        found["size"] = f"from {recipe}"
+        return [float(x) for x in body["size"].split()]
+    result = result_of(deck, words)
+    if result is None:
+        fail("nothing says how large the sample is: name --area (m2) and --height (m)")
+    nodes, volumes = points_of(result, block)
+    places = result.reference[nodes]
+    found["size"] = f"from the points of {result.path} and half a spacing around them"
+    return places.max(axis=0) - places.min(axis=0) + np.cbrt(volumes.max())
+
+
+def result_of(deck, words):
+    """The result of the deck, opened; None where there is none (yet)."""
+    from picture_parts.result import Result
+
+    name = deck and deck.get("Output", "Output Filename")
+    if not name:
+        return None
+    path = os.path.join(words.results, name if os.path.splitext(name)[1] else name + ".e")
+    return Result(path) if os.path.isfile(path) else None
+
+
+def points_of(result, block):
+    """Nodes and volumes of a block, or of all."""
+    blocks = [b for b in result.blocks if block is None or b.name == block]
+    if not blocks:
+        names = [b.name for b in result.blocks]
+        fail(f"{result.path} has no block '{block}'{nearest(block, names)}; there {'are' if len(names) > 1 else 'is'} {', '.join(names)}")
+    if any(b.volumes is None for b in blocks):
+        fail(f"{result.path} does not say how large its points are: name --area (m2) and --height (m)")
+    return np.concatenate([b.nodes for b in blocks]), np.concatenate([b.volumes for b in blocks])
+
+
+def block_of(deck, names, words):
+    """The block that is crushed: --block, that of a contact force, else the only one or that called foam; None: all."""
+    if words.block:
+        return words.block
+    for name in names:
+        match = FORCES.fullmatch(name)
+        if match and match[1] == "Contact_Force":
+            return match[3].split(":")[0]
+    recipe = deck and deck.recipe()
+    bodies = Recipe(recipe).bodies() if recipe else []
+    foams = [b.get("name", "body") for b in bodies if b.get("shape") == "foam"]
+    if len(foams) == 1:
+        return foams[0]
+    blocks = deck and [value_in(keys, "Block Names") for keys in deck.sections("Blocks").values()]
+    return "foam" if blocks and len(blocks) > 1 and "foam" in blocks else None
+
+
+def density_of(deck, block, volume, words, found):
+    if words.density is not None:
+        return words.density
+    material = deck and material_density(deck, block)
+    if not material:
+        return None
+    result = result_of(deck, words)
+    if result is not None and all(b.volumes is not None for b in result.blocks):
+        found["density"] = f"from the points of {result.path}"
+        return material * points_of(result, block)[1].sum() / volume
+    recipe = deck.recipe()
+    body = Recipe(recipe).body(block) or Recipe(recipe).body() if recipe else None
+    if body and "relative_density" in body:
+        found["density"] = f"from {recipe}"
+        return material * float(body["relative_density"])
+    return None
+
+
+def material_density(deck, block):
+    """kg/m³ of the material of a block, or of the only one."""
+    for keys in deck.sections("Blocks").values():
+        names = (value_in(keys, "Block Names") or "").split()
+        if block is None or block in names or "all" in names:
+            value = deck.get("Materials", value_in(keys, "Material") or "", "Density")
+            return value and float(value)
+    return None

@@ -1,0 +1,190 @@
+"""A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and form stay as they are."""
+import math
+import os
+import re
+import xml.etree.ElementTree as tree
+
+from strut_tools import fail, nearest
+
+
+class Deck:
+    def __init__(self, path):
+        self.path = path
+        try:
+            with open(path) as file:
+                self.text = file.read()
+            self.root = tree.fromstring(self.text)
+        except (OSError, UnicodeDecodeError) as error:
+            fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
+        except tree.ParseError as error:
+            fail(f"{path} is not a deck (XML): {error}")
+
+    def section(self, *names):
+        """The element of a section; None where there is none."""
+        place = self.root
+        for name in names:
+            place = next((e for e in place.findall("ParameterList") if e.get("name") == name), None)
+            if place is None:
+                return None
+        return place
+
+    def sections(self, *names):
+        """{name: element} of the sections within one."""
+        place = self.section(*names)
+        return {} if place is None else {e.get("name"): e for e in place.findall("ParameterList")}
+
+    def get(self, *names, default=None):
+        """The value of a key, as text; the last name is the key's."""
+        place = self.section(*names[:-1])
+        found = None if place is None else value_in(place, names[-1])
+        return default if found is None else found
+
+    def file(self, *names):
+        """Of a file beside the deck."""
+        value = self.get(*names)
+        return value and os.path.join(os.path.dirname(self.path), value)
+
+    def recipe(self):
+        """The path of the recipe of its mesh; None where there is none."""
+        mesh = self.file("Discretization", "Input Mesh File")
+        recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
+        return recipe if recipe and os.path.isfile(recipe) else None
+
+    def changed(self, path, value):
+        """The text of the deck with another value of the key "Section > … > Key"."""
+        element = self.key(path)
+        marked = f"\0{value}\0"
+        before, number = element.get("value"), self.number_of(element)
+        pattern = re.compile(r"<Parameter\b[^>]*?>", re.S)
+        found = [m for m in pattern.finditer(without_comments(self.text))][number]
+        old = self.text[found.start():found.end()]
+        new = re.sub(r'value\s*=\s*("[^"]*"|\'[^\']*\')', lambda m: f'value="{marked}"', old)
+        if marked not in new or before is None:
+            fail(f"{self.path}: {path} has no value to change")
+        return self.text[:found.start()] + new.replace("\0", "") + self.text[found.end():]
+
+    @classmethod
+    def of(cls, path, text):
+        """Of a text, as if it stood there."""
+        deck = object.__new__(cls)
+        deck.path, deck.text, deck.root = path, text, tree.fromstring(text)
+        return deck
+
+    def with_value(self, path, value):
+        """The same, as a deck."""
+        return Deck.of(self.path, self.changed(path, value))
+
+    def number_of(self, element):
+        return [e for e in self.root.iter("Parameter")].index(element)
+
+    def key(self, path):
+        """The element of "Section > … > Key"; ends the tool with the nearest name where it is not there."""
+        names = [name.strip() for name in path.split(">")]
+        place = self.root
+        for depth, name in enumerate(names):
+            kind = "Parameter" if depth == len(names) - 1 else "ParameterList"
+            inside = {e.get("name"): e for e in place.findall(kind)}
+            if name not in inside:
+                there = ", ".join(sorted(inside)) or "none"
+                what = "key" if kind == "Parameter" else "section"
+                fail(f"{self.path}: there is no {what} '{' > '.join(names[:depth + 1])}'{nearest(name, list(inside))}; "
+                     f"there {'are' if len(inside) > 1 else 'is'} {there}")
+            place = inside[name]
+        return place
+
+
+def value_in(element, key):
+    return next((e.get("value") for e in element.findall("Parameter") if e.get("name") == key), None)
+
+
+def without_comments(text):
+    """Blanks in their place, so that all stays where it is."""
+    return re.sub(r"<!--.*?-->", lambda m: " " * len(m.group()), text, flags=re.S)
+
+
+# Recipes
+
+
+class Recipe:
+    """Lines `key = value` in bodies; those before the first `[body]` hold for all."""
+
+    def __init__(self, path):
+        self.path = path
+        try:
+            with open(path) as file:
+                self.text = file.read()
+        except (OSError, UnicodeDecodeError) as error:
+            fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
+
+    def bodies(self):
+        """A {key: value} each."""
+        common, bodies = {}, []
+        for line in self.text.splitlines():
+            line = line.split("#")[0].strip()
+            if line == "[body]":
+                bodies.append(dict(common))
+            elif "=" in line:
+                key, value = (part.strip() for part in line.split("=", 1))
+                (bodies[-1] if bodies else common)[key] = value
+        return bodies or [common]
+
+    def changed(self, key, value):
+        """The text with another value of a key, `key` or `body.key`; without the line where the value is empty."""
+        body, _, name = key.rpartition(".")
+        lines, number, found, named = self.text.splitlines(), -1, [], []
+        wanted = [i for i, keys in enumerate(self.bodies()) if not body or keys.get("name", "body") == body]
+        if not wanted:
+            names = [keys.get("name", "body") for keys in self.bodies()]
+            fail(f"{self.path}: there is no body '{body}'{nearest(body, names)}; there are {', '.join(names)}")
+        several = "[body]" in [line.split("#")[0].strip() for line in lines]
+        for i, line in enumerate(lines):
+            bare = line.split("#")[0].strip()
+            number += bare == "[body]"
+            if "=" not in bare or not (max(number, 0) in wanted or (several and number < 0 and not body)):
+                continue
+            named.append(bare.split("=")[0].strip())
+            if named[-1] == name:
+                found.append(i)
+        if not found:
+            fail(f"{self.path}: there is no line '{key}'{nearest(name, named)}; there are {', '.join(dict.fromkeys(named))}")
+        for i in reversed(found):
+            if not value:
+                del lines[i]
+                continue
+            lines[i] = re.sub(r"=(\s*)[^#]*?(\s*)(#.*)?$", lambda m: f"={m[1]}{value}{m[2]}{m[3] or ''}", lines[i])
+        return "\n".join(lines) + "\n"
+
+    def body(self, name=None):
+        """The keys of the body of this name; without one, of the only one; else None."""
+        bodies = self.bodies()
+        if name is None:
+            return bodies[0] if len(bodies) == 1 else None
+        return next((keys for keys in bodies if keys.get("name", "body") == name), None)
+
+
+# Expressions
+
+
+FUNCTIONS = {name: getattr(math, name) for name in
+             ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "log10", "sqrt", "fabs", "pow", "erf", "erfc", "gamma")}
+FUNCTIONS.update(abs=abs, min=min, max=max, pi=math.pi)
+
+
+def value_at(expression, t):
+    """A deck's expression of the time alone; None where it says more than this reads."""
+    return value_of(expression, {"t": t})
+
+
+def value_of(expression, names):
+    """The number that an expression of these names is; None where it is none."""
+    text = expression.replace("^", "**").replace("&&", " and ").replace("||", " or ").strip().rstrip(";")
+    text = re.sub(r"^value\s*=(?!=)", "", text)
+    if not re.fullmatch(r"[\w\s.+\-*/(),<>=?:]*", text):
+        return None
+    ternary = re.fullmatch(r"(.*?)\?(.*):(.*)", text, re.S)
+    if ternary:
+        text = f"(({ternary[2]}) if ({ternary[1]}) else ({ternary[3]}))"
+    try:
+        return float(eval(text, {"__builtins__": {}}, {**FUNCTIONS, **names}))  # letters, digits and signs only
+    except Exception:  # whatever Python makes of words that it does not know
+        return None

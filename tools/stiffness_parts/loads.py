@@ -1,0 +1,106 @@
+"""The decks of the six load cases: strains along the axes xx yy zz, then shear yz zx xy, imposed on the faces of the box."""
+import xml.etree.ElementTree as tree
+
+import numpy as np
+from decks import Deck
+
+ORDER = ("xx", "yy", "zz", "yz", "zx", "xy")
+PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1))
+FACES = [f"{axis}{side}" for axis in "xyz" for side in ("min", "max")]
+KEPT = ("Discretization", "Node Sets", "Materials", "Blocks")
+HELD = """<ParameterList name="{name}">
+  <Parameter name="Type" type="string" value="Prescribed Displacement"/>
+  <Parameter name="Node Set" type="string" value="{face}"/>
+  <Parameter name="Coordinate" type="string" value="{axis}"/>
+  <Parameter name="Value" type="string" value="{value}"/>
+</ParameterList>
+"""
+
+
+def strain_tensor(case):
+    """Of unit strain, engineering strain where it is shear."""
+    i, j = PAIRS[case]
+    e = np.zeros((3, 3))
+    e[i, j] += 0.5
+    e[j, i] += 0.5
+    return e
+
+
+def displacement(cases, axis, strain, center):
+    """Of one component, at the time n that of the n-th of the cases, as an expression."""
+    terms = []
+    for n, case in enumerate(cases, 1):
+        row = strain * strain_tensor(case)[axis]
+        linear = " + ".join(f"{row[b]:.17g}*({'xyz'[b]} - {center[b]:.17g})" for b in range(3) if row[b])
+        if linear:
+            terms.append(f"(t &gt; {n - 0.5})*(t &lt; {n + 0.5})*({linear})")
+    return " + ".join(terms) or "0"
+
+
+def held(kind, cases, face):
+    """The components that a face has prescribed: all, or by mixed conditions (Pahr & Zysset, Influence of boundary
+    conditions on computed apparent elastic properties of cancellous bone, Biomech. Model. Mechanobiol. 7 (2008) 463) the
+    normal one; in shear ij on faces of i and j the tangential ones."""
+    if kind == "kinematic":
+        return (0, 1, 2)
+    normal = "xyz".index(face[0])
+    i, j = PAIRS[cases[0]]
+    sheared = i != j and normal in (i, j)
+    return tuple(a for a in range(3) if (a != normal) == sheared)
+
+
+def deck_of(deck, kind, cases, box, strain, depth):
+    """The deck of some cases by load steps, one after the other. `depth`: how far in the points of a face are, m, along
+    x, y, z."""
+    root = tree.Element("ParameterList")
+    parts = [tree.tostring(deck.section(name), "unicode") for name in KEPT if deck.section(name) is not None]
+    text = tree.tostring(root, "unicode").replace(" />", ">") + "\n" + "\n".join(parts)
+    low, high = box
+    sets = "".join(f'<Parameter name="{box_set(face)}" type="string" value="{limit(face, low, high, depth)}"/>\n' for face in FACES)
+    if deck.section("Node Sets") is None:
+        text += f'\n<ParameterList name="Node Sets">\n{sets}</ParameterList>\n'
+    else:
+        at = text.index('<ParameterList name="Node Sets">') + len('<ParameterList name="Node Sets">')
+        text = text[:at] + "\n" + sets + text[at:]
+    center = 0.5 * (low + high)
+    conditions = "".join(HELD.format(name=f"{face} {'xyz'[a]}", face=box_set(face), axis="xyz"[a],
+                                            value=displacement(cases, a, strain, center))
+                         for face in FACES for a in held(kind, cases, face))
+    text += f"""<ParameterList name="Boundary Conditions">
+{conditions}</ParameterList>
+<ParameterList name="Solver">
+  <Parameter name="Final Time" type="double" value="{len(cases)}"/>
+  <ParameterList name="QuasiStatic">
+    <Parameter name="Number of Load Steps" type="int" value="{len(cases)}"/>
+    <Parameter name="Tolerance" type="double" value="1e-5"/>
+  </ParameterList>
+</ParameterList>
+<ParameterList name="Output">
+  <Parameter name="Output Filename" type="string" value="sample.e"/>
+  <Parameter name="Output Interval" type="double" value="1"/>
+  <ParameterList name="Output Variables"><Parameter name="Displacement" type="bool" value="true"/></ParameterList>
+</ParameterList>
+<ParameterList name="History">
+  <Parameter name="Filename" type="string" value="sample.csv"/>
+  <Parameter name="Frequency" type="int" value="1"/>
+  <ParameterList name="Variables">
+{"".join(f'    <Parameter name="Mean_Cauchy_Stress_{c.upper()}" type="bool" value="true"/>{chr(10)}' for c in ORDER)}  </ParameterList>
+</ParameterList>
+</ParameterList>
+"""
+    return Deck.of(deck.path, text)
+
+
+def box_set(face):
+    return f"face of the box {face}"
+
+
+def limit(face, low, high, depth):
+    axis = "xyz".index(face[0])
+    if face.endswith("min"):
+        return f"{face[0]} &lt; {low[axis] + depth[axis]:.17g}"
+    return f"{face[0]} &gt; {high[axis] - depth[axis]:.17g}"
+
+
+# The runs: of kinematic conditions one, as all cases have the same points held; of mixed ones those along the axes together.
+RUNS = {"kinematic": [(0, 1, 2, 3, 4, 5)], "mixed": [(0, 1, 2), (3,), (4,), (5,)]}

@@ -1,0 +1,171 @@
+"""The runs of a study: each in a folder of its own, several at a time, resumed where they were stopped."""
+import glob
+import hashlib
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import time
+
+from strut_tools import ROOT, fail
+
+EARLY = 3  # the exit status of a run that a signal has ended
+
+
+class Case:
+    def __init__(self, values, folder, deck, recipe):
+        self.values, self.folder, self.deck = values, folder, os.path.basename(deck.path)
+        self.texts = {self.deck: deck.text}
+        if recipe is not None:
+            self.texts[os.path.basename(recipe.path)] = recipe.text
+        self.recipe = recipe and os.path.basename(recipe.path)
+        self.mesh = deck.get("Discretization", "Input Mesh File") or ""
+        self.source = deck
+        self.process, self.started = None, 0.0
+
+    @property
+    def log(self):
+        return os.path.join(self.folder, "log")
+
+    def mark(self):
+        """Of what is run: another deck or recipe is another run."""
+        return hashlib.sha256(json.dumps(self.texts, sort_keys=True).encode()).hexdigest()
+
+    def state(self):
+        """What is known of the run: {mark, error, seconds}; empty where there is none of this deck."""
+        try:
+            with open(os.path.join(self.folder, "state.json")) as file:
+                found = json.load(file)
+            return found if found.get("mark") == self.mark() else {}
+        except (OSError, ValueError):
+            return {}
+
+    def put_state(self, **words):
+        with open(os.path.join(self.folder, "state.json"), "w") as file:
+            json.dump({"mark": self.mark(), **words}, file)
+
+    def done(self):
+        return self.state().get("over", False)
+
+    def prepare(self):
+        """Whether there is something to go on with. Else the folder is made anew."""
+        if self.state() and glob.glob(os.path.join(self.folder, "*.restart*")):
+            return True
+        if os.path.isdir(self.folder) and not os.path.isfile(os.path.join(self.folder, "state.json")):
+            fail(f"{self.folder} is there, and not of a study: name another folder")
+        shutil.rmtree(self.folder, ignore_errors=True)
+        os.makedirs(self.folder)
+        for name, text in self.texts.items():
+            with open(os.path.join(self.folder, name), "w") as file:
+                file.write(text)
+        os.makedirs(os.path.join(self.folder, os.path.dirname(self.mesh)), exist_ok=True)
+        link_files(self.source, self.texts, self.folder, self.mesh if self.recipe else None)
+        self.put_state(over=False)
+        return False
+
+    def start(self, programs, ranks):
+        goes_on = self.prepare()
+        with open(self.log, "a") as log:
+            if not goes_on and self.recipe:
+                made = subprocess.run([programs.mesh, self.recipe, self.mesh], cwd=self.folder, stdout=log, stderr=log)
+                if made.returncode != 0:
+                    return self.put_state(over=True, error=last_line(self.log), seconds=0)
+            command = [programs.strut, *(["--continue"] if goes_on else []), self.deck]
+            if ranks > 1:
+                command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks), *command]
+            self.started = time.monotonic()
+            environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+            # A group of its own: a Ctrl-C at the terminal is handed on by this program alone.
+            self.process = subprocess.Popen(command, cwd=self.folder, stdout=log, stderr=log, env=environment,
+                                            start_new_session=True)
+        return None
+
+    def ended(self):
+        """Whether the run has come to its end, now or before."""
+        if self.process is None:
+            return True
+        status = self.process.poll()
+        if status is None:
+            return False
+        if status != EARLY and status >= 0:
+            self.put_state(over=True, error=last_line(self.log) if status else None,
+                           seconds=time.monotonic() - self.started)
+        self.process = None
+        return True
+
+    def part(self):
+        """Of its time that is computed, 0 to 1."""
+        try:
+            with open(self.log) as file:
+                found = re.findall(r"^ *(\d+) %  t = ", file.read(), re.M)
+            return int(found[-1]) / 100 if found else 0
+        except OSError:
+            return 0
+
+
+def link_files(deck, texts, folder, made):
+    """Links to the files beside deck that deck and recipe name; `made`: the mesh that is made anew."""
+    here = os.path.dirname(os.path.abspath(deck.path))
+    for word in set(re.findall(r'value="([^"]+)"|^\s*file\s*=\s*(\S+)', "\n".join(texts.values()), re.M)):
+        name = word[0] or word[1]
+        target = os.path.join(folder, name)
+        if name != made and not os.path.isabs(name) and os.path.isfile(os.path.join(here, name)) and not os.path.exists(target):
+            os.makedirs(os.path.dirname(target), exist_ok=True)
+            os.symlink(os.path.join(here, name), target)
+
+
+def last_line(path):
+    """What a program has said of its error."""
+    with open(path, errors="replace") as file:
+        lines = [line.strip() for line in file if line.strip()]
+    bad = [line for line in lines if re.search("error|problem|expected", line, re.I)]
+    return (bad or lines or ["it said nothing"])[-1]
+
+
+class Programs:
+    """STRUT and STRUT_MESH, or those of this source tree, built where they are stale."""
+
+    def __init__(self):
+        self.strut, self.mesh = os.environ.get("STRUT"), os.environ.get("STRUT_MESH")
+        if self.strut and self.mesh:
+            return
+        command = [os.path.join(ROOT, "tools/prepare"), "release", "--target", "strut", "strut-mesh"]
+        if subprocess.run(command).returncode != 0:
+            fail("strut could not be built")
+        self.strut, self.mesh = (os.path.join(ROOT, "build/release", p) for p in ("strut", "tools/strut-mesh"))
+
+
+def run_all(cases, jobs, ranks, tell):
+    """Several at a time. Returns whether all have come to their end: not where a signal has ended them."""
+    programs = Programs()
+    waiting, running, stopped = [c for c in cases if not c.done()], [], []
+
+    def stop(*_):
+        stopped.append(True)
+        for case in running:
+            if case.process is not None:
+                os.killpg(case.process.pid, signal.SIGTERM)  # strut leaves a checkpoint
+    before = {s: signal.signal(s, stop) for s in (signal.SIGINT, signal.SIGTERM)}
+    began, ahead = time.monotonic(), len(waiting)
+    while (waiting and not stopped) or running:
+        while waiting and len(running) < jobs and not stopped:
+            case = waiting.pop(0)
+            case.start(programs, ranks)
+            running.append(case)
+        over = [case for case in running if case.ended()]
+        running = [case for case in running if case not in over]
+        finished = ahead - len(waiting) - len(running)
+        tell(over, running, len(cases) - len(waiting) - len(running), left(began, finished, ahead, running))
+        if not over:
+            time.sleep(0.2)
+    for number, handler in before.items():
+        signal.signal(number, handler)
+    return not stopped
+
+
+def left(began, finished, ahead, running):
+    """Seconds that are left, by what has been done since the start; None where that is next to nothing."""
+    done = finished + sum(case.part() for case in running)
+    return (time.monotonic() - began) / done * (ahead - done) if done > 0.02 else None

@@ -1,0 +1,148 @@
+"""One table (CSV) and one figure of the runs of a study."""
+import csv
+import os
+import re
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from decks import Deck, value_of
+from strut_tools import ROOT, fail, nearest
+
+FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
+         "balance_error": r"balance error ([\d.e+-]+)"}
+
+
+def facts_of(case):
+    """What the log of a run says; the last of each."""
+    with open(case.log, errors="replace") as file:
+        text = file.read()
+    found = {name: re.findall(pattern, text, re.M) for name, pattern in FACTS.items()}
+    return {name: float(values[-1].replace(",", "")) for name, values in found.items() if values}
+
+
+def last_row(case):
+    name = Deck(os.path.join(case.folder, case.deck)).get("History", "Filename")
+    path = name and os.path.join(case.folder, name)
+    if not path or not os.path.isfile(path):
+        return {}
+    with open(path, newline="") as file:
+        rows = [row for row in csv.reader(file)]
+    return {k: float(v) for k, v in list(zip(rows[0], rows[-1]))[:-1]} if len(rows) > 1 else {}
+
+
+def measures_of(case, options):
+    """By tools/curve; its files stay in the folder of the case."""
+    stem = os.path.splitext(case.deck)[0]
+    path = os.path.join(case.folder, f"{stem}-measures.csv")
+    command = [sys.executable, os.path.join(ROOT, "tools/curve"), case.deck, *options.split()]
+    done = subprocess.run(command, cwd=case.folder, capture_output=True, text=True)
+    with open(os.path.join(case.folder, "curve.log"), "w") as file:
+        file.write(done.stdout + done.stderr)
+    if done.returncode != 0:
+        return {}, done.stderr.strip()
+    with open(path, newline="") as file:
+        return {row["Measure"]: (float(row["Value"]) if row["Value"] else None, row["Unit"])
+                for row in csv.DictReader(file)}, None
+
+
+def rows_of(study, cases):
+    """Of each case: {name: value} of what varies, of the run and of what is collected; and the units."""
+    rows, units = [], {"seconds": "s"}
+    for case in cases:
+        error = case.state().get("error")
+        row = {**case.values, **facts_of(case), "error": error or ""}
+        known = dict(last_row(case)) if not error else {}
+        if study.curve is not None and not error:
+            found, wrong = measures_of(case, study.curve)
+            row["error"] = wrong or ""
+            units.update({name: unit for name, (_, unit) in found.items() if unit != "1"})
+            row.update({name: value for name, (value, _) in found.items()} if not study.collect else {})
+            known.update({name: value for name, (value, _) in found.items()})
+        for name in study.collect:
+            if known and name not in known:
+                fail(f"{study.path}: there is no '{name}' to collect{nearest(name, list(known))}; there are {', '.join(known)}")
+            row[name] = known.get(name)
+        rows.append(row)
+    return rows, units
+
+
+def write(path, rows, units):
+    names = list(dict.fromkeys(name for row in rows for name in row if name != "error")) + ["error"]
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow([f"{n} ({units[n]})" if n in units else n for n in names])
+        for row in rows:
+            writer.writerow([shown(row.get(n)) for n in names])
+
+
+def shown(value):
+    return "" if value is None else f"{value:.9g}" if isinstance(value, float) else value
+
+
+def table(rows, plots, study):
+    """The columns that matter, to read."""
+    names = [n for vary, _ in study.vary for n in vary] + ["points", "seconds"]
+    names += study.collect or list(dict.fromkeys(p.y for p in plots)) or ["plateau_stress"]
+    lines = [" | ".join(names), " | ".join("---" for _ in names)]
+    for row in rows:
+        cells = [f"{row[n]:.4g}" if isinstance(row.get(n), float) else str(row.get(n) if row.get(n) is not None else "-") for n in names]
+        lines.append(" | ".join(cells) + (f"   {row['error']}" if row["error"] else ""))
+    return "\n".join(f"| {line} |" for line in lines)
+
+
+def number(value):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return None
+
+
+def figure(path, study, rows, units):
+    plots = study.plots
+    drawing, panels = plt.subplots(1, len(plots), figsize=(5.6 * len(plots), 4.3), layout="constrained", squeeze=False)
+    for axes, plot in zip(panels[0], plots):
+        for name in (plot.x, plot.y, plot.by):
+            if name and not any(name in row for row in rows):
+                names = [n for n in rows[0] if n != "error"]
+                fail(f"{study.path}: there is no '{name}' to plot{nearest(name, names)}; there are {', '.join(names)}")
+        draw(axes, plot, rows)
+        for axis, name in ((axes.set_xlabel, plot.x), (axes.set_ylabel, plot.y)):
+            axis(name.replace("_", " ") + (f", {units[name]}" if name in units else ""))
+        axes.grid(alpha=0.3)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(frameon=False)
+    drawing.savefig(path, dpi=110)
+    plt.close(drawing)
+
+
+def draw(axes, plot, rows):
+    """A line through the means at each x, with their scatter where there are several, for each value of `by`."""
+    for by in dict.fromkeys(row[plot.by] if plot.by else None for row in rows):
+        pairs = [(number(r.get(plot.x)), number(r.get(plot.y))) for r in rows if not plot.by or r[plot.by] == by]
+        pairs = np.array([p for p in pairs if None not in p]).reshape(-1, 2)
+        if not len(pairs):
+            continue
+        xs = np.unique(pairs[:, 0])
+        groups = [pairs[pairs[:, 0] == x, 1] for x in xs]
+        deviation = [g.std(ddof=1) if len(g) > 1 else 0 for g in groups]
+        line = axes.errorbar(xs, [g.mean() for g in groups], deviation if any(deviation) else None, fmt="-", capsize=3, label=by)
+        axes.plot(*pairs.T, ".", color=line[0].get_color())
+    if plot.beside:
+        draw_beside(axes, plot, rows)
+
+
+def draw_beside(axes, plot, rows):
+    points = []
+    for row in rows:
+        names = {k: number(v) for k, v in row.items() if number(v) is not None}
+        x, y = names.get(plot.x), value_of(plot.beside, names)
+        if x is not None and y is not None:
+            points.append((x, y))
+    if not points:
+        fail(f"'beside {plot.beside}' is no number of the columns of the table")
+    axes.plot(*np.array(sorted(set(points))).T, "k--", linewidth=1, label=plot.beside)

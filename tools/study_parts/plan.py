@@ -1,0 +1,122 @@
+"""A study: a deck, what varies, what follows from it. The file has lines `key = value`; `#` starts a comment."""
+import itertools
+import os
+import re
+from dataclasses import dataclass, field
+
+from decks import Deck, Recipe, value_of
+from strut_tools import fail, nearest
+
+KEYS = ("deck", "vary NAME", "set KEY", "set recipe LINE", "curve", "collect", "plot")
+
+
+@dataclass
+class Plot:
+    x: str
+    y: str
+    by: str | None = None      # a line for each of its values
+    beside: str | None = None  # an expression of what varies, drawn beside
+
+
+@dataclass
+class Study:
+    path: str
+    deck: str = ""
+    vary: list = field(default_factory=list)  # (names, [values of each]) a line
+    sets: list = field(default_factory=list)  # (in the recipe?, key, value with {…})
+    curve: str | None = None                  # options of tools/curve; None: there is no curve
+    collect: list = field(default_factory=list)
+    plots: list = field(default_factory=list)
+
+    def cases(self):
+        """A {name: value} each: all combinations of the lines `vary`."""
+        lines = [[dict(zip(names, values)) for values in all_values] for names, all_values in self.vary]
+        return [{k: v for part in parts for k, v in part.items()} for parts in itertools.product(*lines)]
+
+
+def read(path):
+    study = Study(path)
+    try:
+        with open(path) as file:
+            lines = [line.split("#")[0].strip() for line in file]
+    except (OSError, UnicodeDecodeError) as error:
+        fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
+    for number, line in enumerate(lines, 1):
+        if line:
+            take(study, f"{path}, line {number}", *(part.strip() for part in line.partition("=")[::2]))
+    if not study.deck or not study.vary:
+        fail(f"{path}: expected a line 'deck = …' and at least one 'vary NAME = …'")
+    study.deck = os.path.join(os.path.dirname(path), study.deck)
+    return study
+
+
+def take(study, where, key, value):
+    kind, _, rest = key.partition(" ")
+    rest = rest.strip()
+    if kind == "vary" and rest:
+        take_vary(study, where, [name.strip() for name in rest.split(",")], value)
+    elif kind == "set" and rest:
+        recipe, _, line = rest.partition(" ")
+        study.sets.append((True, line.strip(), value) if recipe == "recipe" and line else (False, rest, value))
+    elif key == "plot":
+        match = re.fullmatch(r"(\S+) (\S+)(?: by (\S+))?(?: beside (.+))?", value)
+        if not match:
+            fail(f"{where}: expected 'plot = X Y [by NAME] [beside EXPRESSION]', found '{value}'")
+        study.plots.append(Plot(*match.groups()))
+    elif key in ("deck", "curve"):
+        setattr(study, key, value)
+    elif key == "collect":
+        study.collect += value.split()
+    else:
+        fail(f"{where}: there is no key '{key}'{nearest(kind, [k.split()[0] for k in KEYS])}; there are {', '.join(KEYS)}")
+
+
+def take_vary(study, where, names, value):
+    values = [part.strip() for part in value.split("|")] if "|" in value or len(names) > 1 else value.split()
+    rows = [[x.strip() for x in v.split(",")] if len(names) > 1 else [v] for v in values]
+    bad = next((r for r in rows if len(r) != len(names)), None)
+    if bad is not None or not rows:
+        fail(f"{where}: expected values of {', '.join(names)}, one set after the other with | between, found '{value}'")
+    if any(name in known for name in names for known, _ in study.vary) or not all(re.fullmatch(r"[A-Za-z]\w*", n) for n in names):
+        fail(f"{where}: '{', '.join(names)}': expected names of letters, digits and _, each once")
+    study.vary.append((names, rows))
+
+
+def filled(text, case, where):
+    """{name} is the value, {expression} its number."""
+    numbers = {}
+    for name, value in case.items():
+        try:
+            numbers[name] = float(value)
+        except ValueError:
+            pass
+
+    def one(match):
+        inside = match[1].strip()
+        if inside in case:
+            return case[inside]
+        found = value_of(inside, numbers)
+        if found is None:
+            fail(f"{where}: '{{{inside}}}' is no number of what varies{nearest(inside, list(case))}: {', '.join(case)}")
+        return f"{found:.9g}"
+    return re.sub(r"\{([^}]*)\}", one, text)
+
+
+def files_of(study, case):
+    """The texts of a case: its deck, and its recipe (None: it has none)."""
+    deck = Deck(study.deck)
+    recipe = deck.recipe() and Recipe(deck.recipe())
+    for in_recipe, key, value in study.sets:
+        value = filled(value, case, f"{study.path}, set {key}")
+        if not in_recipe:
+            deck = deck.with_value(key, value)
+        elif recipe is None:
+            fail(f"{study.path}: the mesh of {study.deck} has no recipe beside it to change {key} in")
+        else:
+            recipe.text = recipe.changed(key, value)
+    return deck, recipe
+
+
+def name_of(case):
+    """Of its folder."""
+    return ",".join(f"{k}={re.sub(r'[^A-Za-z0-9.+-]+', '-', v) or 'none'}" for k, v in case.items())
