@@ -98,7 +98,7 @@ std::string describe_scene(const Scene& scene) {
   if (scene.dropped > 0) {
     text << "dropped " << scene.dropped << " points with too few neighbors (Degenerate Points = Drop)\n";
   }
-  text << scene.warnings;
+  text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << scene.outline << scene.warnings;
   return text.str();
 }
 

@@ -18,9 +18,10 @@ struct Scene {
   Conditions conditions;
   contact::Contact contact;
   StepControl control;
-  std::optional<QuasiStaticControl> quasi_static;   // in its place
-  std::int64_t points = 0, bonds = 0, dropped = 0;  // over all ranks
-  std::string warnings;                             // what may be meant otherwise, a line each
+  std::optional<QuasiStaticControl> quasi_static;               // in its place
+  std::int64_t points = 0, bonds = 0, dropped = 0, pieces = 0;  // over all ranks
+  std::string outline;   // box, mass, wave speeds, speeds: what slips of units change
+  std::string warnings;  // what may be meant otherwise, a line each
 };
 
 }  // namespace strut

@@ -80,8 +80,9 @@ const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
      .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
-                "gradient."},
-    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}});
+                "gradient. `Drop` leaves them out where they are 1 % of the points at most and no body falls apart for "
+                "it; `Drop Any`, whatever is left."},
+    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
 
 // What each type of discretization must have, and what it cannot.
 void check_source(const Values& values, Problems& problems) {

@@ -338,13 +338,34 @@ TEST_F(Mistake, PointsWithTooFewNeighbors) {
 
 TEST_F(Mistake, PointsWithTooFewNeighborsAreDroppedOnRequest) {
   folder.write("points.txt", points_with_stragglers());
-  const fs::path deck = write_deck(straggling_parts("Drop").text());
+  const fs::path deck = write_deck(straggling_parts("Drop Any").text());
   testing::internal::CaptureStdout();
   EXPECT_TRUE(run(deck, world));
   const std::string shown = testing::internal::GetCapturedStdout();
   if (world.rank() != 0) return;
   EXPECT_NE(shown.find("dropped 3 points"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("1 connected piece;"), std::string::npos) << shown;
   EXPECT_EQ(io::read_result(folder / "result.e").element[0][0].size(), 96u);
+}
+
+TEST_F(Mistake, MorePointsDroppedThanOneInAHundred) {
+  folder.write("points.txt", points_with_stragglers());
+  expect_error(straggling_parts("Drop").text(),
+               {"Discretization > Degenerate Points: 3 of 99 points (3.03 %)", "1 connected pieces",
+                "expected 1 % of the points at most", "\"Drop Any\""});
+}
+
+// Two blocks, and between them three points in a row, each near enough to the next alone: 0.7 % of the points.
+TEST_F(Mistake, ABodyThatFallsApartWithoutWhatIsDropped) {
+  std::string points = cubes(7, Vector(0, 0, 0), 6, 6, 6, 1e-3) + cubes(7, Vector(10.6e-3, 0, 0), 6, 6, 6, 1e-3);
+  for (const char* x : {"6.9e-3", "8.3e-3", "9.7e-3"}) points += std::string(x) + " 2.5e-3 2.5e-3 7 1e-9\n";
+  folder.write("points.txt", points);
+  Parts parts = straggling_parts("Drop");
+  parts.blocks = changed(parts.blocks, "2.01e-3", "1.5e-3");
+  expect_error(parts.text(), {"Discretization > Degenerate Points: 3 of 435 points",
+                              "2 connected pieces in the place of 1", "it falls apart", "\"Drop Any\""});
+  parts.degenerate = "Drop Any";
+  EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
 }
 
 TEST_F(Mistake, AllPointsDropped) {
