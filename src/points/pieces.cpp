@@ -1,7 +1,6 @@
 #include "points/pieces.hpp"
 
 #include <algorithm>
-#include <span>
 
 #include "base/union_find.hpp"
 
@@ -15,11 +14,6 @@ UnionFind joined_on_this_rank(const Domain& domain) {
     domain.families.for_each(i, [&](int j) { sets.join(i, j); });
   }
   return sets;
-}
-
-void keep_different(std::vector<std::int64_t>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace
@@ -52,13 +46,6 @@ std::int64_t count_pieces(const Domain& domain) {
   std::int64_t first = 0;
   for (int i = 0; i < domain.owned; ++i) first += ids[i] == domain.id(i) ? 1 : 0;
   return domain.communicator.sum(first);
-}
-
-std::int64_t count_different(std::vector<std::int64_t> values, const Communicator& communicator) {
-  keep_different(values);
-  values = communicator.gather(std::span<const std::int64_t>(values));  // none but on rank 0
-  keep_different(values);
-  return communicator.sum(static_cast<std::int64_t>(values.size()));
 }
 
 }  // namespace strut

@@ -14,7 +14,4 @@ std::vector<std::int64_t> piece_ids(const Domain& domain);
 // Collective. How many pieces there are.
 std::int64_t count_pieces(const Domain& domain);
 
-// Collective. How many different values these lists of all ranks hold, each list a value a point.
-std::int64_t count_different(std::vector<std::int64_t> values, const Communicator& communicator);
-
 }  // namespace strut

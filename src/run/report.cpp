@@ -95,9 +95,7 @@ std::string describe_scene(const Scene& scene) {
   text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s\n",
                     static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
                     as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s");
-  if (scene.dropped > 0) {
-    text << "dropped " << scene.dropped << " points with too few neighbors (Degenerate Points = Drop)\n";
-  }
+  text << told(scene.dropped);
   text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << scene.outline << scene.warnings;
   return text.str();
 }

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <sstream>
-#include <utility>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "points/partition.hpp"
-#include "points/pieces.hpp"
 #include "setup/blocks.hpp"
+#include "setup/dropped.hpp"
 
 namespace strut {
 
@@ -51,49 +50,6 @@ PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
   return reordered(cloud, kept);
 }
 
-// What the deck lets go, for more than it does.
-void refuse(const std::string& text, const Communicator& communicator) {
-  raise_together(communicator,
-                 "Discretization > Degenerate Points: " + text +
-                     ". Enlarge the horizon, mend the mesh, or say \"Drop Any\" to go on with what is left");
-}
-
-// Of each point of this rank, by its id: the piece that it was in before any was dropped.
-using PiecesBefore = std::vector<std::pair<std::int64_t, std::int64_t>>;
-
-PiecesBefore pieces_before(const Domain& domain) {
-  const std::vector<std::int64_t> pieces = piece_ids(domain);
-  PiecesBefore all;
-  for (int i = 0; i < domain.owned; ++i) all.emplace_back(domain.id(i), pieces[i]);
-  std::sort(all.begin(), all.end());
-  return all;
-}
-
-// How many pieces of those before have points left.
-std::int64_t pieces_left(const PiecesBefore& before, const Domain& domain) {
-  std::vector<std::int64_t> left;
-  for (int i = 0; i < domain.owned; ++i) {
-    left.push_back(std::lower_bound(before.begin(), before.end(), std::pair(domain.id(i), std::int64_t{-1}))->second);
-  }
-  return count_different(std::move(left), domain.communicator);
-}
-
-// The deck says "Drop": a few points, and no body falls apart.
-void check_dropped(const Domain& domain, std::int64_t dropped, const PiecesBefore& before) {
-  constexpr double most = 0.01;
-  const Communicator& communicator = domain.communicator;
-  const auto left = communicator.sum(static_cast<std::int64_t>(domain.owned));
-  const std::int64_t pieces = count_pieces(domain), expected = pieces_left(before, domain);
-  const double part = static_cast<double>(dropped) / static_cast<double>(dropped + left);
-  std::ostringstream text;
-  text.precision(3);
-  text << dropped << " of " << dropped + left << " points (" << 100 * part
-       << " %) have too few neighbors and would be dropped; what is left has " << pieces << " connected pieces";
-  if (part > most) refuse(text.str() + "; expected 1 % of the points at most", communicator);
-  if (pieces > expected)
-    refuse(text.str() + " in the place of " + std::to_string(expected) + ": it falls apart", communicator);
-}
-
 void refuse_degenerate(std::int64_t count, std::string text, const Communicator& communicator) {
   if (!text.empty()) {
     text = "Discretization > Degenerate Points: " + std::to_string(count) +
@@ -107,11 +63,11 @@ void refuse_degenerate(std::int64_t count, std::string text, const Communicator&
 
 // Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                                        std::int64_t& dropped) {
+                                        Dropped& dropped) {
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
-  PiecesBefore before;
+  PiecesOfPoints before;
   for (;;) {
     Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks);
     std::string text;
@@ -119,11 +75,12 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
     if (count > 0 && rule == deck::DegeneratePoints::error) refuse_degenerate(count, text, communicator);
     if (count == 0) {
-      if (dropped > 0 && rule == deck::DegeneratePoints::drop) check_dropped(domain, dropped, before);
+      if (dropped.points > 0) take_pieces(domain, before, dropped);
+      if (rule == deck::DegeneratePoints::drop) check_dropped(domain, dropped);
       return domain;
     }
-    if (dropped == 0) before = pieces_before(domain);
-    dropped += count;
+    if (dropped.points == 0) before = pieces_of_points(domain);
+    dropped.points += count;
     cloud = without(whole_cloud(domain), degenerate);
     if (communicator.sum(static_cast<std::int64_t>(cloud.size())) == 0) {
       raise_together(communicator, "Discretization > Degenerate Points: no point is left after dropping");

@@ -41,7 +41,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
     const Timed timed(phase("Partition"));
     cloud = partitioned(cloud, communicator, cuts(deck, cloud, spacing, communicator));
   }
-  std::int64_t dropped = 0;
+  Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
   Scene scene{
@@ -50,6 +50,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
       {},
       {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
       quasi_static_of(deck.solver),
+      0,
       0,
       0,
       dropped};

@@ -80,8 +80,8 @@ const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
      .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
-                "gradient. `Drop` leaves them out where they are 1 % of the points at most and no body falls apart for "
-                "it; `Drop Any`, whatever is left."},
+                "gradient. `Drop` leaves them out if they, and what is cut off without them, are 1 % of all "
+                "points at most; `Drop Any` goes on with whatever is left."},
     {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
 
 // What each type of discretization must have, and what it cannot.

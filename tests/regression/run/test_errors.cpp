@@ -351,8 +351,8 @@ TEST_F(Mistake, PointsWithTooFewNeighborsAreDroppedOnRequest) {
 TEST_F(Mistake, MorePointsDroppedThanOneInAHundred) {
   folder.write("points.txt", points_with_stragglers());
   expect_error(straggling_parts("Drop").text(),
-               {"Discretization > Degenerate Points: 3 of 99 points (3.03 %)", "1 connected pieces",
-                "expected 1 % of the points at most", "\"Drop Any\""});
+               {"Discretization > Degenerate Points", "leave out 3 points with too few neighbors: 3.03 % of 99 points",
+                "expected 1 % at most", "\"Drop Any\""});
 }
 
 // Two blocks, and between them three points in a row, each near enough to the next alone: 0.7 % of the points.
@@ -362,8 +362,8 @@ TEST_F(Mistake, ABodyThatFallsApartWithoutWhatIsDropped) {
   folder.write("points.txt", points);
   Parts parts = straggling_parts("Drop");
   parts.blocks = changed(parts.blocks, "2.01e-3", "1.5e-3");
-  expect_error(parts.text(), {"Discretization > Degenerate Points: 3 of 435 points",
-                              "2 connected pieces in the place of 1", "it falls apart", "\"Drop Any\""});
+  expect_error(parts.text(), {"Discretization > Degenerate Points", "leave out 3 points", "expected 1 % at most",
+                              "without them 216 more, in 1 piece, are cut off: 50.3 % of 435 points"});
   parts.degenerate = "Drop Any";
   EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
 }
