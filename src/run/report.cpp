@@ -51,30 +51,37 @@ Progress::Progress(const Communicator& communicator, double initial_time, double
       terminal_(watched()),
       initial_(initial_time),
       begin_(now),
-      final_(final_time) {}
+      final_(final_time),
+      shown_time_(now) {}
 
 double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+// The time left is by the speed since the last line, and by that of the whole run where that is less: what stands still
+// at first costs nothing.
+std::string Progress::left(double time) {
+  if (!(time > shown_time_)) return "";
+  const double since_last = (elapsed() - shown_elapsed_) / (time - shown_time_), whole = elapsed() / (time - begin_);
+  return "  left: " + as_duration((final_ - time) * std::max(since_last, whole));
+}
+
 void Progress::show(int step, double time, double dt) {
   if (!speaks_) return;
-  const double share = (time - initial_) / (final_ - initial_);
-  const int now = static_cast<int>(share * (terminal_ ? 100 : 10) + 1e-9);
-  const bool soon = std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(200);
-  if (terminal_ ? soon && share < 1 : now == shown_) return;
-  shown_ = now;
-  last_ = std::chrono::steady_clock::now();
-  const std::string left = time > begin_ ? as_duration(elapsed() * (final_ - time) / (time - begin_)) : "unknown";
-  const std::string facts =
-      formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
+  constexpr double often = 0.2, seldom = 60;  // s, between lines of a terminal, and of a log
+  const double share = (time - initial_) / (final_ - initial_), pause = elapsed() - shown_elapsed_;
+  const int now = static_cast<int>(share * 10 + 1e-9);
+  const bool due = terminal_ ? pause >= often || share >= 1 : now != shown_ || pause >= seldom;
+  if (!due && shown_ >= 0) return;
+  const std::string facts = formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s", 100 * share, time, step, dt);
   if (terminal_) {
     const int filled = static_cast<int>(30 * share + 1e-9);
-    std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left << "   "
-              << std::flush;
+    std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left(time)
+              << "   " << std::flush;
   } else {
-    std::cout << facts << left << std::endl;
+    std::cout << facts << left(time) << std::endl;
   }
+  shown_ = now, shown_elapsed_ = elapsed(), shown_time_ = time;
 }
 
 void Progress::finish() {
