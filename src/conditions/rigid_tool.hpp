@@ -25,7 +25,7 @@ struct RigidTool {
   Vector offset(double t) const;
 
   static constexpr Stage stage = Stage::tools;
-  static constexpr double Work::*ledger_entry = &Work::contact;
+  static constexpr double Work::*ledger_entry = &Work::tools;
   static constexpr InEquilibria in_equilibria = InEquilibria::tool;
 
   std::vector<Function> values_at_points() const { return {}; }

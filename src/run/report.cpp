@@ -119,10 +119,13 @@ namespace {
 std::string table_of_phases(const Scene& scene, double seconds) {
   std::ostringstream text;
   text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");
+  double sum = 0;
   for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
     text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
+    sum += p.mean;
   }
-  text << formatted("%-26s %10.3f\n", "whole run", seconds);
+  text << formatted("%-26s %10.3f %10s %6.1f%%\n", "other", seconds - sum, "", 100 * (seconds - sum) / seconds)
+       << formatted("%-26s %10.3f\n", "whole run", seconds);
   return text.str();
 }
 
@@ -154,8 +157,9 @@ std::string energies(const Ledger& ledger) {
                    ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated,
                    ledger.heat > 0 ? formatted(" (heat %.5g)", ledger.heat).c_str() : "", ledger.stabilization,
                    ledger.fracture > 0 ? formatted(", fracture %.5g", ledger.fracture).c_str() : "") +
-         formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
-                   ledger.external, ledger.contact, ledger.balance_error);
+         formatted(
+             "work of conditions %.5g, of tools %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
+             ledger.external, ledger.tools, ledger.contact, ledger.balance_error);
 }
 
 }  // namespace

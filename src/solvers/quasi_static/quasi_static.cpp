@@ -163,9 +163,10 @@ Ledger QuasiStatic::ledger() {
   now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
   now.heat = stored.heat;
   now.external = external_;
-  now.contact = by_tools_ - body.domain.communicator.sum(contact().energy());
+  now.tools = by_tools_;
+  now.contact = -body.domain.communicator.sum(contact().energy());
   const double held = now.elastic + now.dissipated + now.stabilization;
-  const double put_in = now.external + now.contact;
+  const double put_in = now.external + now.tools + now.contact;
   largest_energy_ = std::max({largest_energy_, held, std::abs(put_in)});
   now.balance_error = largest_energy_ > 0 ? std::abs(held - put_in) / largest_energy_ : 0;
   return now;

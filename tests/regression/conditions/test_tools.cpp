@@ -55,9 +55,9 @@ TEST(RigidTool, MovingPlaneIsPrescribedMotionOfWhatItPresses) {
   const std::map<int, Vector> expected = displacements(ends);
   for (const auto& [id, u] : displacements(walls)) EXPECT_LT((u - expected.at(id)).norm(), 1e-12 * 6e-3) << id;
   EXPECT_EQ(pressed.external, 0);
-  EXPECT_GT(pressed.contact, 0);
+  EXPECT_GT(pressed.tools, 0);
   // Prescribed motion starts with the velocity of the first step, of 2.5 % of the time: that much of the work, squared.
-  EXPECT_NEAR(pressed.contact, moved.external, 1e-3 * moved.external);
+  EXPECT_NEAR(pressed.tools, moved.external, 1e-3 * moved.external);
   EXPECT_LT(worst_balance, 1e-2);
 }
 
@@ -172,7 +172,7 @@ TEST(RigidTool, BeltAcceleratesWhatSlidesOnIt) {
   EXPECT_GT(end.momentum[0], 0.5 * friction * weight * run.volume() * end.time);
   EXPECT_NEAR(end.momentum[0], friction * across, 1e-3 * friction * across);
   EXPECT_NEAR(end.momentum[1], 0, 1e-3 * friction * across);
-  EXPECT_GT(end.contact, 0);  // of the belt on the block
+  EXPECT_GT(end.tools, 0);  // of the belt on the block
   EXPECT_LT(worst_balance, 1e-3);
 }
 

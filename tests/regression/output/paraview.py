@@ -29,12 +29,19 @@ RECIPE = "shape = box\nsize = 4e-3 4e-3 6e-3\nspacing = 1e-3\n"
 # What pvbatch is told: the places it draws at the last time, as text.
 ASK_PARAVIEW = """
 import sys
-from paraview.simple import OpenDataFile, servermanager, MergeBlocks
+from paraview.simple import OpenDataFile, servermanager, MergeBlocks, PythonCalculator
 reader = OpenDataFile(sys.argv[1])
 merged = MergeBlocks(reader)
 merged.UpdatePipeline(float(sys.argv[2]))
 data = servermanager.Fetch(merged)
 print("points", *[x for i in range(data.GetNumberOfPoints()) for x in data.GetPoint(i)])
+stress = data.GetCellData().GetArray("Cauchy_Stress")
+if stress:
+    print("stress", *stress.GetTuple(7))
+    rows = ", ".join("Deformation_Gradient" + c for c in "XYZ")
+    joined = PythonCalculator(merged, ArrayAssociation="Cell Data", ArrayName="F", Expression="numpy.hstack([" + rows + "])")
+    joined.UpdatePipeline(float(sys.argv[2]))
+    print("gradient", *servermanager.Fetch(joined).GetCellData().GetArray("F").GetTuple(7))
 """
 
 
@@ -111,12 +118,22 @@ class ParaView(unittest.TestCase):
         script.write_text(ASK_PARAVIEW)
         told = subprocess.run([pvbatch, script, self.folder / "result.e", str(self.file["time_whole"][-1])],
                               capture_output=True, text=True)
-        line = [line for line in told.stdout.splitlines() if line.startswith("points ")]
-        self.assertEqual(len(line), 1, told.stdout + told.stderr)
-        drawn = np.array(line[0].split()[1:], float).reshape(-1, 3)
+        arrays = {words[0]: np.array(words[1:], float) for words in map(str.split, told.stdout.splitlines())
+                  if words and words[0] in ("points", "stress", "gradient")}
+        self.assertIn("points", arrays, told.stdout + told.stderr)
+        drawn = arrays["points"].reshape(-1, 3)
         # Sorted by place: ParaView may number points anew.
         order = [np.lexsort(np.rint(places / 1e-7).T) for places in (drawn, expected)]
         np.testing.assert_allclose(drawn[order[0]], expected[order[1]], **near)
+        if "stress" in arrays:  # of the eighth point, in the order of VTK's tensors; single precision is enough
+            np.testing.assert_allclose(arrays["stress"], self.eighth("Cauchy_Stress", "XX YY ZZ XY YZ ZX"), rtol=1e-6)
+            np.testing.assert_allclose(arrays["gradient"], self.eighth("Deformation_Gradient", "XX XY XZ YX YY YZ ZX ZY ZZ"),
+                                       rtol=1e-6)
+
+    def eighth(self, name, components):
+        """Of the eighth element at the last time, as the file has it."""
+        names = [row.tobytes().split(b"\0")[0].decode() for row in self.file["name_elem_var"][:]]
+        return [self.file[f"vals_elem_var{names.index(name + c) + 1}eb1"][-1][7] for c in components.split()]
 
     def test_points_at_elements_are_drawn_where_they_have_moved_to(self):
         self.run_deck(deck())
@@ -132,6 +149,13 @@ class ParaView(unittest.TestCase):
             along("high", "Prescribed Displacement", "z", "1e-4*t", "high")
         self.run_deck(deck("Elements", pulled, section("QuasiStatic", key("Number of Load Steps", "1")), "1"))
         self.check_drawn(self.moved())
+
+    def test_rows_of_the_deformation_gradient_are_vectors(self):
+        self.run_deck(deck())
+        for row in "XYZ":
+            drawn = self.opened().GetCellData().GetArray("Deformation_Gradient" + row)
+            self.assertEqual(drawn.GetNumberOfComponents(), 3)
+            np.testing.assert_allclose(drawn.GetTuple(7), self.eighth("Deformation_Gradient" + row, "X Y Z"), rtol=1e-6)
 
     def test_without_displacements_points_are_drawn_where_they_were(self):
         self.run_deck(deck(variables=["Velocity"]))

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "deck/problems.hpp"
 #include "regression/bodies.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
@@ -260,6 +261,25 @@ TEST_F(Mistake, UnknownVariables) {
   const std::string both = changed(deck, "\"Displacement\"", "\"Displacment\"");
   expect_error(changed(both, "\"Max_Displacement\"", "\"Max_Displacment\""),
                {"Output > Output Variables > Displacment", "History > Variables > Max_Displacment"});
+}
+
+TEST_F(Mistake, TwoWrongNamesAreTwoProblemsAndEqualOnesAreOne) {
+  const std::string deck = right_parts().text();
+  const std::string two =
+      changed(deck, key("Displacement", "true"), key("Displacment", "true") + key("Velocty", "true"));
+  expect_error(two, {"deck.xml: 2 problems\n  Output > Output Variables > Displacment: ",
+                     "\n  Output > Output Variables > Velocty: "});
+  deck::Problems problems;
+  for (const char* what : {"missing", "missing", "unknown"}) problems.add("Blocks", what);
+  EXPECT_EQ(problems.text("deck.xml"), "deck.xml: 2 problems\n  Blocks: missing\n  Blocks: unknown");
+}
+
+TEST_F(Mistake, MeshesOfOtherPrograms) {
+  folder.write("foam.msh", "$MeshFormat");
+  for (const char* name : {"foam.msh", "nothere.vtk"}) {
+    const std::string shown = error(changed(right_parts().text(), "bar.g", name));
+    EXPECT_EQ(shown.find("tools/tetrahedra") != std::string::npos, std::string(name) == "foam.msh") << shown;
+  }
 }
 
 TEST_F(Mistake, UnknownReactions) {
