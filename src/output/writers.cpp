@@ -58,6 +58,7 @@ void History::open(const Body& body) {
                                          {"Stabilization_Energy", "J"},
                                          {"Fracture_Energy", "J"},
                                          {"Heat", "J"},
+                                         {"Tool_Kinetic_Energy", "J"},
                                          {"Tool_Work", "J"},
                                          {"Contact_Work", "J"},
                                          {"External_Work", "J"},
@@ -74,10 +75,10 @@ void History::open(const Body& body) {
 void History::write(const Ledger& now, const Reactions& reactions, const Body& body) {
   static Teuchos::Time& timer = phase("History");
   const Timed timed(timer);
-  std::vector<double> row{
-      now.time,        now.dt,          now.kinetic,    now.elastic, now.dissipated, now.stabilization,
-      now.fracture,    now.heat,        now.tools,      now.contact, now.external,   now.balance_error,
-      now.momentum[0], now.momentum[1], now.momentum[2]};
+  std::vector<double> row{now.time,          now.dt,       now.kinetic,       now.elastic,      now.dissipated,
+                          now.stabilization, now.fracture, now.heat,          now.tool_kinetic, now.tools,
+                          now.contact,       now.external, now.balance_error, now.momentum[0],  now.momentum[1],
+                          now.momentum[2]};
   const std::size_t fixed = row.size();
   for (const Extreme& e : extremes_) row.push_back(e.local(body));
   for (const CrackTip& crack : cracks_) row.push_back(crack.local(body));

@@ -11,6 +11,7 @@ struct Ledger {
   double fracture = 0;                                                 // J, dissipated by bonds that broke
   double heat = 0;      // J, ρ c_p (T − T₀) of metals: no further term of the balance
   double external = 0;  // J, work of loads and prescribed motion on the points so far
+  double tool_kinetic = 0;  // J, of rigid tools with a mass
   double tools = 0;     // J, work of rigid tools on the points so far: what walls take is negative
   // J, work of contact between bodies on the points so far: what penalties store and friction takes is negative.
   double contact = 0;

@@ -271,6 +271,7 @@ void CentralDifference::serialize(Archive& archive) {
   strut::serialize(archive, body_);
   multi_stepping_.serialize(archive, body_);
   critical_time_step_.serialize(archive, body_);
+  serialize_tools(archive, conditions_, body_.owned());
   archive.number("time", time_);
   archive.number("steps", steps_);
   archive.number("steps_since_estimate", steps_since_estimate_);
@@ -309,7 +310,9 @@ void CentralDifference::serialize_work(Archive& archive) {
 namespace {
 
 // What the body holds and has dissipated.
-double held(const Ledger& now) { return now.kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture; }
+double held(const Ledger& now) {
+  return now.kinetic + now.tool_kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
+}
 
 }  // namespace
 
@@ -333,6 +336,7 @@ Ledger CentralDifference::ledger() {
   body_.domain.communicator.sum(sums);
   const Energies stored = stored_energies(body_);
   now.kinetic = sums[0];
+  now.tool_kinetic = kinetic_energy_of_tools(conditions_);
   now.contact = sums[1];
   now.external = sums[2];
   now.tools = sums[3];
