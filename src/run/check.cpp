@@ -78,25 +78,28 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
   return text.str();
 }
 
-// From the first load step, or from its beginning where it takes long.
+// From the first two load steps, or from the beginning of the first where that takes long.
 std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   constexpr double patience = 60;  // s
-  constexpr double most = 5;       // times as long as the first are load steps in which bodies flow and touch
+  constexpr double most = 2;       // times as long as these are load steps in which bodies flow and touch
   const auto start = Clock::now();
   Observer observer{[](const std::string&) {}, {}, [&] { return seconds_since(start) > patience; }};
   QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                      deck.solver.initial_time, deck.solver.final_time, observer);
+  const double steps = scene.quasi_static->load_steps;
   const bool found = solver.advance();
-  const double seconds = seconds_since(start), steps = scene.quasi_static->load_steps;
+  const double first = seconds_since(start);
   std::ostringstream text;
   text << steps << " load steps; the first one ";
   if (!found) {
-    text << "takes more than " << as_duration(seconds) << "\nestimated time more than " << as_duration(steps * seconds);
-  } else {
-    text << "took " << as_duration(seconds) << " and " << solver.iterations() << " iterations\nestimated time "
-         << range(steps * seconds, most * steps * seconds);
+    text << "takes more than " << as_duration(first) << "\nestimated time more than " << as_duration(steps * first);
+    return text.str() + "\n";
   }
-  return text.str() + "\n";
+  text << "took " << as_duration(first) << " and " << solver.iterations() << " iterations\n";
+  double second = first;
+  if (solver.time() < deck.solver.final_time && solver.advance()) second = seconds_since(start) - first;
+  text << "estimated time " << range(steps * std::min(first, second), most * steps * std::max(first, second)) << "\n";
+  return text.str();
 }
 
 }  // namespace
