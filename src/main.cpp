@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
+#include "run/log.hpp"
 #include "run/simulation.hpp"
 
 namespace {
@@ -23,6 +24,8 @@ usage: strut [option] deck.xml              on one core
   --continue deck.xml  resume a run from its last checkpoint (section Restart), on any number of ranks. Where there is
                        none it starts anew, unless the result is complete
   --check deck.xml     say what is wrong with it, or what the run would do: points, memory, time step, time. Writes nothing
+  --log FILE           before any of these: what is said on the terminal goes to the file, too
+  --explain KEY        where a key or section of a deck stands, what it takes and means
   --keys               all keys of a deck, their units and defaults, as a page of Markdown
   --version            the version and how it was built, as every file that it writes has it
   --help, -h           this page
@@ -30,7 +33,8 @@ usage: strut [option] deck.xml              on one core
 Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
 checkpoint (relative to this folder).
 Signals: SIGTERM and SIGINT end a run after the current step, with a last frame and a checkpoint.
-Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal.
+Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal, also of tools/run,
+which hands the signal on. An mpirun that gets it ends with 1, and leaves the ranks a second.
 )";
 
 int say(const strut::Communicator& world, const std::string& text) {
@@ -44,15 +48,30 @@ int run(const std::string& deck, const strut::Communicator& world, strut::Start 
 
 // Of words that ask for nothing that there is.
 std::string what_is_wrong(const std::vector<std::string>& words) {
-  static const std::vector<std::string> options = {"--continue", "--check", "--keys", "--version", "--help"};
+  static const std::vector<std::string> options = {"--continue", "--check",   "--log", "--explain",
+                                                   "--keys",     "--version", "--help"};
   if (words.empty()) return "no deck is named";
   for (const std::string& word : words) {
     const bool known = std::find(options.begin(), options.end(), word) != options.end();
     if (word.starts_with("-") && !known)
       return "there is no option '" + word + "'" + strut::did_you_mean(word, options);
   }
+  if (words[0] == "--log" && words.size() < 3) return "'--log' needs a file, and a deck";
+  if (words[0] == "--explain") return "'--explain' needs a key";
   if (words.size() == 1) return "'" + words[0] + "' needs a deck";
   return "'" + strut::joined(words, " ") + "' does not say what to do";
+}
+
+int act(const std::vector<std::string>& words, const strut::Communicator& world);
+
+// Its error is told: raised on all ranks, rank 0 speaks for them.
+int reported(const std::vector<std::string>& words, const strut::Communicator& world) {
+  try {
+    return act(words, world);
+  } catch (const strut::Error& error) {
+    if (world.rank() == 0) std::cerr << "strut: " << error.what() << "\n";
+    return 1;
+  }
 }
 
 int act(const std::vector<std::string>& words, const strut::Communicator& world) {
@@ -64,8 +83,13 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
     if (!first.starts_with("-")) return run(first, world, strut::Start::anew);
   }
   if (words.size() == 2 && !words[1].starts_with("-")) {
+    if (first == "--explain") return say(world, strut::deck::explanation(words[1]));
     if (first == "--continue") return run(words[1], world, strut::Start::continued);
     if (first == "--check") return strut::check(words[1], world), 0;
+  }
+  if (words.size() > 2 && first == "--log" && !words[1].starts_with("-") && words[1] != words.back()) {
+    const strut::Log log(words[1], world);
+    return reported({words.begin() + 2, words.end()}, world);
   }
   if (world.rank() == 0) {
     std::cerr << "strut: " << what_is_wrong(words) << "; expected: strut [--continue | --check] deck.xml\n"
@@ -80,10 +104,7 @@ int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
   const strut::Communicator world;
   try {
-    return act({argv + 1, argv + argc}, world);
-  } catch (const strut::Error& error) {  // raised on all ranks: rank 0 speaks for them
-    if (world.rank() == 0) std::cerr << "strut: " << error.what() << "\n";
-    return 1;
+    return reported({argv + 1, argv + argc}, world);
   } catch (const std::exception& error) {  // this rank alone: the others would wait for it
     std::cerr << "strut: rank " << world.rank() << ": " << error.what() << "\n";
     world.abort();

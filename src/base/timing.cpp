@@ -41,9 +41,23 @@ Teuchos::Time& phase(const std::string& name) {
   return phases().emplace_back(name);
 }
 
-Timed::Timed(Teuchos::Time& phase) : phase_(phase) { phase_.start(); }
+namespace {
 
-Timed::~Timed() { phase_.stop(); }
+Teuchos::Time* running = nullptr;
+
+}  // namespace
+
+Timed::Timed(Teuchos::Time& phase) : phase_(phase), outer_(running) {
+  if (outer_) outer_->stop();
+  phase_.start();
+  running = &phase_;
+}
+
+Timed::~Timed() {
+  phase_.stop();
+  if (outer_) outer_->start();
+  running = outer_;
+}
 
 std::vector<PhaseTime> phase_times(const Communicator& communicator) {
   std::vector<PhaseTime> times;

@@ -15,7 +15,8 @@ class Communicator;
 // The timer of a phase, made at the first call with its name. Keep the reference: the look-up is by string.
 Teuchos::Time& phase(const std::string& name);
 
-// Times a phase from here to the end of the scope.
+// Times a phase from here to the end of the scope. A phase within another one counts for itself alone, so that all add
+// up to what was timed.
 class Timed {
  public:
   explicit Timed(Teuchos::Time& phase);
@@ -25,6 +26,7 @@ class Timed {
 
  private:
   Teuchos::Time& phase_;
+  Teuchos::Time* outer_;  // that waits meanwhile
 };
 
 struct PhaseTime {
@@ -32,7 +34,8 @@ struct PhaseTime {
   double mean, longest;  // s over ranks
 };
 
-// Collective. All phases of all ranks in the order of their first use; on a rank that never came to one it took no time.
+// Collective. All phases of all ranks in the order of their first use; on a rank that never came to one it took no
+// time.
 std::vector<PhaseTime> phase_times(const Communicator& communicator);
 
 }  // namespace strut

@@ -1,6 +1,7 @@
 #include "conditions/conditions.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "base/errors.hpp"
 
@@ -93,6 +94,18 @@ std::vector<HeldDirection> held_directions(const Conditions& conditions, const B
     }
   });
   return all;
+}
+
+double kinetic_energy_of_tools(const Conditions& conditions) {
+  double sum = 0;
+  for (const RigidTool& tool : tools_of(conditions)) sum += tool.free ? tool.free->kinetic_energy() : 0;
+  return sum;
+}
+
+void serialize_tools(Archive& archive, const Conditions& conditions, int owned) {
+  for (const RigidTool& tool : tools_of(conditions)) {
+    if (tool.free) tool.free->serialize(archive, "tool_" + std::to_string(tool.reaction_place), owned);
+  }
 }
 
 std::vector<RigidTool> tools_of(const Conditions& conditions) {

@@ -55,6 +55,11 @@ void check_equilibria_possible(const Conditions& conditions);
 // In the load step from t over dt (s), of points that are where it begins.
 std::vector<HeldDirection> held_directions(const Conditions& conditions, const Body& body, double t, double dt);
 
+// Of tools with a mass: their kinetic energy (J), the same on all ranks; what a checkpoint keeps of them, at the group
+// of all owned points.
+double kinetic_energy_of_tools(const Conditions& conditions);
+void serialize_tools(Archive& archive, const Conditions& conditions, int owned);
+
 // All that is unilateral contact in equilibria.
 std::vector<RigidTool> tools_of(const Conditions& conditions);
 

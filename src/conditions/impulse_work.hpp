@@ -6,9 +6,12 @@ namespace strut {
 // J done on this rank's points.
 struct Work {
   double external = 0;  // by loads and prescribed motion
-  double contact = 0;   // by tools and friction (negative: what a plastic impact takes)
+  double tools = 0;     // by rigid tools, their friction included (negative: what a plastic impact takes)
+  double contact = 0;   // by friction between bodies
 
-  Work operator+(const Work& other) const { return {external + other.external, contact + other.contact}; }
+  Work operator+(const Work& other) const {
+    return {external + other.external, tools + other.tools, contact + other.contact};
+  }
 };
 
 // The work of the impulses p at one time, p · ½(v⁻ + v⁺): exactly what the kinetic energy of central differences gains.

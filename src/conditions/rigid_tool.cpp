@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/parallel/reproducible_sum.hpp"
 #include "conditions/velocity_update.hpp"
 
 namespace strut {
@@ -42,9 +43,45 @@ Vector correction(const Surface& at, double friction, const Vector& velocity, do
   return grip < length ? push - grip / length * sliding : Vector(push - sliding);
 }
 
+// Calls visit(i, change of velocity) for the points of this rank that would enter the tool.
+template <class Visit>
+void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const Visit& visit) {
+  ToolMotion motion(tool, update.t, update.steps.whole);
+  const auto keep_out = [&](const auto& shape) {
+    for (const int i : tool.points) {
+      const double dt = update.steps.of(i);
+      const Surface at = surface(shape, update.body.current(i) - motion.offset());
+      const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
+      if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
+      visit(i, correction(at, tool.friction, relative, dt));
+    }
+  };
+  std::visit(keep_out, tool.shape);
+}
+
+// What the points of all ranks would get from the tool, N s, and their mass, kg.
+struct Push {
+  Vector impulse = Vector::Zero();
+  double mass = 0;
+};
+
+Push trial_push(const RigidTool& tool, const VelocityUpdate& update) {
+  const Body& body = update.body;
+  std::vector<Vector> impulses(body.owned(), Vector::Zero());
+  double any = 0;
+  for_each_change(tool, update, [&](int i, const Vector& change) { impulses[i] = body.mass(i) * change, any = 1; });
+  if (body.domain.communicator.max(any) == 0) return {};
+  const auto touched = [&](int i) { return impulses[i].isZero(0) ? 0.0 : body.mass(i); };
+  return {sum_of_points(body, impulses), reproducible_sum(body.domain.communicator, body.owned(), touched)};
+}
+
+constexpr int most_trials = 20;
+constexpr double accuracy = 1e-12;  // of the tool's velocity: what is left changes places by less than round-off
+
 }  // namespace
 
 Vector RigidTool::offset(double t) const {
+  if (free) return free->offset_at(t);
   Vector sum = Vector::Zero();
   for (int c = 0; c < 3; ++c) {
     if (travel[c]) sum[c] = (*travel[c])(0, 0, 0, t);
@@ -52,24 +89,35 @@ Vector RigidTool::offset(double t) const {
   return sum;
 }
 
+// The velocity V with which it goes on and the impulse J(V) that it gives to the points depend on each other: V = V* −
+// J(V)/M. By Newton's method, with the mass of the points that it pushes as the slope of J.
+void RigidTool::fly(VelocityUpdate& update) const {
+  free->advance(update.t, update.steps.whole, update.body);
+  const Vector without = free->velocity;
+  for (int k = 0; k < most_trials; ++k) {
+    const Push push = trial_push(*this, update);
+    const Vector left = without - push.impulse / free->mass - free->velocity;
+    if (left.norm() <= accuracy * without.norm()) break;
+    free->velocity += left / (1 + push.mass / free->mass);
+  }
+}
+
 void RigidTool::change_velocities(VelocityUpdate& update) const {
-  ToolMotion motion(*this, update.t, update.steps.whole);
-  const auto keep_out = [&](const auto& shape) {
-    for (const int i : points) {
-      const double dt = update.steps.of(i);
-      const Surface at = surface(shape, update.body.current(i) - motion.offset());
-      const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
-      if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
-      const Vector change = correction(at, friction, relative, dt);
-      update.body.velocity[i] += change;
-      update.record(i, change);
-    }
-  };
-  std::visit(keep_out, shape);
+  if (free && in_whole_steps) fly(update);
+  std::vector<Vector> given(free ? update.body.owned() : 0, Vector::Zero());
+  for_each_change(*this, update, [&](int i, const Vector& change) {
+    update.body.velocity[i] += change;
+    update.record(i, change);
+    if (free) given[i] = update.body.mass(i) * change;
+  });
+  if (!free) return;
+  if (in_whole_steps) return free->push_back(sum_of_points(update.body, given), update.body, update.of_tools);
+  free->owed.resize(given.size(), Vector::Zero());
+  for (std::size_t i = 0; i < given.size(); ++i) free->owed[i] += given[i];
 }
 
 std::optional<RigidTool> RigidTool::in_substeps(const MovingPoints& moving) const {
-  return RigidTool{moving.among(points), shape, travel, friction, reaction_place};
+  return RigidTool{moving.among(points), shape, travel, friction, reaction_place, free, false};
 }
 
 }  // namespace strut

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/math/function.hpp"
 #include "conditions/condition_type.hpp"
+#include "conditions/free_motion.hpp"
 #include "conditions/tool_shapes.hpp"
 
 namespace strut {
@@ -20,22 +22,29 @@ struct RigidTool {
   std::array<std::optional<Function>, 3> travel = {};  // along x, y, z, of t only, m; nothing: it stays
   double friction = 0;
   int reaction_place = no_reaction;
+  // Of a tool with a mass, in the place of `travel`; one with its parts for substeps, where it only takes note of what
+  // it gives.
+  std::shared_ptr<FreeMotion> free = {};
+  bool in_whole_steps = true;
 
   // How far it has traveled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
   Vector offset(double t) const;
 
   static constexpr Stage stage = Stage::tools;
-  static constexpr double Work::*ledger_entry = &Work::contact;
+  static constexpr double Work::*ledger_entry = &Work::tools;
   static constexpr InEquilibria in_equilibria = InEquilibria::tool;
 
   std::vector<Function> values_at_points() const { return {}; }
   RigidTool on(std::vector<int> all, int place, const Body&) const {
-    return {std::move(all), shape, travel, friction, place};
+    return {std::move(all), shape, travel, friction, place, free ? std::make_shared<FreeMotion>(*free) : nullptr};
   }
 
-  void change_velocities(VelocityUpdate& update) const;
+  void change_velocities(VelocityUpdate& update) const;  // collective where it has a mass
   std::optional<RigidTool> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = false;
+
+ private:
+  void fly(VelocityUpdate& update) const;
 };
 
 }  // namespace strut

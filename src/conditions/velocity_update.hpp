@@ -39,6 +39,7 @@ struct VelocityUpdate {
     double Work::*ledger_entry;
   };
   std::vector<Impulse> recorded = {};
+  ImpulseWork of_tools = {};  // of what acts on tools with a mass: on rank 0
 
   // After the velocity of point i was changed.
   void record(int i, const Vector& change) {

@@ -52,4 +52,8 @@ Deck read(const std::filesystem::path& file, const Communicator& communicator);
 // The reference page of all keys (Markdown), generated from the schema.
 std::string reference_page();
 
+// Of the keys and sections of this name, letters compared without case: where they stand, what they take and mean.
+// Throws Error with the nearest name where there is none.
+std::string explanation(const std::string& name);
+
 }  // namespace strut::deck

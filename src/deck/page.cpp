@@ -1,4 +1,7 @@
 // The reference page of all keys, from the schema.
+#include <algorithm>
+#include <cctype>
+
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
 #include "deck/deck.hpp"
@@ -119,7 +122,43 @@ std::string expressions() {
          "`<` is written `&lt;` and `&` `&amp;`.\n";
 }
 
+bool same_word(const std::string& one, const std::string& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+}
+
+std::string explained(const Key& key, const std::string& path) {
+  std::string text = path_to(path, key.name) + "\n  " + (key.required ? "required; " : "") + expected(key);
+  if (key.fallback) text += "; default '" + *key.fallback + "'";
+  return text + "\n  " + (key.meaning.empty() ? key.no_effect : key.meaning) + "\n";
+}
+
+// Adds what is said of the name in the section and those within it, and all the names that there are.
+void explain(const Section& section, const std::string& path, const std::string& name, std::string& text,
+             std::vector<std::string>& names) {
+  for (const Key& key : section.keys) {
+    names.push_back(key.name);
+    if (same_word(key.name, name)) text += explained(key, path);
+  }
+  for (const Section& one : section.cases) explain(one, path + " (" + one.name + ")", name, text, names);
+  for (const Section& inner : section.sections) {
+    const std::string inner_path = path_to(path, inner.name);
+    names.push_back(inner.name);
+    if (same_word(inner.name, name))
+      text += inner_path + (inner.required ? " (required)" : "") + "\n  " + inner.meaning + "\n";
+    explain(inner, inner_path, name, text, names);
+  }
+}
+
 }  // namespace
+
+std::string explanation(const std::string& name) {
+  std::string text;
+  std::vector<std::string> names;
+  explain(schema(), "", name, text, names);
+  if (text.empty()) throw Error("a deck has no key or section '" + name + "'" + did_you_mean(name, names));
+  return text;
+}
 
 std::string reference_page() {
   return introduction + expressions() + "\n## The whole deck\n" + section_text(schema(), "");

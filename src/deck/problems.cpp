@@ -1,8 +1,14 @@
 #include "deck/problems.hpp"
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 
 namespace strut::deck {
+
+void Problems::add(const std::string& line) {
+  if (std::find(lines_.begin(), lines_.end(), line) == lines_.end()) lines_.push_back(line);
+}
 
 std::string Problems::text(const std::string& file) const {
   if (lines_.empty()) return "";

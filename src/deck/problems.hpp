@@ -10,9 +10,9 @@ namespace strut::deck {
 class Problems {
  public:
   // `path`: "Blocks > foam > Horizon"; `what`: the value found and what was expected.
-  void add(const std::string& path, const std::string& what) { lines_.push_back(path + ": " + what); }
+  void add(const std::string& path, const std::string& what) { add(path + ": " + what); }
 
-  void add(const std::string& line) { lines_.push_back(line); }  // path and what in one
+  void add(const std::string& line);  // path and what in one; what has been said is not said again
 
   // What is accepted but told: "Contact > Search Radius has no effect here: …".
   void note(const std::string& path, const std::string& what) { notes_.push_back(path + " " + what); }

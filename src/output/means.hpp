@@ -38,6 +38,7 @@ class Mean {
 
   // Of the columns: "Mean_X(foam)", or of layers "Mean_X(slices 1)", ….
   std::vector<std::string> columns() const;
+  std::string unit() const { return unit_of(number_.observable); }
   std::vector<double> values(const Body& body) const;  // collective
 
  private:

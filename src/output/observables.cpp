@@ -262,6 +262,19 @@ std::string observables_page() {
   return text;
 }
 
+// The part after a comma that is one of these; of states of laws, by their names.
+std::string unit_of(const Observable& observable) {
+  static const std::vector<std::string> units = {"N/m³", "kg/m³", "m/s", "m³", "m⁵", "N", "m", "Pa"};
+  for (const std::string& unit : units) {
+    const std::size_t at = observable.meaning.find(", " + unit);
+    const std::size_t end = at + 2 + unit.size();
+    if (at != std::string::npos && (end == observable.meaning.size() || observable.meaning[end] == ';')) return unit;
+  }
+  if (observable.name.ends_with("Temperature")) return "K";
+  if (observable.name.ends_with("Threshold")) return "Pa";
+  return observable.name.ends_with("_Energy_Density") ? "J/m³" : "1";
+}
+
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where) {
   const std::vector<std::string> valid = names_of(all);

@@ -21,6 +21,8 @@ struct Observable {
   std::function<void(const Body&, std::vector<double>&)> fill;
 };
 
+std::string unit_of(const Observable& observable);  // as its meaning has it; "1" for none
+
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);
 
@@ -56,6 +58,7 @@ class Extreme {
   Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
           const std::string& where);
   const std::string& name() const { return name_; }
+  std::string unit() const { return unit_of(number_.observable); }
   // How many points of this rank it is taken over.
   std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
   double local(const Body& body) const;  // of this rank, negated for a minimum, so that all ranks take the maximum

@@ -120,7 +120,9 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
       problems.add(error.what());
     }
   };
-  attempt([&] { variables.frame = chosen(all, deck.output.variables, "Output > Output Variables"); });
+  for (const std::string& name : deck.output.variables) {
+    attempt([&] { variables.frame.push_back(chosen(all, {name}, "Output > Output Variables").front()); });
+  }
   for (const std::string& name : deck.history.variables) {
     attempt([&] {
       if (means(name, "Reaction", reaction_names)) {

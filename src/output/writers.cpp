@@ -52,28 +52,30 @@ History::History(const deck::Deck& deck, const OutputVariables& variables)
 
 void History::open(const Body& body) {
   if (!enabled_) return;
-  std::vector<std::string> names{"Time",
-                                 "Step_Size",
-                                 "Kinetic_Energy",
-                                 "Elastic_Energy",
-                                 "Plastic_Work",
-                                 "Stabilization_Energy",
-                                 "Fracture_Energy",
-                                 "Heat",
-                                 "Contact_Work",
-                                 "External_Work",
-                                 "Balance_Error",
-                                 "Momentum_X",
-                                 "Momentum_Y",
-                                 "Momentum_Z"};
-  for (const Extreme& extreme : extremes_) names.push_back(extreme.name());
-  for (const ReactionComponent& reaction : reactions_) names.push_back(reaction.name);
-  for (const CrackColumn& column : crack_columns_) names.push_back(column.name);
+  std::vector<io::HistoryColumn> columns{{"Time", "s"},
+                                         {"Step_Size", "s"},
+                                         {"Kinetic_Energy", "J"},
+                                         {"Elastic_Energy", "J"},
+                                         {"Plastic_Work", "J"},
+                                         {"Stabilization_Energy", "J"},
+                                         {"Fracture_Energy", "J"},
+                                         {"Heat", "J"},
+                                         {"Tool_Kinetic_Energy", "J"},
+                                         {"Tool_Work", "J"},
+                                         {"Contact_Work", "J"},
+                                         {"External_Work", "J"},
+                                         {"Balance_Error", "1"},
+                                         {"Momentum_X", "kg m/s"},
+                                         {"Momentum_Y", "kg m/s"},
+                                         {"Momentum_Z", "kg m/s"}};
+  for (const Extreme& extreme : extremes_) columns.push_back({extreme.name(), extreme.unit()});
+  for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, "N"});
+  for (const CrackColumn& column : crack_columns_) columns.push_back({column.name, column.is_speed ? "m/s" : "m"});
   for (const Mean& mean : means_) {
-    for (std::string& name : mean.columns()) names.push_back(std::move(name));
+    for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
-  for (const ContactComponent& contact : contacts_) names.push_back(contact.name);
-  file_.emplace(path_, body.domain.communicator, names, before_);
+  for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, "N"});
+  file_.emplace(path_, body.domain.communicator, columns, before_);
 }
 
 // Collective.
@@ -88,9 +90,10 @@ std::vector<double> History::contact_forces(const contact::Contact& contact, con
 void History::write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body) {
   static Teuchos::Time& timer = phase("History");
   const Timed timed(timer);
-  std::vector<double> row{now.time,          now.dt,          now.kinetic,     now.elastic,    now.dissipated,
-                          now.stabilization, now.fracture,    now.heat,        now.contact,    now.external,
-                          now.balance_error, now.momentum[0], now.momentum[1], now.momentum[2]};
+  std::vector<double> row{now.time,          now.dt,       now.kinetic,       now.elastic,      now.dissipated,
+                          now.stabilization, now.fracture, now.heat,          now.tool_kinetic, now.tools,
+                          now.contact,       now.external, now.balance_error, now.momentum[0],  now.momentum[1],
+                          now.momentum[2]};
   const std::size_t fixed = row.size();
   for (const Extreme& e : extremes_) row.push_back(e.local(body));
   for (const CrackTip& crack : cracks_) row.push_back(crack.local(body));

@@ -51,30 +51,37 @@ Progress::Progress(const Communicator& communicator, double initial_time, double
       terminal_(watched()),
       initial_(initial_time),
       begin_(now),
-      final_(final_time) {}
+      final_(final_time),
+      shown_time_(now) {}
 
 double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+// The time left is by the speed since the last line, and by that of the whole run where that is less: what stands still
+// at first costs nothing.
+std::string Progress::left(double time) {
+  if (!(time > shown_time_)) return "";
+  const double since_last = (elapsed() - shown_elapsed_) / (time - shown_time_), whole = elapsed() / (time - begin_);
+  return "  left: " + as_duration((final_ - time) * std::max(since_last, whole));
+}
+
 void Progress::show(int step, double time, double dt) {
   if (!speaks_) return;
-  const double share = (time - initial_) / (final_ - initial_);
-  const int now = static_cast<int>(share * (terminal_ ? 100 : 10) + 1e-9);
-  const bool soon = std::chrono::steady_clock::now() - last_ < std::chrono::milliseconds(200);
-  if (terminal_ ? soon && share < 1 : now == shown_) return;
-  shown_ = now;
-  last_ = std::chrono::steady_clock::now();
-  const std::string left = time > begin_ ? as_duration(elapsed() * (final_ - time) / (time - begin_)) : "unknown";
-  const std::string facts =
-      formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s  left: ", 100 * share, time, step, dt);
+  constexpr double often = 0.2, seldom = 60;  // s, between lines of a terminal, and of a log
+  const double share = (time - initial_) / (final_ - initial_), pause = elapsed() - shown_elapsed_;
+  const int now = static_cast<int>(share * 10 + 1e-9);
+  const bool due = terminal_ ? pause >= often || share >= 1 : now != shown_ || pause >= seldom;
+  if (!due && shown_ >= 0) return;
+  const std::string facts = formatted("%3.0f %%  t = %.4g s  step %d  dt = %.3g s", 100 * share, time, step, dt);
   if (terminal_) {
     const int filled = static_cast<int>(30 * share + 1e-9);
-    std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left << "   "
-              << std::flush;
+    std::cout << "\r[" << std::string(filled, '=') << std::string(30 - filled, ' ') << "] " << facts << left(time)
+              << "   " << std::flush;
   } else {
-    std::cout << facts << left << std::endl;
+    std::cout << facts << left(time) << std::endl;
   }
+  shown_ = now, shown_elapsed_ = elapsed(), shown_time_ = time;
 }
 
 void Progress::finish() {
@@ -95,10 +102,8 @@ std::string describe_scene(const Scene& scene) {
   text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s\n",
                     static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
                     as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s");
-  if (scene.dropped > 0) {
-    text << "dropped " << scene.dropped << " points with too few neighbors (Degenerate Points = Drop)\n";
-  }
-  text << scene.warnings;
+  text << told(scene.dropped);
+  text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << scene.outline << scene.warnings;
   return text.str();
 }
 
@@ -114,10 +119,13 @@ namespace {
 std::string table_of_phases(const Scene& scene, double seconds) {
   std::ostringstream text;
   text << formatted("\n%-26s %10s %10s %7s\n", "phase", "mean s", "longest s", "share");
+  double sum = 0;
   for (const PhaseTime& p : phase_times(scene.body.domain.communicator)) {
     text << formatted("%-26s %10.3f %10.3f %6.1f%%\n", p.name.c_str(), p.mean, p.longest, 100 * p.mean / seconds);
+    sum += p.mean;
   }
-  text << formatted("%-26s %10.3f\n", "whole run", seconds);
+  text << formatted("%-26s %10.3f %10s %6.1f%%\n", "other", seconds - sum, "", 100 * (seconds - sum) / seconds)
+       << formatted("%-26s %10.3f\n", "whole run", seconds);
   return text.str();
 }
 
@@ -149,8 +157,9 @@ std::string energies(const Ledger& ledger) {
                    ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated,
                    ledger.heat > 0 ? formatted(" (heat %.5g)", ledger.heat).c_str() : "", ledger.stabilization,
                    ledger.fracture > 0 ? formatted(", fracture %.5g", ledger.fracture).c_str() : "") +
-         formatted("work of conditions %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
-                   ledger.external, ledger.contact, ledger.balance_error);
+         formatted(
+             "work of conditions %.5g, of tools %.5g, of contact %.5g; balance error %.2e of the largest energy\n",
+             ledger.external, ledger.tools, ledger.contact, ledger.balance_error);
 }
 
 }  // namespace

@@ -9,20 +9,22 @@
 
 namespace strut {
 
-// A bar with the time left on a terminal; a line every tenth of the way in a log.
+// A bar with the time left on a terminal; a line every tenth of the way in a log, and every minute.
 class Progress {
  public:
   // `now`: where this run begins, which is later than the initial time where it goes on with another.
   Progress(const Communicator& communicator, double initial_time, double now, double final_time);
-  void show(int step, double time, double dt);
+  void show(int step, double time, double dt);  // where a line is due
   void finish();
 
  private:
   double elapsed() const;
+  std::string left(double time);
   bool speaks_, terminal_;
   double initial_, begin_, final_;
-  int shown_ = -1;  // hundredths on a terminal, tenths in a log
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+  int shown_ = -1;                         // tenths
+  double shown_time_, shown_elapsed_ = 0;  // s, of the last line
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 // What was read: points, bonds, memory, blocks.

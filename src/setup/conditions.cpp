@@ -77,7 +77,7 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
   deck::Problems problems;
-  if (scene.dropped > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
+  if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
   for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
     const deck::Condition& condition = deck.conditions[place];
     try {

@@ -8,6 +8,7 @@
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "points/partition.hpp"
 #include "setup/blocks.hpp"
+#include "setup/dropped.hpp"
 
 namespace strut {
 
@@ -49,28 +50,37 @@ PointCloud without(const PointCloud& cloud, const std::vector<int>& dropped) {
   return reordered(cloud, kept);
 }
 
+void refuse_degenerate(std::int64_t count, std::string text, const Communicator& communicator) {
+  if (!text.empty()) {
+    text = "Discretization > Degenerate Points: " + std::to_string(count) +
+           " points have too few neighbors for a shape tensor; " + text +
+           ". Enlarge the horizon, mend the mesh, or say \"Drop\" to leave such points out";
+  }
+  raise_together(communicator, text);
+}
+
 }  // namespace
 
 // Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                                        std::int64_t& dropped) {
+                                        Dropped& dropped) {
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
+  const deck::DegeneratePoints rule = deck.discretization.degenerate;
+  PiecesOfPoints before;
   for (;;) {
     Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));
-    if (count == 0) return domain;
-    if (deck.discretization.degenerate == deck::DegeneratePoints::error) {
-      if (!text.empty()) {
-        text = "Discretization > Degenerate Points: " + std::to_string(count) +
-               " points have too few neighbors for a shape tensor; " + text +
-               ". Enlarge the horizon, mend the mesh, or say \"Drop\" to leave such points out";
-      }
-      raise_together(communicator, text);
+    if (count > 0 && rule == deck::DegeneratePoints::error) refuse_degenerate(count, text, communicator);
+    if (count == 0) {
+      if (dropped.points > 0) take_pieces(domain, before, dropped);
+      if (rule == deck::DegeneratePoints::drop) check_dropped(domain, dropped);
+      return domain;
     }
-    dropped += count;
+    if (dropped.points == 0) before = pieces_of_points(domain);
+    dropped.points += count;
     cloud = without(whole_cloud(domain), degenerate);
     if (communicator.sum(static_cast<std::int64_t>(cloud.size())) == 0) {
       raise_together(communicator, "Discretization > Degenerate Points: no point is left after dropping");

@@ -1,16 +1,15 @@
 // Families of the points that are left when those are dropped that cannot carry a shape tensor.
 #pragma once
 
-#include <cstdint>
-
 #include "deck/deck.hpp"
 #include "points/domain.hpp"
+#include "setup/dropped.hpp"
 
 namespace strut {
 
-// Collective. Families of the partitioned cloud, less the points that the deck lets go; `dropped` counts these over all
-// ranks. Throws Error on all ranks where the deck does not let them go.
+// Collective. Families of the partitioned cloud, less the points that the deck lets go; `dropped` tells of these.
+// Throws Error on all ranks where the deck does not let them go.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                                        std::int64_t& dropped);
+                                        Dropped& dropped);
 
 }  // namespace strut

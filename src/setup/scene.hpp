@@ -8,6 +8,7 @@
 #include "conditions/conditions.hpp"
 #include "contact/contact.hpp"
 #include "mechanics/body.hpp"
+#include "setup/dropped.hpp"
 #include "solvers/explicit/central_difference.hpp"
 #include "solvers/quasi_static/quasi_static.hpp"
 
@@ -18,9 +19,11 @@ struct Scene {
   Conditions conditions;
   contact::Contact contact;
   StepControl control;
-  std::optional<QuasiStaticControl> quasi_static;   // in its place
-  std::int64_t points = 0, bonds = 0, dropped = 0;  // over all ranks
-  std::string warnings;                             // what may be meant otherwise, a line each
+  std::optional<QuasiStaticControl> quasi_static;  // in its place
+  std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
+  Dropped dropped;
+  std::string outline;   // box, mass, wave speeds, speeds: what slips of units change
+  std::string warnings;  // what may be meant otherwise, a line each
 };
 
 }  // namespace strut

@@ -5,12 +5,14 @@
 #include "deck/problems.hpp"
 #include "mechanics/make_body.hpp"
 #include "points/partition.hpp"
+#include "points/pieces.hpp"
 #include "setup/blocks.hpp"
 #include "setup/conditions.hpp"
 #include "setup/contact.hpp"
 #include "setup/cuts.hpp"
 #include "setup/families.hpp"
 #include "setup/mesh.hpp"
+#include "setup/outline.hpp"
 #include "setup/undeclared_contact.hpp"
 
 namespace strut {
@@ -39,7 +41,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
     const Timed timed(phase("Partition"));
     cloud = partitioned(cloud, communicator, cuts(deck, cloud, spacing, communicator));
   }
-  std::int64_t dropped = 0;
+  Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
   Scene scene{
@@ -50,14 +52,18 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
       quasi_static_of(deck.solver),
       0,
       0,
+      0,
       dropped};
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
+  scene.pieces = count_pieces(scene.body.domain);
   add_conditions(deck, scene, communicator);
   std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
   set_surface_laws(scene.body, interactions);
   scene.contact = contact::Contact(interactions, scene.body.domain);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
+  scene.outline = outline(scene, deck.solver.initial_time, deck.solver.final_time - deck.solver.initial_time);
+  scene.warnings += improbable_materials(scene.body);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
   scene.warnings += undeclared_contacts(scene, interactions, deck.solver.initial_time,

@@ -41,5 +41,18 @@ says 2 "did you mean '--check'?" --chek deck.xml
 says 2 "'--continue' needs a deck" --continue
 says 2 "there is no option '--kokkos-help'" --kokkos-help
 says 2 "does not say what to do" deck.xml --check
+says 0 "Blocks > (any name) > Horizon" --explain horizon
+says 0 "required; expected a real number > 0, in kg/m³" --explain Density
+says 1 "no key or section 'Horizn' (did you mean 'Horizon'?)" --explain Horizn
+says 2 "'--explain' needs a key" --explain
+says 2 "'--log' needs a file, and a deck" --log log
+says 2 "does not say what to do" --log deck.xml deck.xml
+log=$(mktemp) || exit 1
+says 1 "nothere.xml: the deck does not exist" --log "$log" nothere.xml
+[ "$(cat "$log")" = "strut: nothere.xml: the deck does not exist" ] || fail "the log has: $(cat "$log")"
+says 0 "strut 0" --log "$log" --version
+[ "$(cat "$log")" = "$said" ] || fail "the log of --version has: $(cat "$log")"
+rm -f "$log"
+says 1 "/nowhere/log: cannot create it" --log /nowhere/log nothere.xml
 says 1 "nothere.xml: the deck does not exist" nothere.xml
 exit $failed

@@ -193,7 +193,8 @@ using Table = std::map<std::string, std::vector<double>>;
 inline Table read_history(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line, word;
-  if (!std::getline(file, line)) throw Error(path.string() + ": no header");
+  if (!std::getline(file, line) || !line.starts_with("# strut ") || !std::getline(file, line))
+    throw Error(path.string() + ": no header");
   std::vector<std::string> names;
   for (std::istringstream header(line); std::getline(header, word, ',');) names.push_back(word);
   Table table;

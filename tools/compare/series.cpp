@@ -39,18 +39,21 @@ Series read_history(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   if (!file) throw Error(path.string() + ": no such file, or it may not be read");
-  if (!std::getline(file, line)) throw Error(path.string() + ": it is empty");
+  int row = 0;
+  do {  // what begins with # says who wrote it
+    if (!std::getline(file, line)) throw Error(path.string() + ": it is empty");
+    ++row;
+  } while (line.starts_with("#"));
   Series series;
   for (const std::string& name : split(line)) series.variables.push_back({name, "row", {{}}});
-  for (int row = 2; std::getline(file, line); ++row) {
+  while (std::getline(file, line)) {
+    ++row;
     try {
       read_row(line, series.variables);
     } catch (const Error& error) {
       throw Error(path.string() + ", line " + std::to_string(row) + ": " + error.what());
     }
   }
-  // The last column only says by its name who wrote the file.
-  if (series.variables.back().name.starts_with("strut ")) series.variables.pop_back();
   return series;
 }
 

@@ -3,7 +3,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from .result import Result, stem, title
+from .result import Result, clock_of, stem, title
 from .surface import edge_of
 
 
@@ -39,6 +39,7 @@ def cells(axes, reference, now, edge, colors, limits):
 def picture(path, out, variable, axis):
     result = Result(path)
     times = result.times
+    factor, unit = clock_of(np.abs(times).max())
     across, depth = (0, 1) if axis == "x" else (1, 0)
     reference, now = result.reference.T, (result.reference + result.displacement(-1)).T
     edge = mean_edge(result)
@@ -48,7 +49,7 @@ def picture(path, out, variable, axis):
     cut = np.abs(offset - abs(nearest)) <= 0.51 * edge
     before, after = (result.values(variable, frame)[cut] for frame in (0, -1))
     limits = (min(np.nanmin(before), np.nanmin(after)), max(np.nanmax(before), np.nanmax(after)))
-    frames = [(reference, before, f"t = {1e3 * times[0]:.4g} ms"), (now, after, f"t = {1e3 * times[-1]:.4g} ms")]
+    frames = [(reference, before, f"t = {factor * times[0]:.4g} {unit}"), (now, after, f"t = {factor * times[-1]:.4g} {unit}")]
     scale = 1e3  # mm
     half = scale * (0.75 * edge + max(np.abs(p[across][cut] - reference[across][cut].mean()).max() for p, _, _ in frames))
     middle = scale * reference[across][cut].mean()

@@ -4,9 +4,9 @@ import os
 
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import fail
+from strut_tools import fail, rows_of
 
-from .result import stem, title
+from .result import clock_of, stem, title
 
 
 def history(path):
@@ -14,8 +14,7 @@ def history(path):
     if not os.path.isfile(path):
         fail(f"{path} does not exist")
     try:
-        with open(path, newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = rows_of(path)
         table = {name: np.array([float(row[name]) for row in rows]) for name in (rows[0] if rows else {})}
     except (UnicodeDecodeError, ValueError, TypeError, csv.Error) as error:
         fail(f"{path} is not a history: {error}")
@@ -24,14 +23,14 @@ def history(path):
     return table
 
 
-def draw(axes, table, name, label):
+def draw(axes, table, name, label, clock):
     if name not in table:
         fail(f"there is no column '{name}'; there are {', '.join(table)}")
-    axes.plot(1e3 * table["Time"], table[name], label=label, linewidth=1.4)
+    axes.plot(clock[0] * table["Time"], table[name], label=label, linewidth=1.4)
 
 
-def finished(figure, panels, out):
-    panels[-1].set_xlabel("t, ms")
+def finished(figure, panels, clock, out):
+    panels[-1].set_xlabel(f"t, {clock[1]}")
     for axes in panels:
         axes.grid(alpha=0.3)
         axes.margins(x=0)
@@ -43,46 +42,49 @@ def finished(figure, panels, out):
 def energies(path, out):
     """Energies, works and the balance error of one history."""
     table = history(path)
+    clock = clock_of(np.abs(table["Time"]).max())
     figure, panels = plt.subplots(2, 1, sharex=True, figsize=(7, 6), height_ratios=(3, 1), layout="constrained")
     for name in [n for n in table if n.endswith(("_Energy", "_Work"))]:
         if np.abs(table[name]).max() > 0:  # a run without contact has no work of it
-            draw(panels[0], table, name, name.replace("_", " "))
+            draw(panels[0], table, name, name.replace("_", " "), clock)
     panels[0].set_ylabel("J")
     panels[0].set_title(stem(path), fontsize=12)
-    draw(panels[1], table, "Balance_Error", None)
+    draw(panels[1], table, "Balance_Error", None, clock)
     panels[1].set_ylabel("Balance error")
     panels[1].ticklabel_format(axis="y", scilimits=(-2, 2))
     panels[0].legend(frameon=False)
-    return finished(figure, panels, out)
+    return finished(figure, panels, clock, out)
 
 
-def column(paths, name, out):
-    """One column of several histories."""
-    figure, axes = plt.subplots(figsize=(7, 4.2), layout="constrained")
-    for path in paths:
-        draw(axes, history(path), name, stem(path))
-    axes.set_ylabel(title(name))
-    axes.legend(frameon=False)
-    return finished(figure, [axes], out)
+def named(path, prefixes):
+    """The columns that the deck asked for and that begin so."""
+    return [name for name in history(path) if name.startswith(prefixes)]
 
 
-def extremes_of(table):
-    """The columns that the deck asked for."""
-    return [name for name in table if name.startswith(("Max_", "Min_"))]
+def stack(count):
+    return plt.subplots(count, 1, sharex=True, figsize=(7, max(4.2, 1 + 1.7 * count)), layout="constrained", squeeze=False)
 
 
-def has_extremes(path):
-    return bool(extremes_of(history(path)))
-
-
-def extremes(path, out):
-    """A panel for each column that the deck asked for."""
-    table = history(path)
-    names = extremes_of(table)
-    figure, panels = plt.subplots(len(names), 1, sharex=True, figsize=(7, 1 + 1.7 * len(names)), layout="constrained",
-                                  squeeze=False)
+def columns(paths, names, out):
+    """A panel for each column, of several histories."""
+    tables = [history(path) for path in paths]
+    clock = clock_of(max(np.abs(table["Time"]).max() for table in tables))
+    figure, panels = stack(len(names))
     for axes, name in zip(panels[:, 0], names):
-        draw(axes, table, name, None)
+        for path, table in zip(paths, tables):
+            draw(axes, table, name, stem(path), clock)
+        axes.set_ylabel(title(name))
+    panels[0, 0].legend(frameon=False)
+    return finished(figure, panels[:, 0], clock, out)
+
+
+def panels(path, names, out):
+    """A panel for each column of one history."""
+    table = history(path)
+    clock = clock_of(np.abs(table["Time"]).max())
+    figure, axes_of = stack(len(names))
+    for axes, name in zip(axes_of[:, 0], names):
+        draw(axes, table, name, None, clock)
         axes.set_title(title(name), fontsize=10)
     figure.suptitle(stem(path), fontsize=12)
-    return finished(figure, panels[:, 0], out)
+    return finished(figure, axes_of[:, 0], clock, out)

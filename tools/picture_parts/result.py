@@ -6,10 +6,13 @@ import netCDF4
 import numpy as np
 from strut_tools import fail
 
-UNITS = {"Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J"}
+UNITS = {"Displacement": "m", "Velocity": "m/s", "Stress": "Pa", "Energy": "J", "Work": "J", "Distance": "m"}
 
 
 def unit_of(name):
+    if name.startswith("Reaction_"):
+        return "N"
+    name = name.split("(")[0]
     return next((unit for ending, unit in UNITS.items() if name.rstrip("XYZ").endswith(ending)), "")
 
 
@@ -17,6 +20,11 @@ def title(name):
     """Von_Mises_Stress -> "Von Mises Stress, Pa"."""
     unit = unit_of(name)
     return name.replace("_", " ") + (f", {unit}" if unit else "")
+
+
+def clock_of(longest):
+    """What times up to `longest` (s) are multiplied with, and the unit: slow loading has times of a second and more."""
+    return (1, "s") if longest >= 0.5 else (1e3, "ms") if longest >= 1e-4 else (1e6, "µs")
 
 
 def stem(path):

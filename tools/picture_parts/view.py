@@ -5,7 +5,7 @@ import numpy as np
 from strut_tools import fail
 
 from . import painter
-from .result import Result, stem, title, unit_of
+from .result import Result, clock_of, stem, title, unit_of
 from .surface import joined, surface_of
 
 USUAL = ("Equivalent_Plastic_Strain", "Von_Mises_Stress")
@@ -239,7 +239,7 @@ def add_bar(figure, row, place, camera, size, bar=14):
 
 def figure_of(scene, rows):
     """A figure of some of the scene's rows."""
-    camera = scene.camera
+    camera, clock = scene.camera, clock_of(np.abs(scene.times).max())
     width, height, places = panels(camera, len(rows), len(scene.frames))
     figure = plt.figure(figsize=(width / DPI, height / DPI), dpi=DPI)
     for (r, c), (x, y) in places.items():
@@ -248,7 +248,7 @@ def figure_of(scene, rows):
         axes.imshow(np.clip(image[..., :3] + 1 - image[..., 3:], 0, 1), interpolation="none")
         axes.axis("off")
         if r == 0:
-            axes.set_title(f"t = {1e3 * scene.times[c]:.4g} ms", fontsize=11)
+            axes.set_title(f"t = {clock[0] * scene.times[c]:.4g} {clock[1]}", fontsize=11)
         if c == len(scene.frames) - 1:
             add_bar(figure, rows[r], (x + camera.width + 24, y), camera, (width, height))
     add_measure(figure, camera, places[0, 0][0] + 8, height - 40, (width, height))

@@ -240,10 +240,15 @@ def run_deck(deck, folder, ranks=None, limit=None):
         return output.read()
 
 
-def history_of(path):
-    """The rows of a history, as numbers."""
+def rows_of(path):
+    """The rows of a history, as text by column; lines that begin with # say who wrote it, and the units."""
     with open(path, newline="") as history:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(history)]
+        return list(csv.DictReader(line for line in history if not line.startswith("#")))
+
+
+def history_of(path):
+    """The same as numbers."""
+    return [{key: float(value) for key, value in row.items()} for row in rows_of(path)]
 
 
 def with_core_seconds(run):

@@ -80,8 +80,9 @@ const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
      .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
-                "gradient."},
-    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}});
+                "gradient. `Drop` leaves them out if they, and what is cut off without them, are 1 % of all "
+                "points at most; `Drop Any` goes on with whatever is left."},
+    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
 
 // What each type of discretization must have, and what it cannot.
 void check_source(const Values& values, Problems& problems) {
@@ -135,10 +136,15 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
 }
 
 void check_mesh(const fs::path& mesh, Problems& problems) {
-  if (mesh.empty() || (fs::is_regular_file(mesh) && std::ifstream(mesh))) return;
-  const fs::path recipe = fs::path(mesh).replace_extension(".recipe");
+  const std::string ending = mesh.extension().string();
+  const bool of_others = ending == ".msh" || ending == ".vtk" || ending == ".vtu";
   const bool there = fs::exists(mesh);
-  std::string what = "'" + mesh.string() + (there ? "' is not a file that can be read" : "' does not exist");
+  if (mesh.empty() || (!of_others && fs::is_regular_file(mesh) && std::ifstream(mesh))) return;
+  const fs::path recipe = fs::path(mesh).replace_extension(".recipe");
+  std::string what = "'" + mesh.string() +
+                     (!there      ? "' does not exist"
+                      : of_others ? "' is a mesh of another program, of which tools/tetrahedra makes one that can be read"
+                                  : "' is not a file that can be read");
   if (!there && fs::exists(recipe)) what += " (tools/run makes it from " + recipe.string() + ")";
   problems.add(path_to(name, mesh_file.name), what + "; expected a mesh, its path relative to the deck's folder");
 }

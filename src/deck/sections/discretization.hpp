@@ -14,7 +14,7 @@ namespace strut::deck {
 
 enum class MeshType { exodus, text, grid };
 enum class Points { elements, nodes };
-enum class DegeneratePoints { error, drop };
+enum class DegeneratePoints { error, drop, drop_any };
 
 // Equal cells, with a point at the center of each, x fastest.
 struct Grid {

@@ -16,6 +16,11 @@ void check_quasi_static(const Solver& solver, const std::vector<Condition>& cond
       }
     };
     std::visit(check, condition.kind);
+    const RigidTool* tool = std::get_if<RigidTool>(&condition.kind);
+    if (tool && tool->free) {
+      problems.add("Boundary Conditions > " + condition.name + " > Mass",
+                   "has no meaning with Solver > QuasiStatic, which knows no inertia; expected Travel");
+    }
   }
   for (const ContactModel& one : contact_models) {
     if (one.model.friction == 0 || std::holds_alternative<contact::SurfaceLaw>(one.model.law)) continue;

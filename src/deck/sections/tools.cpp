@@ -19,22 +19,67 @@ OptionalKey<Function> travel_along(const std::string& axis) {
 }
 const std::array<OptionalKey<Function>, 3> travel = {travel_along("X"), travel_along("Y"), travel_along("Z")};
 
+const OptionalKey<double> mass({.name = "Mass",
+                                .unit = "kg",
+                                .range = positive,
+                                .meaning = "It flies, and what it pushes pushes back; it does not turn. Without: it "
+                                           "travels as given, whatever force that takes."});
+
+RealKey speed_along(const std::string& axis) {
+  return RealKey({.name = "Speed " + axis,
+                  .unit = "m/s",
+                  .fallback = "0",
+                  .meaning = "At the initial time, along " + axis + ", of a tool with a Mass."});
+}
+const std::array<RealKey, 3> speed = {speed_along("X"), speed_along("Y"), speed_along("Z")};
+
+OptionalKey<Function> force_along(const std::string& axis) {
+  return OptionalKey<Function>({.name = "Force " + axis,
+                                .unit = "N",
+                                .meaning = "That drives a tool with a Mass along " + axis + ", at the time t (s)."});
+}
+const std::array<OptionalKey<Function>, 3> force = {force_along("X"), force_along("Y"), force_along("Z")};
+
 // A section of a tool: its shape's keys, and those that all have.
 Section tool(Section section) {
   section.keys.push_back(friction);
   section.keys.insert(section.keys.end(), travel.begin(), travel.end());
+  section.keys.push_back(mass);
+  section.keys.insert(section.keys.end(), speed.begin(), speed.end());
+  section.keys.insert(section.keys.end(), force.begin(), force.end());
   return section;
+}
+
+// A function of the time alone, where it is given.
+std::optional<Function> of_time(const OptionalKey<Function>& key, const Values& values, Problems& problems) {
+  std::optional<Function> function = values[key];
+  if (function && function->depends_on_place()) {
+    problems.add(
+        values.path_to(key),
+        "'" + function->text() + "' depends on x, y or z; expected a number or an expression in t, in " + key.unit);
+  }
+  return function;
+}
+
+std::shared_ptr<FreeMotion> read_free_motion(const Values& values, Problems& problems) {
+  FreeMotion free{.mass = values[mass].value_or(0)};
+  const auto check = [&](const Key& key, bool has_a_mass) {
+    if (!values.given(key) || has_a_mass == values[mass].has_value()) return;
+    problems.add(values.path_to(key), has_a_mass ? "is of a tool with a Mass; expected this key, too"
+                                                 : "is of a tool without a Mass; expected Speed or Force");
+  };
+  for (int c = 0; c < 3; ++c) {
+    free.velocity[c] = values[speed[c]];
+    free.force[c] = of_time(force[c], values, problems);
+    check(speed[c], true), check(force[c], true), check(travel[c], false);
+  }
+  return values[mass] ? std::make_shared<FreeMotion>(std::move(free)) : nullptr;
 }
 
 RigidTool read_tool(Shape shape, const Values& values, Problems& problems) {
   RigidTool tool{.shape = std::move(shape), .friction = values[friction]};
-  for (int c = 0; c < 3; ++c) {
-    tool.travel[c] = values[travel[c]];
-    if (!tool.travel[c] || !tool.travel[c]->depends_on_place()) continue;
-    problems.add(
-        values.path_to(travel[c]),
-        "'" + tool.travel[c]->text() + "' depends on x, y or z; expected a number or an expression in t, in m");
-  }
+  for (int c = 0; c < 3; ++c) tool.travel[c] = of_time(travel[c], values, problems);
+  tool.free = read_free_motion(values, problems);
   return tool;
 }
 

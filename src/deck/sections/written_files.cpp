@@ -1,5 +1,10 @@
 #include "deck/sections/written_files.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
 #include "deck/problems.hpp"
 
 namespace strut::deck {
@@ -16,6 +21,15 @@ bool same(const fs::path& one, const fs::path& other) {
   return !failure && !a.empty() && a == b;
 }
 
+// Why the file cannot be written, or nothing.
+std::string obstacle(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  std::error_code failure;
+  if (!fs::is_directory(folder, failure)) return "there is no folder '" + folder.string() + "'";
+  const fs::path asked = fs::exists(file, failure) ? file : folder;
+  return access(asked.c_str(), W_OK) == 0 ? "" : "'" + asked.string() + "': " + std::strerror(errno);
+}
+
 void check_replaceable(const WrittenFile& written, const std::vector<ReadFile>& read, Problems& problems) {
   const std::string expected = "; expected a file that may be replaced";
   for (const ReadFile& one : read) {
@@ -24,8 +38,11 @@ void check_replaceable(const WrittenFile& written, const std::vector<ReadFile>& 
   }
   std::error_code failure;
   const fs::file_status status = fs::status(written.file, failure);
-  if (!fs::exists(status) || fs::is_regular_file(status)) return;
-  problems.add(written.path, "'" + written.file.string() + "' is a folder or a device" + expected);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return problems.add(written.path, "'" + written.file.string() + "' is a folder or a device" + expected);
+  }
+  const std::string why_not = obstacle(written.file);
+  if (!why_not.empty()) problems.add(written.path, "'" + written.file.string() + "': cannot create it: " + why_not);
 }
 
 }  // namespace

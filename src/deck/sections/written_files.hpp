@@ -1,4 +1,4 @@
-// The files that a run writes: may each be replaced?
+// The files that a run writes: may each be replaced, and can it be written?
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,5 @@
 #include "io/text/history.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -13,48 +12,48 @@ namespace strut::io {
 
 namespace {
 
-void check_names(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (name.empty() || name.find_first_of(",\"\r\n") != std::string::npos) {
-      throw Error("'" + name + "' cannot be the name of a history column: it is empty or holds , \" or a line break");
+void check_names(const std::vector<HistoryColumn>& columns) {
+  for (const auto& [name, unit] : columns) {
+    if (name.empty() || name[0] == '#' || name.find_first_of(",\"\r\n") != std::string::npos) {
+      throw Error("'" + name +
+                  "' cannot be the name of a history column: it is empty, begins with # or holds , \" or a line break");
     }
   }
 }
 
-// Who wrote the file is told by the name of a column of zeros: every reader of tables takes that, and hardly any a
-// comment.
-std::string last_column() {
-  std::string name = build_facts();
-  std::replace(name.begin(), name.end(), ',', ';');
-  std::erase(name, '"');
-  return name;
+std::string joined_of(const std::vector<HistoryColumn>& columns, std::string HistoryColumn::*what) {
+  std::vector<std::string> all;
+  for (const HistoryColumn& column : columns) all.push_back(column.*what);
+  return joined(all, ",");
 }
 
 }  // namespace
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
-                         std::vector<std::string> column_names, std::int64_t bytes)
-    : path_(path), communicator_(communicator), columns_(column_names.size()), bytes_(bytes) {
+                         const std::vector<HistoryColumn>& columns, std::int64_t bytes)
+    : path_(path), communicator_(communicator), columns_(columns.size()), bytes_(bytes) {
   run_on_root(communicator_, [&] {
-    check_names(column_names);
+    check_names(columns);
     lock_.emplace(path_, bytes_ > 0 ? FileLock::File::there : FileLock::File::made);
-    const std::string header = joined(column_names, ",");
-    bytes_ > 0 ? go_on(header) : begin(header);
+    const std::string header = joined_of(columns, &HistoryColumn::name);
+    bytes_ > 0 ? go_on(header) : begin(joined_of(columns, &HistoryColumn::unit), header);
   });
 }
 
-void HistoryFile::begin(const std::string& header) {
+void HistoryFile::begin(const std::string& units, const std::string& header) {
   errno = 0;
   file_.open(path_);
   if (!file_) throw Error(path_.string() + ": cannot create it: " + std::strerror(errno));
-  write_line(header + "," + last_column());
+  write_line("# " + build_facts() + "; units: " + units);
+  write_line(header);
 }
 
 void HistoryFile::go_on(const std::string& header) {
-  std::string found;
-  std::getline(std::ifstream(path_), found);
-  if (std::filesystem::file_size(path_) < static_cast<std::uintmax_t>(bytes_) ||
-      !found.starts_with(header + ",strut")) {
+  std::string facts, found;
+  std::ifstream before(path_);
+  std::getline(before, facts) && std::getline(before, found);
+  if (std::filesystem::file_size(path_) < static_cast<std::uintmax_t>(bytes_) || !facts.starts_with("# strut ") ||
+      found != header) {
     throw Error(path_.string() + ": is not the history that the run left: it is shorter, or has other columns");
   }
   std::error_code failure;
@@ -73,10 +72,9 @@ void HistoryFile::write(std::span<const double> row) {
     for (const double value : row) {
       char digits[32];
       std::snprintf(digits, sizeof digits, "%.17g", value);
-      line += digits;
-      line += ',';
+      line += (line.empty() ? "" : ",") + std::string(digits);
     }
-    write_line(line + "0");
+    write_line(line);
   });
 }
 

@@ -1,4 +1,5 @@
-// Totals over time, a line a row: CSV with a header, numbers with all their digits, so that two runs can be compared.
+// Totals over time, a line a row: CSV, numbers with all their digits, so that two runs can be compared. The first line
+// begins with # and has version, build and the units of the columns; the second one has their names.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,10 @@
 
 namespace strut::io {
 
+struct HistoryColumn {
+  std::string name, unit;  // "1" for none
+};
+
 // Collective; rank 0 writes.
 class HistoryFile {
  public:
@@ -21,7 +26,7 @@ class HistoryFile {
   // be created, another run writes to it, a name holds a comma, a quote or a line break; it is shorter, or has other
   // columns.
   HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
-              std::vector<std::string> column_names, std::int64_t bytes = 0);
+              const std::vector<HistoryColumn>& columns, std::int64_t bytes = 0);
 
   // Rank 0's row is written and flushed; the others' rows only have to be there. Throws Error on all ranks: the row has
   // not one value per column, the disk is full.
@@ -31,7 +36,7 @@ class HistoryFile {
   void sync() const;                             // collective: they are on the disk
 
  private:
-  void begin(const std::string& header);
+  void begin(const std::string& units, const std::string& header);
   void go_on(const std::string& header);
   void write_line(const std::string& line);
 

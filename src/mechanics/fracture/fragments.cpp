@@ -4,19 +4,11 @@
 #include <map>
 #include <span>
 
-#include "base/union_find.hpp"
+#include "points/pieces.hpp"
 
 namespace strut {
 
 namespace {
-
-UnionFind joined_on_this_rank(const Body& body) {
-  UnionFind sets(body.domain.sites.size());
-  for (int i = 0; i < body.owned(); ++i) {
-    body.domain.families.for_each(i, [&](int j) { sets.join(i, j); });
-  }
-  return sets;
-}
 
 struct Sums {
   std::int64_t id = 0, points = 0;
@@ -40,28 +32,7 @@ std::vector<Sums> sums_of_this_rank(const Body& body) {
 
 }  // namespace
 
-// Each rank joins what it sees, and takes the least id that its ghosts have heard of, until nothing changes.
-std::vector<std::int64_t> fragment_ids(const Body& body) {
-  const Domain& domain = body.domain;
-  const int count = static_cast<int>(domain.sites.size());
-  UnionFind sets = joined_on_this_rank(body);
-  std::vector<double> of_point(count), least(count, 0);  // least: of a set, by its first point
-  for (int i = 0; i < count; ++i) of_point[i] = static_cast<double>(domain.id(i));
-  for (bool changed = true; changed;) {
-    for (int i = 0; i < count; ++i) least[sets.first(i)] = of_point[sets.first(i)];
-    for (int i = 0; i < count; ++i) least[sets.first(i)] = std::min(least[sets.first(i)], of_point[i]);
-    double any = 0;
-    for (int i = 0; i < count; ++i) {
-      any = std::max(any, of_point[i] != least[sets.first(i)] ? 1.0 : 0.0);
-      of_point[i] = least[sets.first(i)];
-    }
-    changed = domain.communicator.max(any) > 0;
-    domain.halo.exchange(of_point.data(), 1, 1);
-  }
-  std::vector<std::int64_t> ids;
-  for (int i = 0; i < domain.owned; ++i) ids.push_back(static_cast<std::int64_t>(of_point[i]));
-  return ids;
-}
+std::vector<std::int64_t> fragment_ids(const Body& body) { return piece_ids(body.domain); }
 
 std::vector<Fragment> fragments(const Body& body) {
   const std::vector<Sums> mine = sums_of_this_rank(body);

@@ -271,6 +271,7 @@ void CentralDifference::serialize(Archive& archive) {
   strut::serialize(archive, body_);
   multi_stepping_.serialize(archive, body_);
   critical_time_step_.serialize(archive, body_);
+  serialize_tools(archive, conditions_, body_.owned());
   archive.number("time", time_);
   archive.number("steps", steps_);
   archive.number("steps_since_estimate", steps_since_estimate_);
@@ -297,6 +298,7 @@ void CentralDifference::serialize_work(Archive& archive) {
   archive.number("largest_energy", largest_energy_);
   const auto serialize = [&archive](const std::string& when, Work& work) {
     archive.share("external_work" + when, work.external);
+    archive.share("tool_work" + when, work.tools);
     archive.share("contact_work" + when, work.contact);
   };
   serialize("", work_);
@@ -308,13 +310,15 @@ void CentralDifference::serialize_work(Archive& archive) {
 namespace {
 
 // What the body holds and has dissipated.
-double held(const Ledger& now) { return now.kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture; }
+double held(const Ledger& now) {
+  return now.kinetic + now.tool_kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
+}
 
 }  // namespace
 
 // That, less what was put in.
 double CentralDifference::imbalance(const Ledger& now) const {
-  return held(now) - now.contact - now.external - initial_energy_;
+  return held(now) - now.tools - now.contact - now.external - initial_energy_;
 }
 
 Ledger CentralDifference::ledger() {
@@ -322,25 +326,28 @@ Ledger CentralDifference::ledger() {
   now.time = time_;
   now.dt = dt_;
   const Work done = work_ + impulse_work_.before;
-  double sums[6] = {0, done.contact - contact_.energy(), done.external, 0, 0, 0};
+  double sums[7] = {0, done.contact - contact_.energy(), done.external, done.tools, 0, 0, 0};
   for (int i = 0; i < body_.owned(); ++i) {
     const Vector &before = body_.previous_velocity[i], &after = body_.velocity[i];
     // ½ m v⁻·v⁺: with it central differences conserve the energy of a linear body exactly, at a constant step.
     sums[0] += 0.5 * body_.mass(i) * before.dot(after);
-    for (int c = 0; c < 3; ++c) sums[3 + c] += body_.mass(i) * 0.5 * (before[c] + after[c]);
+    for (int c = 0; c < 3; ++c) sums[4 + c] += body_.mass(i) * 0.5 * (before[c] + after[c]);
   }
   body_.domain.communicator.sum(sums);
   const Energies stored = stored_energies(body_);
   now.kinetic = sums[0];
+  now.tool_kinetic = kinetic_energy_of_tools(conditions_);
   now.contact = sums[1];
   now.external = sums[2];
-  now.momentum = Vector(sums[3], sums[4], sums[5]);
+  now.tools = sums[3];
+  now.momentum = Vector(sums[4], sums[5], sums[6]);
   now.elastic = stored.elastic;
   now.dissipated = stored.dissipated;
   now.stabilization = stored.stabilization;
   now.fracture = stored.fracture;
   now.heat = stored.heat;
-  largest_energy_ = std::max({largest_energy_, held(now), std::abs(initial_energy_ + now.contact + now.external)});
+  largest_energy_ =
+      std::max({largest_energy_, held(now), std::abs(initial_energy_ + now.tools + now.contact + now.external)});
   now.balance_error = largest_energy_ > 0 ? std::abs(imbalance(now)) / largest_energy_ : 0;
   return now;
 }

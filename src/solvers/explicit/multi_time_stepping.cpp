@@ -18,22 +18,28 @@ constexpr int max_level = 6;
 // and by four times in the step of the level below: less than half a period (docs/theory.md, Multi-time-stepping).
 constexpr double most_turn = 0.6;
 
-// A substep of a point, with its share of the points that it moves, beside a whole step of a point.
+// What points cost is not timed in a run, which would then be another on another machine or the second time; these
+// constants are measured (docs/decisions.md, What subcycling costs).
+//
+// A substep of a point, with its share of the points that it moves, beside a whole step of that point: more than is
+// measured on one rank, for each substep has exchanges of its own.
 constexpr double cost_of_substep = 1.5;
+// A step of a point by quadratic correspondence beside one by another formulation.
+constexpr double cost_of_quadratic = 4;
 
 // Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
 constexpr int families_between_levels = 2;
 
 constexpr double worth_while = 0.75;  // of the cost of a run without
 
-// How many points have which frequency bound, in classes that are an eighth of an octave wide.
+// What a step of which frequency bound costs, in classes that are an eighth of an octave wide.
 class FrequencyHistogram {
  public:
   static constexpr int classes_per_octave = 8, octaves = 32, classes = classes_per_octave * octaves;
 
   FrequencyHistogram(double fastest, double margin) : fastest_(fastest), margin_(margin) {}
-  void add(double frequency_bound) { counts_[class_of(frequency_bound)] += 1; }
-  void agree(const Communicator& communicator) { communicator.sum(counts_); }
+  void add(double frequency_bound, double cost) { costs_[class_of(frequency_bound)] += cost; }
+  void agree(const Communicator& communicator) { communicator.sum(costs_); }
 
   // Frequency bounds of points of level 0 are below this, where the run costs least.
   double best() const {
@@ -55,7 +61,7 @@ class FrequencyHistogram {
   double cost(int c) const;
 
   double fastest_, margin_;
-  std::array<double, classes> counts_{};
+  std::array<double, classes> costs_{};  // of whole steps of all points in the class
 };
 
 // A point of a higher level is at most `margin` times as fast in its own steps as one of level 0.
@@ -68,11 +74,11 @@ int level_of(double frequency_bound, double bound, double margin) {
 double cost_of(int levels) { return 1 + cost_of_substep * ((1 << levels) - 1); }
 
 double FrequencyHistogram::cost(int c) const {
-  double points = 0;
+  double sum = 0;
   for (int k = 0; k < classes; ++k) {
-    points += counts_[k] * cost_of(k < c ? level_of(bound(k), bound(c), margin_) : 0);
+    sum += costs_[k] * cost_of(k < c ? level_of(bound(k), bound(c), margin_) : 0);
   }
-  return points * bound(c);
+  return sum * bound(c);
 }
 
 // Whether the points of a block may have smaller steps: not in a body with ordinary points, whose forces act once a
@@ -84,6 +90,9 @@ bool may_be_subcycled(const Body& body, std::size_t block) {
   }
   return true;
 }
+
+// Of a whole step of a point, also while it is in rigid motion: it will not stay so.
+double cost_of_point(const Body& body, int i) { return body.block_of(i).is_quadratic() ? cost_of_quadratic : 1; }
 
 bool moves_rigidly(const Body& body, int i) { return body.block_of(i).in_rigid_motion; }
 
@@ -147,7 +156,7 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
 std::vector<std::uint8_t> chosen_levels(Body& body, double margin) {
   const FrequencyBounds bounds = frequency_bounds_of(body);
   FrequencyHistogram histogram(bounds.largest, margin);
-  for (const double p : bounds.values) histogram.add(p);
+  for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));
   histogram.agree(body.domain.communicator);
   const double bound = std::max(histogram.best(), bounds.floor);
   if (!(bound < bounds.largest)) return {};
@@ -155,8 +164,11 @@ std::vector<std::uint8_t> chosen_levels(Body& body, double margin) {
   over_points(body, [&](int i, bool may) { levels[i] = may ? level_of(bounds.values[i], bound, margin) : 0; });
   exchange(body, body.domain.halo, levels);
   smooth_levels(body, levels);
-  double costs[] = {0, static_cast<double>(body.owned())};
-  for (int i = 0; i < body.owned(); ++i) costs[0] += cost_of(levels[i]);
+  double costs[] = {0, 0};  // with and without levels
+  for (int i = 0; i < body.owned(); ++i) {
+    costs[0] += cost_of_point(body, i) * cost_of(levels[i]);
+    costs[1] += cost_of_point(body, i);
+  }
   body.domain.communicator.sum(costs);
   const bool pays = costs[0] * bound < worth_while * costs[1] * bounds.largest;
   return pays ? levels : std::vector<std::uint8_t>{};

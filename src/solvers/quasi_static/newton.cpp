@@ -115,6 +115,8 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
+  static Teuchos::Time& timer = phase("Linear solver");
+  const Timed timed(timer);
   const int most = damping_ > 0 ? most_products_damped : most_products;
   const Krylov::Outcome outcome = changed
                                       ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most, step)

@@ -111,7 +111,8 @@ void QuasiStatic::serialize(Archive& archive) {
   archive.number("last_dt", last_dt_);
   archive.number("steps", steps_);
   archive.number("external_work", external_);
-  archive.number("work_of_contact", of_contact_);
+  archive.number("work_of_tools", by_tools_);
+  archive.number("work_of_friction", by_friction_);
   archive.number("largest_energy", largest_energy_);
 }
 
@@ -139,7 +140,8 @@ void QuasiStatic::commit(const Search& search) {
   Body& body = equilibrium_.body();
   equilibrium_.evaluate(true);
   external_ += body.domain.communicator.sum(equilibrium_.external_work());
-  of_contact_ += body.domain.communicator.sum(equilibrium_.tool_work() + equilibrium_.friction_work());
+  by_tools_ += body.domain.communicator.sum(equilibrium_.tool_work());
+  by_friction_ += body.domain.communicator.sum(equilibrium_.friction_work());
   last_step_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
   equilibrium_.commit();
@@ -163,9 +165,10 @@ Ledger QuasiStatic::ledger() {
   now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
   now.heat = stored.heat;
   now.external = external_;
-  now.contact = of_contact_ - body.domain.communicator.sum(contact().energy());
+  now.tools = by_tools_;
+  now.contact = by_friction_ - body.domain.communicator.sum(contact().energy());
   const double held = now.elastic + now.dissipated + now.stabilization;
-  const double put_in = now.external + now.contact;
+  const double put_in = now.external + now.tools + now.contact;
   largest_energy_ = std::max({largest_energy_, held, std::abs(put_in)});
   now.balance_error = largest_energy_ > 0 ? std::abs(held - put_in) / largest_energy_ : 0;
   return now;

@@ -54,7 +54,7 @@ class QuasiStatic {
   double time_, final_time_, longest_, dt_, last_dt_ = 0;
   Field last_step_;  // m, of the last load step
   int steps_ = 0, iterations_ = 0, evaluations_ = 0;
-  double external_ = 0, of_contact_ = 0, largest_energy_ = 0;
+  double external_ = 0, by_tools_ = 0, by_friction_ = 0, largest_energy_ = 0;
 };
 
 }  // namespace strut

@@ -1,12 +1,11 @@
 """One run: mesh from a recipe, deck from what differs, core-seconds and history out."""
-import csv
 import dataclasses
 import pathlib
 import re
 import subprocess
 
 import numpy as np
-from strut_tools import seconds_of_phase, with_core_seconds
+from strut_tools import history_of, seconds_of_phase, with_core_seconds
 from picture_parts import result as picture_result
 
 STEPPING = ("Deformation and stress", "Stabilization", "Force", "Halo exchange", "Agreement of ranks", "Critical time step",
@@ -99,9 +98,8 @@ class Runner:
         done, taken = with_core_seconds(lambda: subprocess.run(command, cwd=self.work, capture_output=True, text=True))
         if done.returncode != 0:
             return None
-        with open(self.work / f"{name}.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
-        history = {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+        rows = history_of(self.work / f"{name}.csv")
+        history = {key: np.array([row[key] for row in rows]) for key in rows[0]}
         number = int(re.search(r"(\d+) points,", done.stdout).group(1))
         return Result(taken * share_of_steps(done.stdout), number, history, self.work / f"{name}.e")
 

@@ -125,9 +125,10 @@ def impact():
                 for axis, speed in (("x", "300*z"), ("z", "-150"))
             ),
             plane("wall", 0.0, 1),
+            plane("punch", 13.62 * SPACING + 2 * GAP, -1, Mass=1e5 * SPACING**3, Speed_Z=-160.0),
         ),
         section("Solver", keys(Final_Time=1.5e-4)),
-        *sinks("impact", 7, 2, "wall", more=("Contact_Force_X(block_1:block_2)", "Contact_Force_Z(block_2:block_1)",
+        *sinks("impact", 7, 2, "wall", "punch", more=("Contact_Force_X(block_1:block_2)", "Contact_Force_Z(block_2:block_1)",
                                              "Mean_Velocity_Z(cuts)"), profiles=section("cuts", keys(Layers=3))),
     ]
 

@@ -157,7 +157,7 @@ TEST(Contact, BlockSlidesToRestOnARigidFloor) {
   EXPECT_NEAR(run.world().sum(sum) / run.world().sum(count), way, 0.01 * way);
   EXPECT_LT(std::abs(end.momentum[0]), 0.01 * v * run.mass());
   EXPECT_LT(end.balance_error, 1e-3);
-  EXPECT_LT(end.contact, -0.9 * 0.5 * run.mass() * v * v) << "friction has taken the kinetic energy";
+  EXPECT_LT(end.tools, -0.9 * 0.5 * run.mass() * v * v) << "friction has taken the kinetic energy";
 }
 
 // A block thrown along a plate of points, by the friction of contact. While it slides, the momentum that friction takes

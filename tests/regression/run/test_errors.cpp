@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "deck/problems.hpp"
 #include "regression/bodies.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
@@ -262,6 +263,25 @@ TEST_F(Mistake, UnknownVariables) {
                {"Output > Output Variables > Displacment", "History > Variables > Max_Displacment"});
 }
 
+TEST_F(Mistake, TwoWrongNamesAreTwoProblemsAndEqualOnesAreOne) {
+  const std::string deck = right_parts().text();
+  const std::string two =
+      changed(deck, key("Displacement", "true"), key("Displacment", "true") + key("Velocty", "true"));
+  expect_error(two, {"deck.xml: 2 problems\n  Output > Output Variables > Displacment: ",
+                     "\n  Output > Output Variables > Velocty: "});
+  deck::Problems problems;
+  for (const char* what : {"missing", "missing", "unknown"}) problems.add("Blocks", what);
+  EXPECT_EQ(problems.text("deck.xml"), "deck.xml: 2 problems\n  Blocks: missing\n  Blocks: unknown");
+}
+
+TEST_F(Mistake, MeshesOfOtherPrograms) {
+  folder.write("foam.msh", "$MeshFormat");
+  for (const char* name : {"foam.msh", "nothere.vtk"}) {
+    const std::string shown = error(changed(right_parts().text(), "bar.g", name));
+    EXPECT_EQ(shown.find("tools/tetrahedra") != std::string::npos, std::string(name) == "foam.msh") << shown;
+  }
+}
+
 TEST_F(Mistake, UnknownReactions) {
   Parts parts = right_parts();
   parts.conditions += plane("floor", "Rigid Plane", "all", "0 0 -1", "0 0 1");
@@ -356,13 +376,34 @@ TEST_F(Mistake, PointsWithTooFewNeighbors) {
 
 TEST_F(Mistake, PointsWithTooFewNeighborsAreDroppedOnRequest) {
   folder.write("points.txt", points_with_stragglers());
-  const fs::path deck = write_deck(straggling_parts("Drop").text());
+  const fs::path deck = write_deck(straggling_parts("Drop Any").text());
   testing::internal::CaptureStdout();
   EXPECT_TRUE(run(deck, world));
   const std::string shown = testing::internal::GetCapturedStdout();
   if (world.rank() != 0) return;
   EXPECT_NE(shown.find("dropped 3 points"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("1 connected piece;"), std::string::npos) << shown;
   EXPECT_EQ(io::read_result(folder / "result.e").element[0][0].size(), 96u);
+}
+
+TEST_F(Mistake, MorePointsDroppedThanOneInAHundred) {
+  folder.write("points.txt", points_with_stragglers());
+  expect_error(straggling_parts("Drop").text(),
+               {"Discretization > Degenerate Points", "leave out 3 points with too few neighbors: 3.03 % of 99 points",
+                "expected 1 % at most", "\"Drop Any\""});
+}
+
+// Two blocks, and between them three points in a row, each near enough to the next alone: 0.7 % of the points.
+TEST_F(Mistake, ABodyThatFallsApartWithoutWhatIsDropped) {
+  std::string points = cubes(7, Vector(0, 0, 0), 6, 6, 6, 1e-3) + cubes(7, Vector(10.6e-3, 0, 0), 6, 6, 6, 1e-3);
+  for (const char* x : {"6.9e-3", "8.3e-3", "9.7e-3"}) points += std::string(x) + " 2.5e-3 2.5e-3 7 1e-9\n";
+  folder.write("points.txt", points);
+  Parts parts = straggling_parts("Drop");
+  parts.blocks = changed(parts.blocks, "2.01e-3", "1.5e-3");
+  expect_error(parts.text(), {"Discretization > Degenerate Points", "leave out 3 points", "expected 1 % at most",
+                              "without them 216 more, in 1 piece, are cut off: 50.3 % of 435 points"});
+  parts.degenerate = "Drop Any";
+  EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
 }
 
 TEST_F(Mistake, AllPointsDropped) {

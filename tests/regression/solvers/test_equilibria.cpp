@@ -74,7 +74,7 @@ TEST(SlowLoading, WritesFramesAndReactions) {
   // E A ε with the 5 mm between the end layers; the held foot, which cannot spread, and the surfaces, which are softer.
   const double force = 117e9 * 16e-6 * 2e-5 / 5e-3;
   EXPECT_NEAR(low.back(), force, 0.3 * force);
-  EXPECT_GT(files.history.at("Contact_Work").back(), 0);
+  EXPECT_GT(files.history.at("Tool_Work").back(), 0);
   EXPECT_EQ(files.history.at("External_Work").back(), 0);
 }
 

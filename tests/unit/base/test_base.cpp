@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
+#include <thread>
 
 #include "base/deduplicated.hpp"
 #include "base/errors.hpp"
@@ -256,6 +258,23 @@ TEST(Timing, PhasesOfOneRankAreInTheTableOfAll) {
   ASSERT_EQ(names.size(), 1u + world.size());
   EXPECT_EQ(names[0], "of all");
   for (int r = 0; r < world.size(); ++r) EXPECT_EQ(names[1 + r], "of rank " + std::to_string(r));
+}
+
+// Else the shares of a run's table would add up to more than the run.
+TEST(Timing, APhaseWithinAnotherCountsForItselfAlone) {
+  const Communicator world;
+  {
+    const Timed outer(phase("outer"));
+    const Timed inner(phase("inner"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  double inner = 0, outer = 0;
+  for (const PhaseTime& p : phase_times(world)) {
+    if (p.name == "inner") inner = p.mean;
+    if (p.name == "outer") outer = p.mean;
+  }
+  EXPECT_GE(inner, 0.1);
+  EXPECT_LT(outer, 0.5 * inner);  // nothing but the calls, and what a busy machine takes
 }
 
 }  // namespace

@@ -366,7 +366,7 @@ TEST(Deck, HasDefaultIntervals) {
 
 TEST(Deck, KeepsTheSuffixOfTheOutput) {
   const DeckFolder folder;
-  EXPECT_EQ(folder.read(changed(full_deck, R"(value="bar"/>)", R"(value="out/bar.exo"/>)")).output.file, "out/bar.exo");
+  EXPECT_EQ(folder.read(changed(full_deck, R"(value="bar"/>)", R"(value="bar.exo"/>)")).output.file, "bar.exo");
 }
 
 TEST(Deck, ReadsEveryHardening) {

@@ -293,25 +293,26 @@ TEST(Text, BlocksAreNamedByTheirNumbers) {
 TEST(History, KeepsAllDigitsAndEveryRow) {
   const Communicator world;
   const TemporaryFolder folder(world);
-  HistoryFile history(folder / "history.csv", world, {"Time", "Energy"});
+  HistoryFile history(folder / "history.csv", world, {{"Time", "s"}, {"Energy", "J"}});
   history.write(std::vector<double>{0.1, 1.0 / 3});
   history.write(std::vector<double>{-1e-300, 2});
   if (world.rank() == 0) {  // before it is closed
     std::ifstream file(folder / "history.csv");
-    std::string header;
+    std::string facts, header;
+    std::getline(file, facts);
     std::getline(file, header);
-    EXPECT_TRUE(header.starts_with("Time,Energy,strut ")) << header;  // who wrote it
-    double a = 0, b = 0, c = 0, d = 0, zero = 1;
+    EXPECT_TRUE(facts.starts_with("# strut ") && facts.ends_with("; units: s,J")) << facts;  // who wrote it
+    EXPECT_EQ(header, "Time,Energy");
+    double a = 0, b = 0, c = 0, d = 0;
     char comma = 0;
-    file >> a >> comma >> b >> comma >> zero >> c >> comma >> d >> comma >> zero;
-    EXPECT_EQ(zero, 0);
+    file >> a >> comma >> b >> c >> comma >> d;
     EXPECT_EQ(a, 0.1);
     EXPECT_EQ(b, 1.0 / 3);
     EXPECT_EQ(c, -1e-300);
     EXPECT_EQ(d, 2);
   }
   EXPECT_THROW(history.write(std::vector<double>{1}), Error);
-  EXPECT_THROW(HistoryFile(folder / "no/such/folder.csv", world, {"Time"}), Error);
+  EXPECT_THROW(HistoryFile(folder / "no/such/folder.csv", world, {{"Time", "s"}}), Error);
 }
 
 // Meshes and results of another code, where the checkout has them beside it.

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 try:
     import matplotlib
@@ -20,8 +21,8 @@ except ImportError as error:
 
 TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
 sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
-from picture_parts import painter, surface, view  # noqa: E402
-from picture_parts.result import Result  # noqa: E402
+from picture_parts import history, painter, surface, view  # noqa: E402
+from picture_parts.result import Result, clock_of  # noqa: E402
 
 H = 1e-3  # m, the spacing
 
@@ -139,12 +140,13 @@ class Pictures(unittest.TestCase):
 
     def test_a_folder_gets_a_picture_per_variable_and_the_plots_of_the_history(self):
         self.bar()
-        (self.folder / "bar.csv").write_text("Time,Kinetic_Energy,Plastic_Work,Balance_Error,Max_Displacement\n"
-                                             "0,1,0,0,0\n1e-3,0.5,0.5,1e-6,6e-3\n")
+        (self.folder / "bar.csv").write_text("# strut; units: s,J,J,1,m,N\n"
+                                             "Time,Kinetic_Energy,Plastic_Work,Balance_Error,Max_Displacement,Reaction_Z(wall)\n"
+                                             "0,1,0,0,0,0\n1e-3,0.5,0.5,1e-6,6e-3,7\n")
         self.made("bar.e", "bar.csv", "out/")
         self.assertEqual(sorted(os.listdir(self.folder / "out")),
                          ["bar-Equivalent_Plastic_Strain.png", "bar-Von_Mises_Stress.png", "bar-energies.png",
-                          "bar-extremes.png"])
+                          "bar-extremes.png", "bar-reactions.png"])
         for name in os.listdir(self.folder / "out"):
             self.assertGreater(self.image(f"out/{name}").std(), 0.02, name)
 
@@ -154,8 +156,22 @@ class Pictures(unittest.TestCase):
         self.made("--cut", "bar.e", "cut.png")
         self.made("a.csv", "energies.png")
         self.made("--history", "a.csv", "a.csv", "both.pdf", "--column", "Kinetic_Energy")
+        self.made("a.csv", "two.png", "--column", "Kinetic_Energy", "--column", "Balance_Error")
+        one, two = (self.drawn_columns(*names) for names in (["Kinetic_Energy"], ["Kinetic_Energy", "Balance_Error"]))
+        self.assertEqual((one, two), (1, 2))
+        self.assertGreater(self.image("two.png").std(), 0.02)
         self.assertGreater(self.image("cut.png").std(), 0.02)
         self.assertGreater(self.image("energies.png").std(), 0.02)
+
+    def drawn_columns(self, *names):
+        """How many panels a picture of these columns has."""
+        with unittest.mock.patch.object(history, "finished", lambda figure, panels, clock, out: len(panels)):
+            return history.columns([str(self.folder / "a.csv")], names, "out.png")
+
+    def test_times_have_the_unit_of_their_size(self):
+        # Slow loading has times of a second and more, which are no milliseconds.
+        for longest, expected in ((1.0, (1, "s")), (50.0, (1, "s")), (2e-3, (1e3, "ms")), (6e-6, (1e6, "µs"))):
+            self.assertEqual(clock_of(longest), expected)
 
     def test_a_block_without_strain_is_grey_glass_and_not_in_the_scale(self):
         foam, plate = box(6, 6, 6), box(6, 6, 2, (0, 0, 6 * H))

@@ -139,7 +139,7 @@ TEST(QuasiStaticTool, IsPrescribedMotionOfWhatItPresses) {
   QuasiStatic by_tools = pressed.solver({.load_steps = 2}), by_motion = moved.solver({.load_steps = 2});
   const Ledger tools = load(by_tools), motion = load(by_motion);
   EXPECT_LT(largest_difference(pressed.body, moved.body), 2 * most_penetration * spacing);
-  EXPECT_NEAR(tools.contact, motion.external, 4 * most_penetration / 0.14 * motion.external);
+  EXPECT_NEAR(tools.tools, motion.external, 4 * most_penetration / 0.14 * motion.external);
 }
 
 // Both to 1e-6 of the forces, some times more of the travel (test_quasi_static), and as far inside as the tools let
@@ -221,7 +221,7 @@ TEST(QuasiStaticFriction, DragsWithItsShareOfThePressure) {
     EXPECT_LT(now.ledger().balance_error, 0.01) << now.time();  // of a law in rates: the strain
     before = -force[0];
   });
-  EXPECT_LT(solver.ledger().contact, 0);  // friction takes
+  EXPECT_LT(solver.ledger().tools, 0);  // friction takes
 }
 
 // With much friction the floor is as good as holding the lower layer, but for what the program lets points slide in a

@@ -1,0 +1,56 @@
+#include "run/log.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+// Hands on to the terminal at once; to the file go whole lines, so that those of ranks do not mix, each as it is at
+// last: a bar of progress begins its line again and again.
+class Log::Both : public std::streambuf {
+ public:
+  Both(std::streambuf* terminal, std::ofstream& file) : terminal_(terminal), file_(file) {}
+
+ protected:
+  int overflow(int character) override {
+    if (character == traits_type::eof()) return traits_type::not_eof(character);
+    const auto c = static_cast<char>(character);
+    if (c == '\r') line_.clear();
+    if (c != '\r') line_ += c;
+    if (c == '\n') {
+      file_ << line_ << std::flush;
+      line_.clear();
+    }
+    return terminal_->sputc(c);
+  }
+  int sync() override { return terminal_->pubsync(); }
+
+ private:
+  std::streambuf* terminal_;
+  std::ofstream& file_;
+  std::string line_;
+};
+
+Log::Log(const std::filesystem::path& file, const Communicator& communicator)
+    : terminal_out_(std::cout.rdbuf()), terminal_errors_(std::cerr.rdbuf()) {
+  run_on_root(communicator, [&] {
+    errno = 0;
+    if (!std::ofstream(file)) throw Error(file.string() + ": cannot create it: " + std::strerror(errno));
+  });
+  file_.open(file, std::ios::app);
+  out_ = std::make_unique<Both>(terminal_out_, file_);
+  errors_ = std::make_unique<Both>(terminal_errors_, file_);
+  std::cout.rdbuf(out_.get());
+  std::cerr.rdbuf(errors_.get());
+}
+
+Log::~Log() {
+  std::cout.flush();
+  std::cout.rdbuf(terminal_out_);
+  std::cerr.rdbuf(terminal_errors_);
+}
+
+}  // namespace strut

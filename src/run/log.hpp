@@ -1,0 +1,29 @@
+// A log of a run: what it says on the terminal, in a file.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "base/parallel/communicator.hpp"
+
+namespace strut {
+
+// As long as it lives, what std::cout and std::cerr get on any rank goes to the file, too.
+class Log {
+ public:
+  // Collective. Replaces the file; throws Error on all ranks where it cannot be created.
+  Log(const std::filesystem::path& file, const Communicator& communicator);
+  ~Log();
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+ private:
+  class Both;
+  std::ofstream file_;
+  std::unique_ptr<Both> out_, errors_;
+  std::streambuf *terminal_out_, *terminal_errors_;
+};
+
+}  // namespace strut

@@ -1,0 +1,86 @@
+#include "setup/dropped.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "points/pieces.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr double most_lost = 0.01;  // of all points
+
+// So many points are in this piece, and were in that one before.
+struct Part {
+  std::int64_t before, now, points;
+};
+
+std::vector<Part> parts_of_this_rank(const Domain& left, const PiecesOfPoints& before) {
+  const std::vector<std::int64_t> now = piece_ids(left);
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> counts;
+  for (int i = 0; i < left.owned; ++i) {
+    const auto was = std::lower_bound(before.begin(), before.end(), std::pair(left.id(i), std::int64_t{-1}));
+    ++counts[{was->second, now[i]}];
+  }
+  std::vector<Part> parts;
+  for (const auto& [key, points] : counts) parts.push_back({key.first, key.second, points});
+  return parts;
+}
+
+std::string lost(const Dropped& dropped) {
+  std::ostringstream text;
+  text << dropped.points << " points with too few neighbors";
+  if (dropped.parts > 0) {
+    text << "; without them " << dropped.points_cut_off << " more, in " << dropped.parts << " piece"
+         << (dropped.parts == 1 ? "" : "s") << ", are cut off";
+  }
+  return text.str();
+}
+
+}  // namespace
+
+PiecesOfPoints pieces_of_points(const Domain& domain) {
+  const std::vector<std::int64_t> pieces = piece_ids(domain);
+  PiecesOfPoints all;
+  for (int i = 0; i < domain.owned; ++i) all.emplace_back(domain.id(i), pieces[i]);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Counted on rank 0.
+void take_pieces(const Domain& left, const PiecesOfPoints& before, Dropped& dropped) {
+  const std::vector<Part> mine = parts_of_this_rank(left, before);
+  std::map<std::int64_t, std::map<std::int64_t, std::int64_t>> pieces;
+  for (const Part& part : left.communicator.gather(std::span(mine))) pieces[part.before][part.now] += part.points;
+  Dropped cut;
+  for (const auto& [piece, parts] : pieces) {
+    std::int64_t all = 0, largest = 0;
+    for (const auto& [now, points] : parts) all += points, largest = std::max(largest, points);
+    cut.parts += std::ssize(parts) - 1, cut.points_cut_off += all - largest;
+  }
+  dropped.parts = left.communicator.sum(cut.parts);
+  dropped.points_cut_off = left.communicator.sum(cut.points_cut_off);
+}
+
+void check_dropped(const Domain& left, const Dropped& dropped) {
+  const std::int64_t points = left.communicator.sum(static_cast<std::int64_t>(left.owned)) + dropped.points;
+  const double part = static_cast<double>(dropped.points + dropped.points_cut_off) / static_cast<double>(points);
+  if (!(part > most_lost)) return;
+  std::ostringstream text;
+  text.precision(3);
+  text << "Discretization > Degenerate Points: \"Drop\" would leave out " << lost(dropped) << ": " << 100 * part
+       << " % of " << points
+       << " points; expected 1 % at most. Enlarge the horizon, mend the mesh, or say \"Drop Any\" "
+       << "to go on with what is left";
+  raise_together(left.communicator, text.str());
+}
+
+std::string told(const Dropped& dropped) {
+  return dropped.points == 0 ? "" : "dropped " + lost(dropped) + " (Degenerate Points)\n";
+}
+
+}  // namespace strut

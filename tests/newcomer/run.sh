@@ -1,0 +1,52 @@
+#!/bin/sh
+# run.sh ROOT: tools/run hands on signals, gives the ranks the time to end, and ends with the documented status; after an
+# error there is one line. In the place of strut stands a script that does what its deck says.
+root=$1
+folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-run-XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 1
+failed=0
+
+fail() {
+  echo "FAILED: $1"
+  cat log
+  failed=1
+}
+
+mkdir -p tools build/release
+cp "$root/tools/run" tools
+printf '#!/bin/sh\n' > tools/prepare
+cat > build/release/strut <<'END'
+#!/bin/bash
+rank=$OMPI_COMM_WORLD_RANK
+case $1 in
+  wrong.xml) [ "$rank" != 0 ] || echo "strut: wrong.xml: 1 problem" >&2; exit 1 ;;
+  done.xml) exit 0 ;;
+esac
+ended() { sleep 2; touch "written.$rank"; sleep 0.5; exit 3; }  # a step that takes longer than mpirun's second
+trap ended TERM
+touch "begun.$rank"
+for n in $(seq 300); do sleep 0.1 & wait $!; done
+END
+chmod +x tools/prepare build/release/strut
+
+tools/run -np 2 wrong.xml > log 2>&1
+status=$?
+[ $status -eq 1 ] || fail "an error: exit status $status, expected 1"
+[ "$(cat log)" = "strut: wrong.xml: 1 problem" ] || fail "an error: expected one line"
+tools/run -np 2 done.xml > log 2>&1 || fail "a run that is done fails"
+
+tools/run -np 2 long.xml > log 2>&1 &
+run=$!
+tries=200
+while [ ! -f begun.0 ] || [ ! -f begun.1 ]; do
+  tries=$((tries - 1))
+  [ $tries -gt 0 ] || { fail "the run has not begun"; break; }
+  sleep 0.1
+done
+kill -TERM $run
+wait $run
+status=$?
+[ $status -eq 3 ] || fail "SIGTERM to tools/run: exit status $status, expected 3"
+[ -f written.0 ] && [ -f written.1 ] || fail "SIGTERM to tools/run: the ranks could not write"
+exit $failed
