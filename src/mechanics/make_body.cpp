@@ -54,7 +54,9 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   const bool with_gradients = std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) {
     return residual_of(m.stabilization) == ResidualKind::both_gradients && coefficient_of(m.stabilization) > 0;
   });
-  if (with_gradients) states.gradients.assign(points, bonds::gradient_state(Tensor::Zero(), 0, 0, NoStabilization()));
+  if (with_gradients) {  // undeformed, as what moves rigidly stays
+    states.gradients.assign(points, bonds::gradient_state(Tensor::Identity(), 0, 0, NoStabilization()));
+  }
   return states;
 }
 
@@ -115,9 +117,10 @@ void set_shapes(Body& body) {
     };
     body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, set));
   }
-  for (const MaterialBlock& block : body.blocks) {
+  for (MaterialBlock& block : body.blocks) {
     if (block.lattice < 0) continue;
     for (const int i : block.points) sums.first_moments[i] = body.lattice_sums[block.lattice]->first_moment(i);
+    if (!block.off_stencil.places.empty()) set_shapes(body, block, LaneGroups(block, block.off_stencil), sums);
   }
   body.shape_inverse = Deduplicated<Symmetric>(std::move(sums.shape_inverses));
   body.first_moment = Deduplicated<Vector>(std::move(sums.first_moments));
@@ -150,6 +153,22 @@ void set_what_blocks_feel(Body& body) {
 
 }  // namespace
 
+void set_off_stencil(const Domain& domain, MaterialBlock& block) {
+  block.off_stencil = {};
+  if (block.lattice < 0 || domain.families.off_stencil.empty()) return;
+  std::vector<int> points;
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    if (!domain.families.is_off_stencil(block.points[k])) continue;
+    block.off_stencil.places.push_back(static_cast<int>(k));
+    points.push_back(block.points[k]);
+  }
+  if (points.empty()) return;
+  const auto family = [&domain](int i, const auto& visit) { domain.families.lists.for_each(i, visit); };
+  ClusterLists::Builder(block.off_stencil.lists, domain.sites.size()).add_all(points, family, [&domain](int j) {
+    return domain.id(j);
+  });
+}
+
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials) {
   std::vector<MaterialBlock> blocks = blocks_of(domain, materials);
   Body body{.domain = std::move(domain),
@@ -170,6 +189,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .fracture = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
+  for (MaterialBlock& block : body.blocks) set_off_stencil(body.domain, block);
   body.force_states = zero_states(body.domain.sites.size(), materials);
   body.points.resize(owned);
   for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);

@@ -13,7 +13,8 @@ struct PulledLattice {
   Influence influence;
   Formulation formulation;  // ordinary or correspondence
   materials::Moduli moduli;
-  double silling = 0;  // c of springs on a point's own gradient
+  ResidualKind springs = ResidualKind::none;  // of what residual
+  double coefficient = 0;                     // c of these
 };
 
 struct LatticeBond {

@@ -2,6 +2,7 @@
 // cluster, or by the sums over their lattice.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -31,12 +32,6 @@ struct LaneGroup {
   LaneIndices lane_indices() const { return {i, side_by_side}; }
 };
 
-// Some points of a block, with lists of their own.
-struct SelectedPoints {
-  std::vector<int> places;  // in block.points
-  ClusterLists lists;
-};
-
 // Points of a block, in groups.
 class LaneGroups {
  public:
@@ -49,19 +44,19 @@ class LaneGroups {
     first_ = lists_->holding(block.points[begin]);
     count_ = lists_->holding(block.points[end - 1]) + 1 - first_;
   }
-  // Those in some slots of a lattice: first who fill a group side by side in a pencil, whose sums stand so too.
+  // Those in some slots of a lattice, but not who have lost bonds: first who fill a group side by side in a pencil,
+  // whose sums stand so too.
   LaneGroups(const MaterialBlock& block, const LatticeSums::Chunk& chunk) : points_(&block.points), chunk_(&chunk) {
+    const std::vector<int>& off = block.off_stencil.places;
     for (const Part part : {Part::interior, Part::boundary}) {
       const auto [low, high] = range(block, part);
       const auto [begin, end] = chunk.part_of(block.points, low, high);
+      auto next = std::lower_bound(off.begin(), off.end(), begin);
       for (int at = begin; at < end;) {
-        const int apart = LaneGroup::width - 1, last = at + apart;
-        if (last < end && chunk.are_side_by_side(block.points[at], block.points[last], apart)) {
-          full_.push_back(at);
-          at = last + 1;
-        } else {
-          others_.push_back(at++);
-        }
+        const int stop = next == off.end() ? end : std::min(*next, end);
+        add_runs(at, stop);
+        at = stop + 1;
+        if (next != off.end()) ++next;
       }
     }
     count_ = static_cast<int>(full_.size()) + groups_of(others_);
@@ -81,6 +76,19 @@ class LaneGroups {
   }
 
  private:
+  // Of a chunk, the places from `at` up to `end`.
+  void add_runs(int at, int end) {
+    constexpr int apart = LaneGroup::width - 1;
+    while (at < end) {
+      const int last = at + apart;
+      if (last < end && chunk_->are_side_by_side((*points_)[at], (*points_)[last], apart)) {
+        full_.push_back(at);
+        at = last + 1;
+      } else {
+        others_.push_back(at++);
+      }
+    }
+  }
   static int groups_of(const std::vector<int>& places) {
     return (static_cast<int>(places.size()) + LaneGroup::width - 1) / LaneGroup::width;
   }

@@ -20,6 +20,12 @@ struct Cluster {
   std::span<const int> points;  // local indices; `width` at most
   std::span<const int> near;
   const std::uint8_t* mask;  // of near: bit l is set if it is in the family of points[l]
+
+  std::size_t family_size(std::size_t l) const {  // of points[l]
+    std::size_t size = 0;
+    for (std::size_t n = 0; n < near.size(); ++n) size += mask[n] >> l & 1;
+    return size;
+  }
 };
 
 class ClusterLists {
@@ -123,18 +129,28 @@ class ClusterLists::Builder {
   std::vector<int> near_;
 };
 
+// Some points of a block, with lists of their own.
+struct SelectedPoints {
+  std::vector<int> places;  // in the block's points
+  ClusterLists lists;
+};
+
 // Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters,
 // of one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids,
-// so that every sum over a family is the same on any number of ranks.
+// so that every sum over a family is the same on any number of ranks. Where a lattice may lose bonds its points are in
+// clusters, too: for those who look at bonds one by one, and as the family of those that have lost any.
 struct Families {
   ClusterLists lists;
   std::vector<LatticeFamilies> lattices;
-  std::vector<int> lattice_of;  // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+  std::vector<int> lattice_of;    // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+  std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty where no lattice may lose any
   // Of owned points: those whose bonds to them have broken, local indices. Empty where no bond may break.
   std::vector<std::vector<int>> broken;
 
+  bool is_off_stencil(int i) const { return !off_stencil.empty() && off_stencil[i]; }
+  // The stencil that is the family of point i; nullptr where a list is.
   const LatticeFamilies* lattice(int i) const {
-    return lattice_of.empty() || lattice_of[i] < 0 ? nullptr : &lattices[lattice_of[i]];
+    return lattice_of.empty() || lattice_of[i] < 0 || is_off_stencil(i) ? nullptr : &lattices[lattice_of[i]];
   }
 
   // Calls visit(j) over the family of point i.
