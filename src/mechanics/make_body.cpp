@@ -156,17 +156,22 @@ void set_what_blocks_feel(Body& body) {
 void set_off_stencil(const Domain& domain, MaterialBlock& block) {
   block.off_stencil = {};
   if (block.lattice < 0 || domain.families.off_stencil.empty()) return;
-  std::vector<int> points;
-  for (std::size_t k = 0; k < block.points.size(); ++k) {
-    if (!domain.families.is_off_stencil(block.points[k])) continue;
-    block.off_stencil.places.push_back(static_cast<int>(k));
-    points.push_back(block.points[k]);
+  const ClusterLists& lists = domain.families.lists;
+  for (std::size_t k = 0; k < block.points.size();) {
+    if (!domain.families.is_off_stencil(block.points[k])) {
+      ++k;
+      continue;
+    }
+    const int c = lists.holding(block.points[k]);
+    const Cluster cluster = lists[c];
+    unsigned members = 0;
+    for (; k < block.points.size() && block.points[k] <= cluster.points.back(); ++k) {
+      if (!domain.families.is_off_stencil(block.points[k])) continue;
+      block.off_stencil.places.push_back(static_cast<int>(k));
+      members |= 1u << (block.points[k] - cluster.points[0]);
+    }
+    block.off_stencil.lists.append(cluster, members);
   }
-  if (points.empty()) return;
-  const auto family = [&domain](int i, const auto& visit) { domain.families.lists.for_each(i, visit); };
-  ClusterLists::Builder(block.off_stencil.lists, domain.sites.size()).add_all(points, family, [&domain](int j) {
-    return domain.id(j);
-  });
 }
 
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials) {

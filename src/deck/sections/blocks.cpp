@@ -151,12 +151,6 @@ void check_damage_model(const Values& section, const Material& material, const N
                  "'" + named.name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");
   }
-  if (material.formulation == Formulation::quadratic && model.fracture_energy > 0 && !model.critical_bond_energy) {
-    problems.add(section.path_to(damage_model),
-                 "model '" + named.name +
-                     "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic "
-                     "Correspondence'; expected one with a Critical Stretch");
-  }
 }
 
 std::optional<int> find_damage_model(const Values& section, const Material& material,

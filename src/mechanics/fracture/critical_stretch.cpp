@@ -138,6 +138,7 @@ double energy_of_half(const PulledLattice& lattice, const std::vector<LatticeBon
 }  // namespace
 
 double energy_of_separation(const PulledLattice& lattice) {
+  if (lattice.formulation == Formulation::quadratic) return separation_of_cells(lattice);
   const std::vector<LatticeBond> family = family_of(lattice);
   std::vector<double> openings;
   int layers = 0;
@@ -160,12 +161,24 @@ double energy_of_separation(const PulledLattice& lattice) {
 
 namespace {
 
+// The longest bond of a block, of all ranks, m: by quadratic correspondence families may be those that touch, whatever
+// the horizon.
+double longest_bond(const Body& body, const MaterialBlock& block) {
+  double longest = 0;
+  for (const int i : block.points) {
+    body.domain.families.for_each(
+        i, [&](int j) { longest = std::max(longest, (body.domain.reference(j) - body.domain.reference(i)).norm()); });
+  }
+  return body.domain.communicator.max(longest);
+}
+
 PulledLattice lattice_of(const Body& body, std::size_t b) {
   const BlockMaterial& material = body.blocks[b].material;
   const BlockHorizons& of_block = body.domain.blocks[b];
   const auto moduli = std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, material.law);
+  const double horizon = body.blocks[b].is_quadratic() ? longest_bond(body, body.blocks[b]) : of_block.largest;
   return {of_block.spacing,
-          of_block.largest,
+          horizon,
           body.influence,
           material.formulation,
           moduli,

@@ -10,6 +10,7 @@
 #include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/critical_stretch.hpp"
 #include "mechanics/fracture/spring_account.hpp"
+#include "mechanics/fracture/strain_jump.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/make_body.hpp"
 #include "points/parallel_for.hpp"
@@ -117,7 +118,7 @@ void Fracture::set_which(const Body& body) {
   }
 }
 
-Fracture::Fracture(Body& body) {
+Fracture::Fracture(Body& body) : travel_(body.domain) {
   const Domain& domain = body.domain;
   set_critical_values(body);
   set_crack_lengths(body);
@@ -131,7 +132,7 @@ Fracture::Fracture(Body& body) {
   dissipated_.assign(domain.owned, 0);
   released_.assign(domain.owned, 0);
   for (int i = 0; i < domain.owned; ++i) whole_volume_.push_back(family_volume(domain, i));
-  watched_.resize(domain.families.lists.count());
+  look_at_all(body);
   set_shortest(body);
   set_most_steepness(body);
   set_limits(body, 0);
@@ -171,19 +172,19 @@ void Fracture::take_failed(const Body& body) {
 void Fracture::look_around(const Body& body, const std::vector<char>& points) {
   if (points.empty()) return;
   const auto is = [&points](int i) { return points[i] != 0; };
-  for (std::size_t c = 0; c < watched_.size(); ++c) {
+  for (std::size_t c = 0; c < due_.size(); ++c) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
     const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
                        std::any_of(cluster.points.begin(), cluster.points.end(), is);
-    if (meets) watched_[c].due = 0;
+    if (meets) due_[c] = 0;
   }
 }
 
-// Of the points of a block, in their spacings, so many times the least, which is that of a point inside: as at a
-// corner, where an eighth of the family is left. So broken families do not make the critical time step smaller than
-// corners do. A point that is steeper from the start may be half as much again.
+// Of the points of a block, in their spacings, so many times the least, which is that of a point inside. So broken
+// families do not make the critical time step smaller than corners do. A point that is steeper from the start may be
+// half as much again.
 void Fracture::set_most_steepness(const Body& body) {
-  constexpr double corner = 8, more_than_first = 1.5;
+  constexpr double more_than_first = 1.5;
   const auto in_spacings = [&body](int i) { return steepness(body, i) * std::pow(body.domain.cloud.spacings[i], 2); };
   std::vector<double> least;  // of each block, negated
   for (const MaterialBlock& block : body.blocks) {
@@ -193,13 +194,14 @@ void Fracture::set_most_steepness(const Body& body) {
   }
   body.domain.communicator.max(least);
   for (int i = 0; i < body.owned(); ++i) {
-    const double of_block = -corner * least[body.domain.cloud.blocks[i]] / std::pow(body.domain.cloud.spacings[i], 2);
+    const double of_block =
+        -steepness_of_corners * least[body.domain.cloud.blocks[i]] / std::pow(body.domain.cloud.spacings[i], 2);
     most_steepness_.push_back(std::max(of_block, more_than_first * steepness(body, i)));
   }
 }
 
 void Fracture::set_shortest(const Body& body) {
-  for (std::size_t b = 0; b < watched_.size(); ++b) {
+  for (std::size_t b = 0; b < due_.size(); ++b) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(b)];
     double shortest = never;
     for (std::size_t n = 0; n < cluster.near.size(); ++n) {
@@ -209,36 +211,31 @@ void Fracture::set_shortest(const Body& body) {
         shortest = std::min(shortest, xi.norm());
       }
     }
-    watched_[b].shortest = shortest;
+    shortest_.push_back(shortest);
   }
 }
 
-// Where nobody moves faster than in a box of velocities, no two points move apart by more than its diagonal.
 void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt) {
-  constexpr double margin = 1 + 1e-6;  // for the round-off of places
-  std::array<double, 7> most;          // v and −v; of the travel until a bond may break, −
-  most.fill(-never);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    if (!may_break_[b] || body.blocks[b].in_rigid_motion) continue;
-    for (const int i : body.blocks[b].points) {
-      for (int c = 0; c < 3; ++c) {
-        most[2 * c] = std::max(most[2 * c], velocities[i][c]);
-        most[2 * c + 1] = std::max(most[2 * c + 1], -velocities[i][c]);
-      }
+  std::vector<double> due = due_;
+  for (const MaterialBlock& block : body.blocks) {
+    if (!block.in_rigid_motion) continue;
+    for (const Part part : {Part::interior, Part::boundary}) {
+      const auto [first, last] = clusters_of(body, block, part);
+      for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];
     }
   }
-  for (const Part part : {Part::interior, Part::boundary}) {
-    over_breakable(*this, body, part, [&](const MaterialBlock&, int first, int last) {
-      for (int c = first; c < last; ++c) most[6] = std::max(most[6], travel_ - watched_[c].due);
-    });
-  }
-  body.domain.communicator.max(most);
-  const Vector range(most[0] + most[1], most[2] + most[3], most[4] + most[5]);
-  last_travel_ = range.allFinite() ? margin * dt * range.norm() : 0;
-  travel_ += last_travel_;
+  const bool is_due = travel_.advance(body, velocities, dt, due);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
-  is_looked_at_ = by_time_ || any_fails || energies_.any() || last_travel_ >= -most[6];
+  is_looked_at_ = is_due || by_time_ || any_fails || energies_.any();
   if (is_looked_at_) keep_start(body);
+}
+
+void Fracture::look_at_all(const Body& body) {
+  due_.assign(body.domain.families.lists.count(), never);
+  for (std::size_t c = 0; c < due_.size(); ++c) {
+    const int i = body.domain.families.lists[static_cast<int>(c)].points[0];
+    if (may_break_[body.domain.cloud.blocks[i]]) due_[c] = 0;
+  }
 }
 
 void Fracture::keep_start(const Body& body) {
@@ -263,9 +260,9 @@ bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int clu
     });
   }
   const double most = worst.maxCoeff();
-  const double by_stretch = watched_[cluster].shortest * std::max(0.0, 1 - std::sqrt(most));
-  const double by_energy = room.minCoeff() - last_travel_;                 // from the start of the step on
-  watched_[cluster].due = std::max(0.0, std::min(by_stretch, by_energy));  // to go, m
+  const double by_stretch = shortest_[cluster] * std::max(0.0, 1 - std::sqrt(most));
+  const double by_energy = room.minCoeff() - travel_.last();  // from the start of the step on
+  due_[cluster] = travel_.of(cluster) + std::max(0.0, std::min(by_stretch, by_energy));
   return std::max(most, load.maxCoeff()) > 1 - round_off;
 }
 
@@ -276,14 +273,13 @@ void Fracture::break_bonds(Body& body, Part part, double time) {
   if (by_time_ && part == Part::interior) set_limits(body, time);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   if (any_fails && part == Part::interior) take_failed(body);
-  if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, last_travel_));
-  std::vector<char> at_limit(watched_.size(), 0);
+  if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, travel_.last()));
+  std::vector<char> at_limit(due_.size(), 0);
   over_breakable(*this, body, part, [&](const MaterialBlock& block, int first, int last) {
     for_each_point(first, last, [&](int c) {
       if (!is_of(body, block, c)) return;
-      if (!by_time_ && travel_ < watched_[c].due) return;
+      if (!by_time_ && travel_.of(c) < due_[c]) return;
       at_limit[c] = is_at_limit(body, block, c);
-      watched_[c].due += travel_;
     });
   });
   over_breakable(*this, body, part, [&](MaterialBlock& block, int first, int last) {
@@ -435,10 +431,9 @@ double Fracture::damage(const Body& body, int i) const {
 }
 
 double Fracture::bytes() const {
-  return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) +
-                             watched_.size() * sizeof(Watched) +
+  return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) + 2 * due_.size() * sizeof(double) +
                              whole_volume_.size() * (5 * sizeof(double) + sizeof(std::vector<int>))) +
-         static_cast<double>(broken_) * sizeof(int) + energies_.bytes();
+         static_cast<double>(broken_) * sizeof(int) + energies_.bytes() + travel_.bytes();
 }
 
 double Fracture::energy() const { return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0); }
@@ -551,7 +546,7 @@ void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
     }
     set_off_stencil(body.domain, block);
   }
-  for (Watched& cluster : watched_) cluster.due = 0;
+  look_at_all(body);
   exchange_states(body);
 }
 

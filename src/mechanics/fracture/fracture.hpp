@@ -3,8 +3,8 @@
 // A bond breaks for both of its ends in the same step: the criterion is symmetric to the last bit, so the ranks of both
 // ends decide alike without a message. It is looked at where the motion since the last look may have sufficed: of each
 // cluster of points it is known by how much the bond nearest to its limit would have to grow, and two points move apart
-// by no more than the range of all velocities says. Where no bond may break anywhere, nothing else is done in a step.
-// What bonds hold changes with the breaks of others, too: where such a point is met, it is looked at.
+// by no more than the velocities around them allow (Travel). Where no bond may break anywhere, nothing else is done in
+// a step. What bonds hold changes with the breaks of others, too: where such a point is met, it is looked at.
 //
 // The energy dissipated by a break is what is missing in the balance of the points whose bonds broke: with the work w
 // of a point's force states along the step's motion of its family, before the break and after it,
@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,6 +21,7 @@
 #include "mechanics/body.hpp"
 #include "mechanics/fracture/bond_energies.hpp"
 #include "mechanics/fracture/point_account.hpp"
+#include "mechanics/fracture/travel.hpp"
 
 namespace strut {
 
@@ -63,11 +63,6 @@ class Fracture {
     std::array<PointAccount, Cluster::width> before;
     std::vector<std::vector<int>> families;  // of the members, where they have springs on both ends' gradients
   };
-  // What a cluster's bonds are like.
-  struct Watched {
-    double shortest = 0;  // |ξ|, m
-    double due = 0;       // the travel at which one may have come to break, m
-  };
   struct Stretches;
 
   void set_limits(const Body& body, double time);
@@ -78,6 +73,7 @@ class Fracture {
   void set_shortest(const Body& body);
   void set_most_steepness(const Body& body);
   void keep_start(const Body& body);
+  void look_at_all(const Body& body);
   bool is_at_limit(const Body& body, const MaterialBlock& block, int cluster);
   bool holds_energy(const Body& body, const MaterialBlock& block) const;
   unsigned bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
@@ -95,14 +91,14 @@ class Fracture {
   bool is_looked_at_ = false;                   // a bond may break in this step
   std::vector<Vector> start_;                   // places at the start of such a step, of owned points and ghosts, m
   std::vector<GradientState> start_gradients_;  // the same of what springs read
-  std::vector<Watched> watched_;                // of clusters
-  double travel_ = 0;                           // bound of how far two points have moved apart so far, m
-  double last_travel_ = 0;                      // of it in the last step, m
-  std::vector<double> whole_volume_;            // Σ V_j over the family at first, of owned points, m³
-  std::vector<double> whole_springs_;           // C of owned points at first, Pa/m⁵
-  std::vector<double> most_steepness_;          // of owned points that carry stress, 1/m²
-  std::vector<double> dissipated_;              // by owned points, J
-  std::vector<double> released_;                // 1 of owned points that carry no stress any more
+  std::vector<double> shortest_;                // |ξ| of clusters, m
+  std::vector<double> due_;                     // the travel at which one of their bonds may have come to break, m
+  Travel travel_;
+  std::vector<double> whole_volume_;    // Σ V_j over the family at first, of owned points, m³
+  std::vector<double> whole_springs_;   // C of owned points at first, Pa/m⁵
+  std::vector<double> most_steepness_;  // of owned points that carry stress, 1/m²
+  std::vector<double> dissipated_;      // by owned points, J
+  std::vector<double> released_;        // 1 of owned points that carry no stress any more
   std::vector<Affected> affected_;
   std::int64_t broken_ = 0;
 };

@@ -68,11 +68,14 @@ class LaneGroups {
   LaneGroup operator[](int g) const {
     const int full = static_cast<int>(full_.size());
     if (chunk_) {
-      return g < full ? of_run(full_[g], LaneGroup::width, {}) : of_places(others_, g - full, {});
+      if (g < full) return of_run(full_[g], LaneGroup::width, {});
+      const int begin = (g - full) * LaneGroup::width, left = static_cast<int>(others_.size()) - begin;
+      return of_places(&others_[begin], std::min(left, LaneGroup::width), {});
     }
     const Cluster cluster = (*lists_)[first_ + g];
-    if (selected_) return of_places(*selected_, g, cluster);
-    return of_run(begin_ + cluster.points[0] - (*points_)[begin_], static_cast<int>(cluster.points.size()), cluster);
+    const int count = static_cast<int>(cluster.points.size());
+    if (selected_) return of_places(selected_->data() + lists_->first(g), count, cluster);
+    return of_run(begin_ + cluster.points[0] - (*points_)[begin_], count, cluster);
   }
 
  private:
@@ -92,13 +95,12 @@ class LaneGroups {
   static int groups_of(const std::vector<int>& places) {
     return (static_cast<int>(places.size()) + LaneGroup::width - 1) / LaneGroup::width;
   }
-  // Of places that follow upon each other; of the g-th so many of some.
+  // Of places that follow upon each other; of some.
   LaneGroup of_run(int begin, int count, std::optional<Cluster> cluster) const {
     return group(count, cluster, chunk_ != nullptr, [begin](int l) { return begin + l; });
   }
-  LaneGroup of_places(const std::vector<int>& places, int g, std::optional<Cluster> cluster) const {
-    const int begin = g * LaneGroup::width, left = static_cast<int>(places.size()) - begin;
-    return group(std::min(left, LaneGroup::width), cluster, false, [&](int l) { return places[begin + l]; });
+  LaneGroup of_places(const int* places, int count, std::optional<Cluster> cluster) const {
+    return group(count, cluster, false, [places](int l) { return places[l]; });
   }
   template <class PlaceOf>
   LaneGroup group(int count, std::optional<Cluster> cluster, bool side_by_side, const PlaceOf& place_of) const {

@@ -59,6 +59,26 @@ class ClusterLists {
     }
   }
 
+  // The place of the first point of a cluster among those of all.
+  int first(int b) const { return first_[b]; }
+
+  // Appends some members of a cluster of other lists, a bit each, with their families as they are there.
+  void append(const Cluster& cluster, unsigned members) {
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      if (members >> l & 1) points_.push_back(cluster.points[l]);
+    }
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      unsigned mask = 0, bit = 1;
+      for (unsigned left = members; left != 0; left &= left - 1, bit <<= 1) {
+        if (cluster.mask[n] & left & -left) mask |= bit;
+      }
+      if (mask == 0) continue;
+      near_.push_back(cluster.near[n]);
+      mask_.push_back(static_cast<std::uint8_t>(mask));
+    }
+    close();
+  }
+
   // Takes the members of a cluster whose bits are set out of the families that its n-th neighbor is in.
   void cut(int b, std::size_t n, std::uint8_t members) { mask_[start_[b] + n] &= static_cast<std::uint8_t>(~members); }
   // Lets go of the neighbors that are in no family of a cluster any more; the others keep their order.
@@ -81,6 +101,12 @@ class ClusterLists {
   }
 
  private:
+  void close() {  // the last cluster
+    first_.push_back(static_cast<int>(points_.size()));
+    end_.push_back(near_.size());
+    start_.push_back(near_.size());
+  }
+
   std::vector<int> points_, first_{0};  // of the points of a cluster
   std::vector<std::size_t> start_{0};   // of the list of a cluster; after the last one, where the next would begin
   std::vector<std::size_t> end_;        // of it
@@ -110,9 +136,7 @@ class ClusterLists::Builder {
       lists_.mask_.push_back(mask_[j]);
       mask_[j] = 0;
     }
-    lists_.first_.push_back(static_cast<int>(lists_.points_.size()));
-    lists_.end_.push_back(lists_.near_.size());
-    lists_.start_.push_back(lists_.near_.size());
+    lists_.close();
   }
 
   // The same of any number of points, so many at a time as a cluster holds.
