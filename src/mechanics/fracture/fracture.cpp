@@ -12,7 +12,7 @@
 #include "mechanics/fracture/spring_account.hpp"
 #include "mechanics/fracture/strain_jump.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
-#include "mechanics/make_body.hpp"
+#include "mechanics/off_stencil.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {

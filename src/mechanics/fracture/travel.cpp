@@ -1,9 +1,16 @@
 #include "mechanics/fracture/travel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace strut {
+
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 Travel::Travel(const Domain& domain) {
   const ClusterLists& lists = domain.families.lists;
@@ -36,19 +43,20 @@ double Travel::until_due(std::size_t region, std::span<const double> due) const 
   return *std::min_element(begin, begin + left) - regions_[region].travel;
 }
 
-bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due) {
-  constexpr double margin = 1 + 1e-6, never = std::numeric_limits<double>::infinity();  // for the round-off of places
-  const ClusterLists& lists = body.domain.families.lists;
-  Eigen::AlignedBox3d all;
-  for (std::size_t r = 0; r < regions_.size(); ++r) {
-    regions_[r].box.setEmpty();
-    const int first = static_cast<int>(r) * clusters_a_region;
-    for (int c = first; c < std::min(first + clusters_a_region, lists.count()); ++c) {
-      if (due[c] == never) continue;
-      for (const int i : lists[c].points) regions_[r].box.extend(velocities[i]);
-    }
-    all.extend(regions_[r].box);
+void Travel::set_boxes(const ClusterLists& lists, std::span<const Vector> velocities, std::span<const double> due) {
+  for (Region& region : regions_) region.box.setEmpty();
+  for (int c = 0; c < lists.count(); ++c) {
+    if (due[c] == never) continue;
+    Eigen::AlignedBox3d& box = regions_[c / clusters_a_region].box;
+    for (const int i : lists[c].points) box.extend(velocities[i]);
   }
+}
+
+bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due) {
+  constexpr double margin = 1 + 1e-6;  // for the round-off of places
+  set_boxes(body.domain.families.lists, velocities, due);
+  Eigen::AlignedBox3d all;
+  for (const Region& region : regions_) all.extend(region.box);
   double passed = -never, at_ghosts = -never;  // by how much one is due; without what is added where ghosts are
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     Region& region = regions_[r];

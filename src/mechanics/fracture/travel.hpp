@@ -33,6 +33,7 @@ class Travel {
     double travel = 0;        // m
     Eigen::AlignedBox3d box;  // of velocities, m/s
   };
+  void set_boxes(const ClusterLists& lists, std::span<const Vector> velocities, std::span<const double> due);
   double until_due(std::size_t region, std::span<const double> due) const;
 
   std::vector<Region> regions_;
