@@ -25,7 +25,7 @@ class Travel {
   double bytes() const;
 
  private:
-  static constexpr int clusters_a_region = 32;
+  static constexpr int clusters_a_region = 8;
 
   struct Region {
     std::vector<int> near;  // regions with points that are in families of this one, itself included
