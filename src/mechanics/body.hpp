@@ -29,12 +29,15 @@ struct alignas(32) TensorRecord {
   Eigen::Array4d column[3];
 };
 
-// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none); 1 if the end has failed.
+// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none); 1 if the end has failed; 1
+// if bonds of it have broken in this step, where it has springs on the residual of both ends' gradients.
 struct ForceState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }
   double& failed() { return column[1][3]; }
   double failed() const { return column[1][3]; }
+  double& lost_bonds() { return column[2][3]; }
+  double lost_bonds() const { return column[2][3]; }
 };
 
 // F, and of the springs on the residual of both ends' gradients C, the share of the step at whose end they act, and
@@ -130,7 +133,8 @@ struct MaterialBlock {
   bool in_rigid_motion = false;
   double rest_frequency_bound = 0;  // 1/s, the largest of its points, as a part of their steps, in rigid motion
 
-  int lattice = -1;  // in domain.families.lattices, where its points sit on one
+  int lattice = -1;            // in domain.families.lattices, where its points sit on one
+  SelectedPoints off_stencil;  // of these, who have lost bonds: their sums go by lists
 
   std::size_t first_law_point = 0;  // of `cells`, among those of all blocks
 

@@ -47,7 +47,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
   behind_exchange(
       body.domain.halo, places(body.domain.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
-  if (body.fracture) body.fracture->finish_step(body);
+  if (body.fracture) body.fracture->finish_step();
   return report;
 }
 
@@ -77,6 +77,7 @@ void sum_forces(Body& body, bool with_diagnostics) {
   const auto extension_of = [](const auto& family) { return bonds::OfPlaces(family); };
   add_up(body.domain.halo, ForceSum{body, Bodies::deforming, u, extension_of, body.force_states, body.force_density},
          [] { return Timed(summing); });
+  if (body.fracture && !body.force_states.gradients.empty()) body.fracture->count_springs(body);
 }
 
 StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics) {

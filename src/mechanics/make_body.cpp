@@ -7,6 +7,7 @@
 #include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/off_stencil.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -54,7 +55,9 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   const bool with_gradients = std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) {
     return residual_of(m.stabilization) == ResidualKind::both_gradients && coefficient_of(m.stabilization) > 0;
   });
-  if (with_gradients) states.gradients.assign(points, bonds::gradient_state(Tensor::Zero(), 0, 0, NoStabilization()));
+  if (with_gradients) {  // undeformed, as what moves rigidly stays
+    states.gradients.assign(points, bonds::gradient_state(Tensor::Identity(), 0, 0, NoStabilization()));
+  }
   return states;
 }
 
@@ -115,9 +118,10 @@ void set_shapes(Body& body) {
     };
     body.lattice_sums.push_back(std::make_shared<LatticeSums>(body, lattice, set));
   }
-  for (const MaterialBlock& block : body.blocks) {
+  for (MaterialBlock& block : body.blocks) {
     if (block.lattice < 0) continue;
     for (const int i : block.points) sums.first_moments[i] = body.lattice_sums[block.lattice]->first_moment(i);
+    if (!block.off_stencil.places.empty()) set_shapes(body, block, LaneGroups(block, block.off_stencil), sums);
   }
   body.shape_inverse = Deduplicated<Symmetric>(std::move(sums.shape_inverses));
   body.first_moment = Deduplicated<Vector>(std::move(sums.first_moments));
@@ -170,6 +174,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
             .fracture = {},
             .lattice_sums = {}};
   const std::size_t owned = body.owned();
+  for (MaterialBlock& block : body.blocks) set_off_stencil(body.domain, block);
   body.force_states = zero_states(body.domain.sites.size(), materials);
   body.points.resize(owned);
   for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);

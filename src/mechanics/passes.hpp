@@ -46,8 +46,8 @@ inline bool is_due(const MaterialBlock& block, Bodies bodies) {
 }
 
 // Calls work(block, groups of its points) for a part of the points; on lattices, sums over which are of all points at
-// once, after the exchange, for all in the second part. `sweep`: calls a sweep of sums over a lattice with what takes
-// them.
+// once, after the exchange, for all in the second part, those that have lost bonds at last. `sweep`: calls a sweep of
+// sums over a lattice with what takes them.
 template <class AnyBody, class Sweep, class Work>
 void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
   for (auto& block : body.blocks) {
@@ -62,6 +62,9 @@ void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, co
         if (is_on_it(block)) work(block, LaneGroups(block, chunk));
       }
     });
+    for (auto& block : body.blocks) {
+      if (is_on_it(block) && !block.off_stencil.places.empty()) work(block, LaneGroups(block, block.off_stencil));
+    }
   }
 }
 

@@ -271,6 +271,8 @@ std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search,
 struct Stencils {
   std::vector<LatticeFamilies> lattices;
   std::vector<int> of;  // of pool members; −1: lists
+
+  bool is_listed(int i) const { return of[i] < 0 || lattices[of[i]].frame().loses_bonds; }
 };
 
 Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<Vector>& positions,
@@ -328,7 +330,7 @@ void for_each_neighbor(const Stencils& stencils, const Search& search, const Can
 // that are in some family, ordered by id (ranks that own them send runs of ids).
 struct Order {
   std::vector<int> points, ghosts;
-  std::size_t listed = 0;  // bonds of points that are on no lattice
+  std::size_t listed = 0;  // bonds of points that have lists
   int interior = 0;
 };
 
@@ -352,6 +354,7 @@ Order order_of(const Stencils& stencils, const Search& search, const CandidatePo
   Eigen::AlignedBox3d others;
   for (std::size_t j = owned; j < pool.ids.size(); ++j) others.extend(pool.positions[j]);
   for (int i = 0; i < owned; ++i) {
+    if (stencils.of[i] >= 0 && stencils.is_listed(i)) order.listed += stencils.lattices[stencils.of[i]].family_size(i);
     if (stencils.of[i] >= 0 && !(others.squaredExteriorDistance(pool.positions[i]) <= search.reach * search.reach))
       continue;
     for_each_neighbor(stencils, search, pool, i, [&](int j) {
@@ -370,8 +373,8 @@ Order order_of(const Stencils& stencils, const Search& search, const CandidatePo
   return order;
 }
 
-// Lists of the points in their order, neighbors by local[], from a second look at the grid. A cluster is of points that
-// follow upon each other, of one block, and of the interior or the boundary.
+// Lists of the points that have them, in their order, neighbors by local[], from a second look at the grid. A cluster
+// is of points that follow upon each other, of one block, and of the interior or the boundary.
 ClusterLists lists_of(const Stencils& stencils, const Search& search, const CandidatePool& pool,
                       const std::vector<int>& blocks, const Order& order, const std::vector<int>& local) {
   ClusterLists lists;
@@ -382,9 +385,9 @@ ClusterLists lists_of(const Stencils& stencils, const Search& search, const Cand
   for (const auto part : {points.first(order.interior), points.subspan(order.interior)}) {
     for (auto begin = part.begin(); begin != part.end();) {
       const int kind = blocks[*begin];
-      const bool is_listed = stencils.of[*begin] < 0;
+      const bool is_listed = stencils.is_listed(*begin);
       const auto end = std::find_if(begin, part.end(),
-                                    [&](int i) { return blocks[i] != kind || (stencils.of[i] < 0) != is_listed; });
+                                    [&](int i) { return blocks[i] != kind || stencils.is_listed(i) != is_listed; });
       if (is_listed) builder.add_all({begin, end}, family, [&](int j) { return pool.ids[j]; });
       begin = end;
     }
@@ -455,6 +458,17 @@ void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& 
   families.lattices = std::move(own.lattices);
   families.lattice_of = std::move(own.of);
   families.lattice_of.resize(owned);
+  const auto loses = [](const LatticeFrame& frame) { return frame.loses_bonds; };
+  if (std::none_of(frames.begin(), frames.end(), loses)) return;
+  families.off_stencil.assign(owned, 0);
+  for (int c = 0; c < families.lists.count(); ++c) {
+    const Cluster cluster = families.lists[c];
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      const int i = cluster.points[l];
+      const LatticeFamilies* stencil = families.lattice(i);
+      families.off_stencil[i] = stencil && stencil->family_size(i) > cluster.family_size(l);  // for a crack
+    }
+  }
 }
 
 }  // namespace
@@ -475,7 +489,8 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
   const std::vector<LatticeFrame> frames = chosen_frames(found, stencils, pool, owned, communicator);
   if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
-  const bool any_lists = std::find(stencils.of.begin(), stencils.of.end(), -1) != stencils.of.end();
+  bool any_lists = false;
+  for (std::size_t i = 0; i < stencils.of.size(); ++i) any_lists = any_lists || stencils.is_listed(static_cast<int>(i));
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
   const LeftOut apart = left_out(cloud, bonds, pool, grid, reach, communicator);
   const Search search{grid, apart, cracks, reach};
@@ -483,7 +498,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   PointCloud mine = reordered(cloud, order.points);
   mine.positions = {}, mine.volumes = {};
   Members members = members_of(pool, order, owned);
-  Families families{lists_of(stencils, search, pool, cloud.blocks, order, members.local), {}, {}, {}};
+  Families families{.lists = lists_of(stencils, search, pool, cloud.blocks, order, members.local)};
   add_lattices(frames, pool, members, owned, families);
   Halo halo(communicator, mine.ids, members.ghost_ids);
   const int ghosts = static_cast<int>(order.ghosts.size());
@@ -516,6 +531,7 @@ std::size_t Families::bonds() const {
     for (std::size_t n = 0; n < cluster.near.size(); ++n) count += std::popcount(cluster.mask[n]);
   }
   for (const LatticeFamilies& stencil : lattices) {
+    if (stencil.frame().loses_bonds) continue;  // they are in lists
     for (std::size_t i = 0; i < lattice_of.size(); ++i) {
       if (stencil.cell(static_cast<int>(i)) >= 0) count += stencil.family_size(static_cast<int>(i));
     }

@@ -46,8 +46,8 @@ struct Domain {
   std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
 };
 
-// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud; all ask for lists where there are
-// cracks.
+// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud; all may lose bonds where there
+// are cracks.
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
                    const std::vector<Crack>& cracks = {});
 

@@ -90,8 +90,8 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
     bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
     const bool any = bonds.back().touching || bonds.back().through_material;
-    const bool break_or_cut = section->damage_model || !deck.discretization.cracks.empty();
-    if (any || break_or_cut || material.formulation != Formulation::correspondence) {
+    bonds.back().may_lose_bonds = section->damage_model || !deck.discretization.cracks.empty();
+    if (any || material.formulation != Formulation::correspondence) {
       bonds.back().families = FamilyKind::lists;
     }
   }

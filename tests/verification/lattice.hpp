@@ -6,6 +6,7 @@
 #include <functional>
 #include <random>
 
+#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
 #include "points/partition.hpp"
@@ -56,14 +57,18 @@ inline PointCloud lattice_cloud(const LatticeSpec& spec, const Communicator& wor
 inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
   PointCloud cloud = partitioned(lattice_cloud(spec, world), world);
   BlockBonds bonds(spec.horizon * spec.spacing);
-  const bool by_lists = spec.material.formulation != Formulation::correspondence || spec.material.damage;
-  bonds.families = by_lists || !spec.cracks.empty() ? FamilyKind::lists : spec.families;
+  const bool by_lists = spec.material.formulation != Formulation::correspondence;
+  bonds.families = by_lists ? FamilyKind::lists : spec.families;
+  bonds.may_lose_bonds = spec.material.damage || !spec.cracks.empty();
   Domain domain = make_domain(std::move(cloud), {bonds}, world, spec.cracks);
   return make_body(std::move(domain), spec.influence, {spec.material});
 }
 
-// Puts every owned point at place(X).
+// Puts every owned point at place(X), as if in a step of one second.
 inline void deform(Body& body, const std::function<Vector(const Vector&)>& place) {
+  std::vector<Vector> steps;
+  for (int i = 0; i < body.owned(); ++i) steps.push_back(place(body.domain.reference(i)) - body.current(i));
+  if (body.fracture) body.fracture->start_step(body, steps, 1);
   for (int i = 0; i < body.owned(); ++i) {
     body.domain.sites[i].current.head<3>() = place(body.domain.reference(i)).array();
   }

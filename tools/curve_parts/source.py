@@ -19,7 +19,8 @@ def history(path):
     try:
         with open(path, newline="") as file:
             text = file.read()
-        rows = list(csv.reader(text[:text.rfind("\n") + 1].splitlines()))
+        lines = text[:text.rfind("\n") + 1].splitlines()
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
         table = np.array([[float(x) for x in row] for row in rows[1:] if len(row) == len(rows[0])])
     except (UnicodeDecodeError, ValueError, IndexError) as error:
         fail(f"{path} is not a history: {error}")
@@ -38,7 +39,7 @@ class Sample:
 
 def column(table, name, option):
     if name not in table:
-        fail(f"{option}: there is no column '{name}' in the history{nearest(name, list(table))}; there are {', '.join(list(table)[:-1])}")
+        fail(f"{option}: there is no column '{name}' in the history{nearest(name, list(table))}; there are {', '.join(table)}")
     return table[name]
 
 

@@ -11,7 +11,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from decks import Deck, value_of
-from strut_tools import ROOT, fail, nearest
+from strut_tools import ROOT, fail, history_of, nearest
 
 FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "seconds": r"^whole run +([\d.]+)",
          "balance_error": r"balance error ([\d.e+-]+)"}
@@ -30,9 +30,8 @@ def last_row(case):
     path = name and os.path.join(case.folder, name)
     if not path or not os.path.isfile(path):
         return {}
-    with open(path, newline="") as file:
-        rows = [row for row in csv.reader(file)]
-    return {k: float(v) for k, v in list(zip(rows[0], rows[-1]))[:-1]} if len(rows) > 1 else {}
+    rows = history_of(path)
+    return rows[-1] if rows else {}
 
 
 def measures_of(case, options):

@@ -90,23 +90,6 @@ Section blocks_section() {
                              initial_temperature}}}};
 }
 
-// Where bonds of a block may break, its own or those to another of its body, what its springs dissipate must be known.
-void check_stabilizations(const std::vector<Block>& all, const std::vector<Material>& materials, Problems& problems) {
-  const auto breaks = [](const Block& block) { return block.damage_model && !block.separate_body; };
-  const bool common_body_breaks = std::any_of(all.begin(), all.end(), breaks);
-  for (const Block& block : all) {
-    const bool may_break = block.damage_model || (common_body_breaks && !block.separate_body);
-    if (!may_break || block.material >= static_cast<int>(materials.size())) continue;
-    const Material& of_block = materials[block.material];
-    if (of_block.formulation != Formulation::correspondence) continue;
-    if (residual_of(of_block.stabilization) != ResidualKind::both_gradients) continue;
-    problems.add("Blocks > " + block.name + " > " + (block.damage_model ? damage_model.name : material.name),
-                 "bonds with the Stabilization of material '" + of_block.name +
-                     "' cannot break: what its springs dissipate is not known; expected 'Silling' or 'None', or "
-                     "Formulation 'Quadratic Correspondence'");
-  }
-}
-
 bool asks_for_temperature(const DamageModel& model) {
   const auto* johnson_cook =
       model.ductility ? std::get_if<materials::JohnsonCookFailure>(&model.ductility->criterion) : nullptr;
@@ -168,12 +151,6 @@ void check_damage_model(const Values& section, const Material& material, const N
                  "'" + named.name + "' has D5, but material '" + material.name +
                      "' does not know its temperature; expected one that does, or no D5");
   }
-  if (material.formulation == Formulation::quadratic && model.fracture_energy > 0 && !model.critical_bond_energy) {
-    problems.add(section.path_to(damage_model),
-                 "model '" + named.name +
-                     "' has a Fracture Energy, for which no critical stretch is known by Formulation 'Quadratic "
-                     "Correspondence'; expected one with a Critical Stretch");
-  }
 }
 
 std::optional<int> find_damage_model(const Values& section, const Material& material,
@@ -203,7 +180,6 @@ std::vector<Block> read_blocks(const Values& deck, const std::vector<Material>& 
                    .initial_temperature = section[initial_temperature]});
   }
   check_overlaps(all, problems);
-  check_stabilizations(all, materials, problems);
   check_bond_energies(all, materials, damage_models, problems);
   return all;
 }

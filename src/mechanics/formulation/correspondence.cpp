@@ -46,7 +46,8 @@ struct Update {
   }
 
   // A failed point goes on as a mass. F and R stay as they were; where bonds may break, as they were when it failed:
-  // what its springs held then is counted before they are gone (Fracture).
+  // what its springs held then is counted before they are gone (Fracture). Those on both ends' gradients go with its
+  // bonds, in the next step.
   void store_failed(const LawPoints& g, int l, const Deformed& now) const {
     const int i = g.group.i[l];
     double& failed = body().force_states.tensors[i].failed();
@@ -57,6 +58,7 @@ struct Update {
     }
     drop_forces(g.group, l);
     failed = 1;
+    if (block().material.damage) store_gradient(i, body().points[i].stabilization, body().share(i, law.pass.level));
   }
 
   // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.

@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "mechanics/formulation/lattice_cell.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "points/parallel_for.hpp"
@@ -30,11 +31,14 @@ constexpr int iterations = 16;
 
 constexpr int state_width = sizeof(QuadraticState) / sizeof(double);
 
-CellShape shape_of(const Body& body, int i) {
-  if (!body.domain.cloud.shapes.empty()) return body.domain.cloud.shapes[i];
+CellShape cube_of(double volume) {
   CellShape cube;
-  cube.moments.head<3>().setConstant(std::pow(body.domain.volume(i), 2.0 / 3) / 12);
+  cube.moments.head<3>().setConstant(std::pow(volume, 2.0 / 3) / 12);
   return cube;
+}
+
+CellShape shape_of(const Body& body, int i) {
+  return body.domain.cloud.shapes.empty() ? cube_of(body.domain.volume(i)) : body.domain.cloud.shapes[i];
 }
 
 Basis basis(const Vector& xi, double h) {
@@ -80,19 +84,20 @@ struct FamilySums {
   Matrix9 moments = Matrix9::Zero(), squares = Matrix9::Zero();
 };
 
-FamilySums sums_of_family(const Body& body, int i) {
-  const double h = body.domain.cloud.spacings[i];
+// Of a point with the spacing h; over(visit) calls visit(ω V_j, V_j, ξ).
+template <class Over>
+FamilySums sums_of_family(double h, double volume, const Over& over) {
   FamilySums sums;
   Basis first = Basis::Zero();
-  over_family(body, i, [&](int j, double w, const Vector& xi) {
+  over([&](double w, double far_volume, const Vector& xi) {
     const Basis b = basis(xi, h);
     const Matrix9 product = b * b.transpose();
     sums.weight += w;
     sums.moments += w * product;
-    sums.squares += w * w / body.domain.volume(j) * product;
+    sums.squares += w * w / far_volume * product;
     first += w * b;
   });
-  sums.squares += first * first.transpose() / body.domain.volume(i);
+  sums.squares += first * first.transpose() / volume;
   return sums;
 }
 
@@ -122,9 +127,7 @@ double steepness_with(const FamilySums& sums, const Matrix9& inverse, double vol
 }
 
 // P, B, Q of a point, whose cell is set. False where its neighbors do not span space.
-bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
-  const double h = body.domain.cloud.spacings[i], volume = body.domain.volume(i);
-  const FamilySums sums = sums_of_family(body, i);
+bool fit_motion(const FamilySums& sums, double h, double volume, QuadraticFit& fit) {
   if (!(sums.weight > 0) || least_square(sums.moments.topLeftCorner<3, 3>() / sums.weight) < least_for_stress) {
     return false;
   }
@@ -143,6 +146,14 @@ bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
     for (int l = k; l < 6; ++l) *second++ = 0.5 * (inverse(3 + k, 3 + l) + inverse(3 + l, 3 + k)) / (h * h * h * h);
   }
   return true;
+}
+
+bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
+  const double h = body.domain.cloud.spacings[i], volume = body.domain.volume(i);
+  const auto over = [&](const auto& visit) {
+    over_family(body, i, [&](int j, double w, const Vector& xi) { visit(w, body.domain.volume(j), xi); });
+  };
+  return fit_motion(sums_of_family(h, volume, over), h, volume, fit);
 }
 
 // The state of a point under a stress that gives V (mean : ∂F + moments : ∂H) to the energy's change.
@@ -406,6 +417,29 @@ double steepness_of(const Body& body, int i, const Eigen::Array4d* multipliers, 
 }
 
 }  // namespace
+
+CellWeights lattice_cell(double spacing, const std::vector<FitBond>& family) {
+  const double volume = spacing * spacing * spacing;
+  QuadraticFit fit;
+  set_cell(cube_of(volume), fit);
+  const auto over = [&](const auto& visit) {
+    for (const FitBond& bond : family) visit(bond.weight, volume, bond.xi);
+  };
+  CellWeights weights;
+  if (!fit_motion(sums_of_family(spacing, volume, over), spacing, volume, fit)) return weights;
+  std::array<Vector, 4> own;
+  own.fill(Vector::Zero());
+  for (const FitBond& bond : family) {
+    std::array<Vector, 4>& of_bond = weights.bonds.emplace_back();
+    for (int q = 0; q < 4; ++q) {
+      of_bond[q] = weight_of_bond(fit, volume, bond.weight, bond.xi, Eigen::Array4d::Zero(), place_of(fit, q));
+      weights.steepness += of_bond[q].squaredNorm() / 4;
+      own[q] -= of_bond[q];
+    }
+  }
+  for (const Vector& g : own) weights.steepness += g.squaredNorm() / 4;
+  return weights;
+}
 
 bool spans_cell(const Domain& domain, int i) {
   const double volume = family_volume(domain, i), h = domain.cloud.spacings[i];

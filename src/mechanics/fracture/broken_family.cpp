@@ -5,6 +5,7 @@
 
 #include "base/math/rotation.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/fracture/strain_jump.hpp"
 #include "mechanics/kernels/bonds.hpp"
 
 namespace strut {
@@ -62,16 +63,20 @@ Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
   return N * to_tensor(body.shape_inverse[i]);
 }
 
-// The part of a jump ΔF that stress follows: to the least of W + λ P:ΔF + ½ λ² ΔF:C:ΔF for λ from 0 to 1.
+// For λ between 0 and 1, of what the energy falls by at first, and Δε:C:Δε.
+double part_to_least(const materials::Moduli& moduli, double falls, const Tensor& jump) {
+  const double trace = jump.trace();
+  const double curvature = (moduli.bulk - 2 * moduli.shear / 3) * trace * trace + 2 * moduli.shear * jump.squaredNorm();
+  return falls > 0 ? std::min(1.0, falls / curvature) : 0;
+}
+
+// The same of a jump ΔF, by P:ΔF.
 double part_that_releases(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& jump) {
   const Tensor& F = point.deformation_gradient;
   const Tensor R = point.rotation.tensor();
   const Tensor P = F.determinant() * R * to_tensor(point.stress) * R.transpose() * F.inverse().transpose();
   const Tensor strain = 0.5 * (R.transpose() * jump + jump.transpose() * R);
-  const double trace = strain.trace(), falls = -P.cwiseProduct(jump).sum();
-  const double curvature =
-      (moduli.bulk - 2 * moduli.shear / 3) * trace * trace + 2 * moduli.shear * strain.squaredNorm();
-  return falls > 0 ? std::min(1.0, falls / curvature) : 0;
+  return part_to_least(moduli, -P.cwiseProduct(jump).sum(), strain);
 }
 
 // So that the step goes on from the gradient that the bonds left have at its start, less the part of the jump that
@@ -99,6 +104,12 @@ bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& s
 }
 
 }  // namespace
+
+double part_that_releases(const materials::Moduli& moduli, const Tensor& strain, const Tensor& jump) {
+  const double lame = moduli.bulk - 2 * moduli.shear / 3;
+  const double grows = lame * strain.trace() * jump.trace() + 2 * moduli.shear * strain.cwiseProduct(jump).sum();
+  return part_to_least(moduli, -grows, jump);
+}
 
 double steepness(const Body& body, int i) {
   const bool is_cell = body.block_of(i).is_quadratic();

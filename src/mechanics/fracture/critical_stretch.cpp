@@ -29,13 +29,26 @@ std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
 
 namespace {
 
-// The energy of a point so many layers above the plane, J/m³, at an opening. Bonds across the plane that break at
-// `broken` or less are gone.
+// C, Pa/m⁵.
+double spring_stiffness(const PulledLattice& lattice, const std::vector<LatticeBond>& family) {
+  double trace = 0;
+  for (const LatticeBond& bond : family) trace += bond.weight * bond.xi.squaredNorm();
+  return lattice.coefficient * lattice.moduli.longitudinal() / (trace / 3);
+}
+
+// The energy of a point so many layers above the plane, J/m³, at an opening, but for springs on both ends' gradients.
+// Bonds across the plane that break at `broken` or less are gone.
 class SeparatedPoint {
  public:
   SeparatedPoint(const PulledLattice& lattice, const std::vector<LatticeBond>& family, int layer)
       : lattice_(lattice), family_(family), layer_(layer) {}
 
+  // Of the gradient of displacements: H = N K⁻¹, N, and Σ ω V |η|² of the displacements.
+  struct Fit {
+    Tensor gradient, moment;
+    double squares;
+  };
+  Fit fit(double opening, double broken) const;
   double energy(double opening, double broken) const {
     return lattice_.formulation == Formulation::ordinary ? ordinary(opening, broken) : correspondence(opening, broken);
   }
@@ -65,28 +78,67 @@ double SeparatedPoint::ordinary(double opening, double broken) const {
 }
 
 double SeparatedPoint::correspondence(double opening, double broken) const {
-  Tensor K = Tensor::Zero(), N = Tensor::Zero();
-  double first_trace = 0, squares = 0;
-  const Vector apart(0, 0, -opening);  // of a far end below the plane
-  for (const LatticeBond& bond : family_) {
-    first_trace += bond.weight * bond.xi.squaredNorm();
-    if (crosses(bond) && bond.opening <= broken) continue;
-    K += bond.weight * bond.xi * bond.xi.transpose();
-    if (!crosses(bond)) continue;
-    N += bond.weight * apart * bond.xi.transpose();
-    squares += bond.weight * apart.squaredNorm();
-  }
-  const Tensor gradient = N * K.inverse(), strain = 0.5 * (gradient + gradient.transpose());
+  const auto [gradient, N, squares] = fit(opening, broken);
+  const Tensor strain = 0.5 * (gradient + gradient.transpose());
   const auto& [bulk, shear] = lattice_.moduli;
   const double trace = strain.trace();
   const double elastic = 0.5 * (bulk - 2 * shear / 3) * trace * trace + shear * strain.squaredNorm();
-  const double C = lattice_.silling * lattice_.moduli.longitudinal() / (first_trace / 3);
-  return elastic + 0.5 * C * (squares - (N.transpose() * gradient).trace());
+  if (lattice_.springs != ResidualKind::own_gradient) return elastic;
+  return elastic + 0.5 * spring_stiffness(lattice_, family_) * (squares - (N.transpose() * gradient).trace());
+}
+
+SeparatedPoint::Fit SeparatedPoint::fit(double opening, double broken) const {
+  Tensor K = Tensor::Zero();
+  Fit fit{Tensor::Zero(), Tensor::Zero(), 0};
+  const Vector apart(0, 0, -opening);  // of a far end below the plane
+  for (const LatticeBond& bond : family_) {
+    if (crosses(bond) && bond.opening <= broken) continue;
+    K += bond.weight * bond.xi * bond.xi.transpose();
+    if (!crosses(bond)) continue;
+    fit.moment += bond.weight * apart * bond.xi.transpose();
+    fit.squares += bond.weight * apart.squaredNorm();
+  }
+  fit.gradient = fit.moment * K.inverse();
+  return fit;
+}
+
+// Of the springs on both ends' gradients, of the layers of one half, J/m³: ½ C Σ ω V |η − ½ (H_i + H_j) ξ|² a point.
+// The halves mirror each other, and H has only the component along the normal.
+double energy_of_mean_springs(const PulledLattice& lattice, const std::vector<LatticeBond>& family, int layers,
+                              double opening, double broken) {
+  std::vector<double> stretch(2 * layers, 0);  // that of layers farther away sees no bond across the plane
+  for (int layer = 0; layer < layers; ++layer) {
+    stretch[layer] = SeparatedPoint(lattice, family, layer).fit(opening, broken).gradient(2, 2);
+  }
+  const auto of = [&](int layer) { return layer < 2 * layers ? stretch[layer] : 0.0; };
+  double sum = 0;
+  for (int layer = 0; layer < 2 * layers; ++layer) {
+    for (const LatticeBond& bond : family) {
+      const bool crosses = bond.layers_below > layer;
+      if (crosses && bond.opening <= broken) continue;
+      const int far = crosses ? bond.layers_below - layer - 1 : layer - bond.layers_below;
+      const double z = (crosses ? -opening : 0) - 0.5 * (of(layer) + of(far)) * bond.xi[2];
+      sum += 0.5 * bond.weight * z * z;
+    }
+  }
+  return spring_stiffness(lattice, family) * sum;
+}
+
+// The energy of the layers of one half, J/m³.
+double energy_of_half(const PulledLattice& lattice, const std::vector<LatticeBond>& family, int layers, double opening,
+                      double broken) {
+  double sum = 0;
+  for (int layer = 0; layer < layers; ++layer) {
+    sum += SeparatedPoint(lattice, family, layer).energy(opening, broken);
+  }
+  if (lattice.springs != ResidualKind::both_gradients || !(lattice.coefficient > 0)) return sum;
+  return sum + energy_of_mean_springs(lattice, family, layers, opening, broken);
 }
 
 }  // namespace
 
 double energy_of_separation(const PulledLattice& lattice) {
+  if (lattice.formulation == Formulation::quadratic) return separation_of_cells(lattice);
   const std::vector<LatticeBond> family = family_of(lattice);
   std::vector<double> openings;
   int layers = 0;
@@ -99,24 +151,39 @@ double energy_of_separation(const PulledLattice& lattice) {
   double released = 0, before = 0;
   for (const double opening : openings) {
     if (opening <= before * (1 + 1e-12)) continue;
-    for (int layer = 0; layer < layers; ++layer) {
-      const SeparatedPoint point(lattice, family, layer);
-      released += point.energy(opening, before) - point.energy(opening, opening * (1 + 1e-12));
-    }
-    before = opening * (1 + 1e-12);
+    const double after = opening * (1 + 1e-12);
+    released += energy_of_half(lattice, family, layers, opening, before) -
+                energy_of_half(lattice, family, layers, opening, after);
+    before = after;
   }
   return 2 * lattice.spacing * released;  // of both halves
 }
 
 namespace {
 
+// The longest bond of a block, of all ranks, m: by quadratic correspondence families may be those that touch, whatever
+// the horizon.
+double longest_bond(const Body& body, const MaterialBlock& block) {
+  double longest = 0;
+  for (const int i : block.points) {
+    body.domain.families.for_each(
+        i, [&](int j) { longest = std::max(longest, (body.domain.reference(j) - body.domain.reference(i)).norm()); });
+  }
+  return body.domain.communicator.max(longest);
+}
+
 PulledLattice lattice_of(const Body& body, std::size_t b) {
   const BlockMaterial& material = body.blocks[b].material;
   const BlockHorizons& of_block = body.domain.blocks[b];
   const auto moduli = std::visit([](const auto& law) -> materials::Moduli { return law.moduli(); }, material.law);
-  const bool springs = residual_of(material.stabilization) == ResidualKind::own_gradient;
-  return {of_block.spacing,     of_block.largest, body.influence,
-          material.formulation, moduli,           springs ? coefficient_of(material.stabilization) : 0};
+  const double horizon = body.blocks[b].is_quadratic() ? longest_bond(body, body.blocks[b]) : of_block.largest;
+  return {of_block.spacing,
+          horizon,
+          body.influence,
+          material.formulation,
+          moduli,
+          residual_of(material.stabilization),
+          coefficient_of(material.stabilization)};
 }
 
 }  // namespace

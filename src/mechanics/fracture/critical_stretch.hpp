@@ -11,9 +11,10 @@ namespace strut {
 struct PulledLattice {
   double spacing, horizon;  // m
   Influence influence;
-  Formulation formulation;  // ordinary or correspondence
+  Formulation formulation;
   materials::Moduli moduli;
-  double silling = 0;  // c of springs on a point's own gradient
+  ResidualKind springs = ResidualKind::none;  // of what residual
+  double coefficient = 0;                     // c of these
 };
 
 struct LatticeBond {
@@ -30,6 +31,9 @@ std::vector<LatticeBond> family_of(const PulledLattice& lattice);
 // normal without deformation, by bonds whose critical stretch is 1 and in small strains: of s_c it is s_c² times as
 // much. Each break dissipates by how much the energy of the points on both sides falls.
 double energy_of_separation(const PulledLattice& lattice);
+
+// The same by quadratic correspondence.
+double separation_of_cells(const PulledLattice& lattice);
 
 // The same of an ordinary lattice by bonds whose critical energy w_c is 1 J/m⁶, J/m² for each J/m⁶: of w_c it is w_c
 // times as much.

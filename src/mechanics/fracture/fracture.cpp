@@ -9,7 +9,10 @@
 #include "base/timing.hpp"
 #include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/critical_stretch.hpp"
+#include "mechanics/fracture/spring_account.hpp"
+#include "mechanics/fracture/strain_jump.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/off_stencil.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -24,12 +27,22 @@ constexpr double of_failed = 1e-200;  // a limit that every bond exceeds
 // A look at several bonds and the decision on each may round differently: below this part of the limit none is cut.
 constexpr double round_off = 1e-9;
 
-// The clusters of a part of a block: the first, and one past the last.
+// The points of a block whose stress is updated with a part: on lattices all with the second (over_blocks).
+std::pair<int, int> updated_with(const MaterialBlock& block, Part part) {
+  if (block.lattice < 0) return range(block, part);
+  return {0, part == Part::interior ? 0 : static_cast<int>(block.points.size())};
+}
+
+// Their clusters: the first, and one past the last. On a lattice there may be clusters of other blocks between them.
 std::pair<int, int> clusters_of(const Body& body, const MaterialBlock& block, Part part) {
-  const auto [begin, end] = range(block, part);
+  const auto [begin, end] = updated_with(block, part);
   if (begin == end) return {0, 0};
   const ClusterLists& lists = body.domain.families.lists;
   return {lists.holding(block.points[begin]), lists.holding(block.points[end - 1]) + 1};
+}
+
+bool is_of(const Body& body, const MaterialBlock& block, int cluster) {
+  return block.lattice < 0 || &body.block_of(body.domain.families.lists[cluster].points[0]) == &block;
 }
 
 // Calls work(block, first cluster, one past the last) for the blocks that are strained and may break.
@@ -55,6 +68,11 @@ double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
     return 1.0;
   };
   return std::visit(part, block.material.law);
+}
+
+// What is missing in the balance of a point.
+double released(const PointAccount& before, const PointAccount& after) {
+  return 0.5 * (before.work + after.work) - (after.energy - before.energy);
 }
 
 bool fails(const MaterialBlock& block) {
@@ -100,7 +118,7 @@ void Fracture::set_which(const Body& body) {
   }
 }
 
-Fracture::Fracture(Body& body) {
+Fracture::Fracture(Body& body) : travel_(body.domain) {
   const Domain& domain = body.domain;
   set_critical_values(body);
   set_crack_lengths(body);
@@ -114,11 +132,10 @@ Fracture::Fracture(Body& body) {
   dissipated_.assign(domain.owned, 0);
   released_.assign(domain.owned, 0);
   for (int i = 0; i < domain.owned; ++i) whole_volume_.push_back(family_volume(domain, i));
-  watched_.resize(domain.families.lists.count());
+  look_at_all(body);
   set_shortest(body);
   set_most_steepness(body);
   set_limits(body, 0);
-  finish_step(body);
 }
 
 void Fracture::set_limits(const Body& body, double time) {
@@ -155,19 +172,19 @@ void Fracture::take_failed(const Body& body) {
 void Fracture::look_around(const Body& body, const std::vector<char>& points) {
   if (points.empty()) return;
   const auto is = [&points](int i) { return points[i] != 0; };
-  for (std::size_t c = 0; c < watched_.size(); ++c) {
+  for (std::size_t c = 0; c < due_.size(); ++c) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(c)];
     const bool meets = std::any_of(cluster.near.begin(), cluster.near.end(), is) ||
                        std::any_of(cluster.points.begin(), cluster.points.end(), is);
-    if (meets) watched_[c].due = 0;
+    if (meets) due_[c] = 0;
   }
 }
 
-// Of the points of a block, in their spacings, so many times the least, which is that of a point inside: as at a
-// corner, where an eighth of the family is left. So broken families do not make the critical time step smaller than
-// corners do. A point that is steeper from the start may be half as much again.
+// Of the points of a block, in their spacings, so many times the least, which is that of a point inside. So broken
+// families do not make the critical time step smaller than corners do. A point that is steeper from the start may be
+// half as much again.
 void Fracture::set_most_steepness(const Body& body) {
-  constexpr double corner = 8, more_than_first = 1.5;
+  constexpr double more_than_first = 1.5;
   const auto in_spacings = [&body](int i) { return steepness(body, i) * std::pow(body.domain.cloud.spacings[i], 2); };
   std::vector<double> least;  // of each block, negated
   for (const MaterialBlock& block : body.blocks) {
@@ -177,13 +194,14 @@ void Fracture::set_most_steepness(const Body& body) {
   }
   body.domain.communicator.max(least);
   for (int i = 0; i < body.owned(); ++i) {
-    const double of_block = -corner * least[body.domain.cloud.blocks[i]] / std::pow(body.domain.cloud.spacings[i], 2);
+    const double of_block =
+        -steepness_of_corners * least[body.domain.cloud.blocks[i]] / std::pow(body.domain.cloud.spacings[i], 2);
     most_steepness_.push_back(std::max(of_block, more_than_first * steepness(body, i)));
   }
 }
 
 void Fracture::set_shortest(const Body& body) {
-  for (std::size_t b = 0; b < watched_.size(); ++b) {
+  for (std::size_t b = 0; b < due_.size(); ++b) {
     const Cluster cluster = body.domain.families.lists[static_cast<int>(b)];
     double shortest = never;
     for (std::size_t n = 0; n < cluster.near.size(); ++n) {
@@ -193,30 +211,37 @@ void Fracture::set_shortest(const Body& body) {
         shortest = std::min(shortest, xi.norm());
       }
     }
-    watched_[b].shortest = shortest;
+    shortest_.push_back(shortest);
   }
 }
 
-// By twice the largest motion of the step against the mean of the owned points', whatever that is.
-void Fracture::advance_travel(const Body& body, Part part) {
-  const Domain& domain = body.domain;
-  const auto step = [&](int i) -> Vector { return domain.current(i) - start_[i]; };
-  const auto largest_of = [&](int begin, int end) {
-    return largest(begin, end, 0, [&](int i) {
-      return may_break_[static_cast<std::size_t>(block_of_[i])] ? (step(i) - mean_step_).squaredNorm() : 0.0;
-    });
-  };
-  if (part == Part::interior) {
-    mean_step_.setZero();
-    for (int i = 0; i < domain.owned; ++i) mean_step_ += step(i) / domain.owned;
-    largest_step2_ = largest_of(0, domain.owned);
-    last_travel_[0] = 2 * std::sqrt(largest_step2_);
-    travel_[0] += last_travel_[0];
-  } else {
-    const int all = static_cast<int>(domain.sites.size());
-    last_travel_[1] = 2 * std::sqrt(std::max(largest_step2_, largest_of(domain.owned, all)));
-    travel_[1] += last_travel_[1];
+void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt) {
+  std::vector<double> due = due_;
+  for (const MaterialBlock& block : body.blocks) {
+    if (!block.in_rigid_motion) continue;
+    for (const Part part : {Part::interior, Part::boundary}) {
+      const auto [first, last] = clusters_of(body, block, part);
+      for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];
+    }
   }
+  const bool is_due = travel_.advance(body, velocities, dt, due);
+  const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
+  is_looked_at_ = is_due || by_time_ || any_fails || energies_.any();
+  if (is_looked_at_) keep_start(body);
+}
+
+void Fracture::look_at_all(const Body& body) {
+  due_.assign(body.domain.families.lists.count(), never);
+  for (std::size_t c = 0; c < due_.size(); ++c) {
+    const int i = body.domain.families.lists[static_cast<int>(c)].points[0];
+    if (may_break_[body.domain.cloud.blocks[i]]) due_[c] = 0;
+  }
+}
+
+void Fracture::keep_start(const Body& body) {
+  start_.resize(body.domain.sites.size());
+  for_each_point(0, static_cast<int>(start_.size()), [&](int i) { start_[i] = body.domain.current(i); });
+  start_gradients_ = body.force_states.gradients;
 }
 
 bool Fracture::holds_energy(const Body& body, const MaterialBlock& block) const {
@@ -224,7 +249,7 @@ bool Fracture::holds_energy(const Body& body, const MaterialBlock& block) const 
 }
 
 // Whether a bond of a cluster is at its limit, to round-off; and until when none is.
-bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int cluster, Part part) {
+bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int cluster) {
   const Cluster points = body.domain.families.lists[cluster];
   Lanes worst = Lanes::Zero(), load = Lanes::Zero(), room = Lanes::Constant(never);
   Stretches{body.domain.sites.data(), limits_.data()}.over(
@@ -235,33 +260,34 @@ bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int clu
     });
   }
   const double most = worst.maxCoeff();
-  const double by_stretch = watched_[cluster].shortest * std::max(0.0, 1 - std::sqrt(most));
-  const double by_energy = room.minCoeff() - last_travel_[part == Part::boundary];  // from the start of the step on
-  watched_[cluster].due = std::max(0.0, std::min(by_stretch, by_energy));           // to go, m
+  const double by_stretch = shortest_[cluster] * std::max(0.0, 1 - std::sqrt(most));
+  const double by_energy = room.minCoeff() - travel_.last();  // from the start of the step on
+  due_[cluster] = travel_.of(cluster) + std::max(0.0, std::min(by_stretch, by_energy));
   return std::max(most, load.maxCoeff()) > 1 - round_off;
 }
 
 void Fracture::break_bonds(Body& body, Part part, double time) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
+  if (!is_looked_at_) return;
   if (by_time_ && part == Part::interior) set_limits(body, time);
   const bool any_fails = std::find(may_fail_.begin(), may_fail_.end(), true) != may_fail_.end();
   if (any_fails && part == Part::interior) take_failed(body);
-  if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, last_travel_[1]));
-  advance_travel(body, part);
-  const double travel = travel_[part == Part::boundary];
-  std::vector<char> at_limit(watched_.size(), 0);
+  if (energies_.any() && part == Part::interior) look_around(body, energies_.take_states(body, travel_.last()));
+  std::vector<char> at_limit(due_.size(), 0);
   over_breakable(*this, body, part, [&](const MaterialBlock& block, int first, int last) {
     for_each_point(first, last, [&](int c) {
-      if (!by_time_ && travel < watched_[c].due) return;
-      at_limit[c] = is_at_limit(body, block, c, part);
-      watched_[c].due += travel;
+      if (!is_of(body, block, c)) return;
+      if (!by_time_ && travel_.of(c) < due_[c]) return;
+      at_limit[c] = is_at_limit(body, block, c);
     });
   });
   over_breakable(*this, body, part, [&](MaterialBlock& block, int first, int last) {
+    const std::size_t before = affected_.size();
     for (int c = first; c < last; ++c) {
-      if (at_limit[c]) cut(body, block, c);
+      if (at_limit[c] && is_of(body, block, c)) cut(body, block, c);
     }
+    if (block.lattice >= 0 && affected_.size() > before) set_off_stencil(body.domain, block);
   });
 }
 
@@ -283,6 +309,21 @@ unsigned Fracture::bonds_to_cut(const Body& body, const MaterialBlock& block, co
   return members;
 }
 
+namespace {
+
+// Of some members of a cluster.
+std::vector<std::vector<int>> families_of(const Cluster& cluster, unsigned members) {
+  std::vector<std::vector<int>> families(cluster.points.size());
+  for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+    for (std::size_t l = 0; l < families.size(); ++l) {
+      if (members & cluster.mask[n] & (1u << l)) families[l].push_back(cluster.near[n]);
+    }
+  }
+  return families;
+}
+
+}  // namespace
+
 void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   Domain& domain = body.domain;
   const Cluster cluster = domain.families.lists[cluster_number];
@@ -292,8 +333,13 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   const auto at = std::lower_bound(block.points.begin(), block.points.end(), cluster.points[0]);
   const int first = static_cast<int>(at - block.points.begin());
   const StepEnd start{body, start_, true};
-  affected_.push_back({static_cast<std::size_t>(&block - body.blocks.data()), cluster_number, first, members,
-                       accounts_of(block, first, cluster, start)});
+  affected_.push_back({static_cast<std::size_t>(&block - body.blocks.data()),
+                       cluster_number,
+                       first,
+                       members,
+                       accounts_of(block, first, cluster, start),
+                       {}});
+  if (block.has_springs(ResidualKind::both_gradients)) affected_.back().families = families_of(cluster, members);
   for (std::size_t n = 0; n < gone.size(); ++n) {
     if (gone[n] == 0) continue;
     domain.families.lists.cut(cluster_number, n, gone[n]);
@@ -307,6 +353,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   for (std::size_t l = 0; l < cluster.points.size(); ++l) {
     if (!(members >> l & 1)) continue;
     const int k = first + static_cast<int>(l), i = cluster.points[l];
+    if (block.lattice >= 0) domain.families.off_stencil[i] = 1;
     if (released_[i] > 0 || refit_in_step(body, block, k, most_steepness_[i], start)) continue;
     release(body, block, k);
     released_[i] = 1;
@@ -318,7 +365,7 @@ void Fracture::soften_springs(Body& body, Part part) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     if (!may_fail_[b] || block.in_rigid_motion || !block.has_springs(ResidualKind::own_gradient)) continue;
-    const auto [begin, end] = range(block, part);
+    const auto [begin, end] = updated_with(block, part);
     for (int k = begin; k < end; ++k) {
       const int i = block.points[k];
       const double left = whole_springs_[i] * part_of_springs(body, block, k);
@@ -334,24 +381,48 @@ void Fracture::soften_springs(Body& body, Part part) {
   }
 }
 
-void Fracture::count_dissipation(Body& body, Part part) {
+void Fracture::count(const Body& body, const Affected& one) {
   const StepEnd end{body, start_, false};
+  const Cluster cluster = body.domain.families.lists[one.cluster];
+  const auto after = accounts_of(body.blocks[one.block], one.first, cluster, end);
+  for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+    if (one.members >> l & 1) dissipated_[cluster.points[l]] += released(one.before[l], after[l]);
+  }
+}
+
+void Fracture::count_dissipation(Body& body, Part part) {
   for (const Affected& one : affected_) {
+    if (one.families.empty()) {
+      count(body, one);
+      continue;
+    }
     const Cluster cluster = body.domain.families.lists[one.cluster];
-    const auto after = accounts_of(body.blocks[one.block], one.first, cluster, end);
     for (std::size_t l = 0; l < cluster.points.size(); ++l) {
-      if (!(one.members >> l & 1)) continue;
-      const PointAccount &then = one.before[l], &now = after[l];
-      dissipated_[cluster.points[l]] += 0.5 * (then.work + now.work) - (now.energy - then.energy);
+      if (one.members >> l & 1) body.force_states.tensors[cluster.points[l]].lost_bonds() = 1;
     }
   }
-  affected_.clear();
+  std::erase_if(affected_, [](const Affected& one) { return one.families.empty(); });
   soften_springs(body, part);
 }
 
-void Fracture::finish_step(const Body& body) {
-  start_.resize(body.domain.sites.size());
-  for_each_point(0, static_cast<int>(start_.size()), [&](int i) { start_[i] = body.domain.current(i); });
+void Fracture::count_springs(Body& body) {
+  const std::vector<GradientState>& now = body.force_states.gradients;
+  const StepEnd start{body, start_, true}, end{body, start_, false};
+  for (const Affected& one : affected_) {
+    count(body, one);
+    const Cluster cluster = body.domain.families.lists[one.cluster];
+    const auto families = families_of(cluster, one.members);
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      const int i = cluster.points[l];
+      const PointAccount before = SpringAccount{start, start_gradients_, start_gradients_, now}.of(i, one.families[l]);
+      const PointAccount after = SpringAccount{end, now, start_gradients_, now}.of(i, families[l]);
+      dissipated_[i] += released(before, after);
+    }
+  }
+  for (const Affected& one : affected_) {
+    for (const int i : body.domain.families.lists[one.cluster].points) body.force_states.tensors[i].lost_bonds() = 0;
+  }
+  affected_.clear();
 }
 
 double Fracture::damage(const Body& body, int i) const {
@@ -360,9 +431,9 @@ double Fracture::damage(const Body& body, int i) const {
 }
 
 double Fracture::bytes() const {
-  return static_cast<double>(start_.size() * (sizeof(Vector) + 2 * sizeof(double)) + watched_.size() * sizeof(Watched) +
+  return static_cast<double>(limits_.size() * (sizeof(Vector) + 2 * sizeof(double)) + 2 * due_.size() * sizeof(double) +
                              whole_volume_.size() * (5 * sizeof(double) + sizeof(std::vector<int>))) +
-         static_cast<double>(broken_) * sizeof(int) + energies_.bytes();
+         static_cast<double>(broken_) * sizeof(int) + energies_.bytes() + travel_.bytes();
 }
 
 double Fracture::energy() const { return std::accumulate(dissipated_.begin(), dissipated_.end(), 0.0); }
@@ -419,6 +490,7 @@ void Fracture::serialize(Archive& archive, Body& body) {
   };
   states("tensor_state", body.force_states.tensors);
   states("scalar_state", body.force_states.scalars);
+  states("gradient_state", body.force_states.gradients);
   states("quadratic_state", body.force_states.quadratics);
   archive.field("released", 1, [&](std::size_t i, int) -> double& { return released_[i]; });
   archive.field("fracture_energy", 1, [&](std::size_t i, int) -> double& { return dissipated_[i]; });
@@ -433,6 +505,10 @@ void exchange_states(Body& body) {
   const Domain& domain = body.domain;
   constexpr int width = sizeof(ScalarState) / sizeof(double);
   if (!states.scalars.empty()) domain.halo.exchange(&states.scalars[0].a, width, width);
+  constexpr int of_gradients = sizeof(GradientState) / sizeof(double);
+  if (!states.gradients.empty()) {
+    domain.halo.exchange(states.gradients[0].column[0].data(), of_gradients, of_gradients);
+  }
   std::vector<double> failed(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) failed[i] = has_failed(states, i);
   domain.halo.exchange(failed.data(), 1, 1);
@@ -464,13 +540,14 @@ void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
       }
       broken_ += gone;
       lists.drop_cut(c);
+      if (gone > 0 && block.lattice >= 0) body.domain.families.off_stencil[i] = 1;
       if (gone > 0 && released_[i] == 0) refit(body, block, static_cast<int>(k), most_steepness_[i]);
       if (released_[i] > 0) release(body, block, static_cast<int>(k));
     }
+    set_off_stencil(body.domain, block);
   }
-  for (Watched& cluster : watched_) cluster.due = 0;
+  look_at_all(body);
   exchange_states(body);
-  finish_step(body);
 }
 
 }  // namespace strut

@@ -2,6 +2,7 @@
 // cluster, or by the sums over their lattice.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -31,12 +32,6 @@ struct LaneGroup {
   LaneIndices lane_indices() const { return {i, side_by_side}; }
 };
 
-// Some points of a block, with lists of their own.
-struct SelectedPoints {
-  std::vector<int> places;  // in block.points
-  ClusterLists lists;
-};
-
 // Points of a block, in groups.
 class LaneGroups {
  public:
@@ -49,19 +44,19 @@ class LaneGroups {
     first_ = lists_->holding(block.points[begin]);
     count_ = lists_->holding(block.points[end - 1]) + 1 - first_;
   }
-  // Those in some slots of a lattice: first who fill a group side by side in a pencil, whose sums stand so too.
+  // Those in some slots of a lattice, but not who have lost bonds: first who fill a group side by side in a pencil,
+  // whose sums stand so too.
   LaneGroups(const MaterialBlock& block, const LatticeSums::Chunk& chunk) : points_(&block.points), chunk_(&chunk) {
+    const std::vector<int>& off = block.off_stencil.places;
     for (const Part part : {Part::interior, Part::boundary}) {
       const auto [low, high] = range(block, part);
       const auto [begin, end] = chunk.part_of(block.points, low, high);
+      auto next = std::lower_bound(off.begin(), off.end(), begin);
       for (int at = begin; at < end;) {
-        const int apart = LaneGroup::width - 1, last = at + apart;
-        if (last < end && chunk.are_side_by_side(block.points[at], block.points[last], apart)) {
-          full_.push_back(at);
-          at = last + 1;
-        } else {
-          others_.push_back(at++);
-        }
+        const int stop = next == off.end() ? end : std::min(*next, end);
+        add_runs(at, stop);
+        at = stop + 1;
+        if (next != off.end()) ++next;
       }
     }
     count_ = static_cast<int>(full_.size()) + groups_of(others_);
@@ -73,24 +68,39 @@ class LaneGroups {
   LaneGroup operator[](int g) const {
     const int full = static_cast<int>(full_.size());
     if (chunk_) {
-      return g < full ? of_run(full_[g], LaneGroup::width, {}) : of_places(others_, g - full, {});
+      if (g < full) return of_run(full_[g], LaneGroup::width, {});
+      const int begin = (g - full) * LaneGroup::width, left = static_cast<int>(others_.size()) - begin;
+      return of_places(&others_[begin], std::min(left, LaneGroup::width), {});
     }
     const Cluster cluster = (*lists_)[first_ + g];
-    if (selected_) return of_places(*selected_, g, cluster);
-    return of_run(begin_ + cluster.points[0] - (*points_)[begin_], static_cast<int>(cluster.points.size()), cluster);
+    const int count = static_cast<int>(cluster.points.size());
+    if (selected_) return of_places(selected_->data() + lists_->first(g), count, cluster);
+    return of_run(begin_ + cluster.points[0] - (*points_)[begin_], count, cluster);
   }
 
  private:
+  // Of a chunk, the places from `at` up to `end`.
+  void add_runs(int at, int end) {
+    constexpr int apart = LaneGroup::width - 1;
+    while (at < end) {
+      const int last = at + apart;
+      if (last < end && chunk_->are_side_by_side((*points_)[at], (*points_)[last], apart)) {
+        full_.push_back(at);
+        at = last + 1;
+      } else {
+        others_.push_back(at++);
+      }
+    }
+  }
   static int groups_of(const std::vector<int>& places) {
     return (static_cast<int>(places.size()) + LaneGroup::width - 1) / LaneGroup::width;
   }
-  // Of places that follow upon each other; of the g-th so many of some.
+  // Of places that follow upon each other; of some.
   LaneGroup of_run(int begin, int count, std::optional<Cluster> cluster) const {
     return group(count, cluster, chunk_ != nullptr, [begin](int l) { return begin + l; });
   }
-  LaneGroup of_places(const std::vector<int>& places, int g, std::optional<Cluster> cluster) const {
-    const int begin = g * LaneGroup::width, left = static_cast<int>(places.size()) - begin;
-    return group(std::min(left, LaneGroup::width), cluster, false, [&](int l) { return places[begin + l]; });
+  LaneGroup of_places(const int* places, int count, std::optional<Cluster> cluster) const {
+    return group(count, cluster, false, [places](int l) { return places[l]; });
   }
   template <class PlaceOf>
   LaneGroup group(int count, std::optional<Cluster> cluster, bool side_by_side, const PlaceOf& place_of) const {

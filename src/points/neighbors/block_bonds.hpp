@@ -23,6 +23,9 @@ struct BlockBonds {
   bool in_spacings = false;
   int body;
   FamilyKind families = FamilyKind::fastest;
+  // Bonds may break, or are left out for a crack: where families are a stencil, lists are kept beside it. Of the blocks
+  // of a body, one that says so is enough.
+  bool may_lose_bonds = false;
   // Bonds run through material: a bond whose ends are not joined by points that touch (PointCloud::joints), all of them
   // within the horizon of both ends, is left out. Needs joints, and lists. Of two blocks, one that asks is enough.
   bool through_material = false;

@@ -20,6 +20,12 @@ struct Cluster {
   std::span<const int> points;  // local indices; `width` at most
   std::span<const int> near;
   const std::uint8_t* mask;  // of near: bit l is set if it is in the family of points[l]
+
+  std::size_t family_size(std::size_t l) const {  // of points[l]
+    std::size_t size = 0;
+    for (std::size_t n = 0; n < near.size(); ++n) size += mask[n] >> l & 1;
+    return size;
+  }
 };
 
 class ClusterLists {
@@ -53,6 +59,26 @@ class ClusterLists {
     }
   }
 
+  // The place of the first point of a cluster among those of all.
+  int first(int b) const { return first_[b]; }
+
+  // Appends some members of a cluster of other lists, a bit each, with their families as they are there.
+  void append(const Cluster& cluster, unsigned members) {
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      if (members >> l & 1) points_.push_back(cluster.points[l]);
+    }
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      unsigned mask = 0, bit = 1;
+      for (unsigned left = members; left != 0; left &= left - 1, bit <<= 1) {
+        if (cluster.mask[n] & left & -left) mask |= bit;
+      }
+      if (mask == 0) continue;
+      near_.push_back(cluster.near[n]);
+      mask_.push_back(static_cast<std::uint8_t>(mask));
+    }
+    close();
+  }
+
   // Takes the members of a cluster whose bits are set out of the families that its n-th neighbor is in.
   void cut(int b, std::size_t n, std::uint8_t members) { mask_[start_[b] + n] &= static_cast<std::uint8_t>(~members); }
   // Lets go of the neighbors that are in no family of a cluster any more; the others keep their order.
@@ -75,6 +101,12 @@ class ClusterLists {
   }
 
  private:
+  void close() {  // the last cluster
+    first_.push_back(static_cast<int>(points_.size()));
+    end_.push_back(near_.size());
+    start_.push_back(near_.size());
+  }
+
   std::vector<int> points_, first_{0};  // of the points of a cluster
   std::vector<std::size_t> start_{0};   // of the list of a cluster; after the last one, where the next would begin
   std::vector<std::size_t> end_;        // of it
@@ -104,9 +136,7 @@ class ClusterLists::Builder {
       lists_.mask_.push_back(mask_[j]);
       mask_[j] = 0;
     }
-    lists_.first_.push_back(static_cast<int>(lists_.points_.size()));
-    lists_.end_.push_back(lists_.near_.size());
-    lists_.start_.push_back(lists_.near_.size());
+    lists_.close();
   }
 
   // The same of any number of points, so many at a time as a cluster holds.
@@ -123,18 +153,28 @@ class ClusterLists::Builder {
   std::vector<int> near_;
 };
 
+// Some points of a block, with lists of their own.
+struct SelectedPoints {
+  std::vector<int> places;  // in the block's points
+  ClusterLists lists;
+};
+
 // Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters,
 // of one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids,
-// so that every sum over a family is the same on any number of ranks.
+// so that every sum over a family is the same on any number of ranks. Where a lattice may lose bonds its points are in
+// clusters, too: for those who look at bonds one by one, and as the family of those that have lost any.
 struct Families {
   ClusterLists lists;
   std::vector<LatticeFamilies> lattices;
-  std::vector<int> lattice_of;  // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+  std::vector<int> lattice_of;    // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+  std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty where no lattice may lose any
   // Of owned points: those whose bonds to them have broken, local indices. Empty where no bond may break.
   std::vector<std::vector<int>> broken;
 
+  bool is_off_stencil(int i) const { return !off_stencil.empty() && off_stencil[i]; }
+  // The stencil that is the family of point i; nullptr where a list is.
   const LatticeFamilies* lattice(int i) const {
-    return lattice_of.empty() || lattice_of[i] < 0 ? nullptr : &lattices[lattice_of[i]];
+    return lattice_of.empty() || lattice_of[i] < 0 || is_off_stencil(i) ? nullptr : &lattices[lattice_of[i]];
   }
 
   // Calls visit(j) over the family of point i.

@@ -24,7 +24,7 @@ int cells_within(const LatticeFrame& frame, int axis) {
 struct BodyPoints {
   std::vector<Vector> positions;
   double largest_horizon = 0, smallest_horizon = std::numeric_limits<double>::infinity();
-  bool wants_lists = false, wants_stencil = false;
+  bool wants_lists = false, wants_stencil = false, loses_bonds = false;
 };
 
 BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
@@ -33,6 +33,7 @@ BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizon
   for (const BlockBonds& block : bonds) {
     points.wants_lists |= block.body == body && block.families == FamilyKind::lists;
     points.wants_stencil |= block.body == body && block.families == FamilyKind::stencil;
+    points.loses_bonds |= block.body == body && block.may_lose_bonds;
   }
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (bonds[cloud.blocks[i]].body != body) continue;
@@ -78,7 +79,8 @@ std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const C
   const double largest = communicator.max(points.largest_horizon), smallest = communicator.min(points.smallest_horizon);
   const auto count = communicator.sum(static_cast<std::int64_t>(points.positions.size()));
   if (count == 0 || points.wants_lists || !(largest - smallest <= 1e-12 * largest)) return {};
-  LatticeFrame frame{.horizon = largest, .body = body, .wanted = points.wants_stencil};
+  LatticeFrame frame{
+      .horizon = largest, .body = body, .wanted = points.wants_stencil, .loses_bonds = points.loses_bonds};
   Eigen::AlignedBox3d mine;
   for (const Vector& X : points.positions) mine.extend(X);
   const Eigen::AlignedBox3d box = common_box(mine, communicator);

@@ -26,6 +26,7 @@ struct LatticeFrame {
   double horizon = 0;               // m, of all points of the body
   int body = 0;                     // BlockBonds::body
   bool wanted = false;              // whether or not lists were faster
+  bool loses_bonds = false;         // there are lists of its points, too
 
   Eigen::Array3i cell_of(const Vector& X) const;
 };

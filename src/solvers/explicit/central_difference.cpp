@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "mechanics/serialize.hpp"
 #include "points/parallel_for.hpp"
@@ -209,6 +210,7 @@ void CentralDifference::move(int i, const PointTimeSteps& steps) {
 
 void CentralDifference::advance_position(bool with_diagnostics) {
   update_rigid_motion(body_);
+  if (body_.fracture) body_.fracture->start_step(body_, body_.velocity, dt_);
   const StepReport between = substeps();
   move_points();
   StepReport report = advance_stress(body_, dt_, with_diagnostics, time_);

@@ -24,6 +24,7 @@ struct Kind {
   Stabilization stabilization;
   double horizon;  // in spacings
   bool by_energy = false;
+  FamilyKind families = FamilyKind::lists;
 };
 
 const std::vector<Kind> kinds = {
@@ -32,6 +33,11 @@ const std::vector<Kind> kinds = {
     {"correspondence with springs", Formulation::correspondence, SillingStabilization{0.02}, 3.015},
     {"quadratic", Formulation::quadratic, NoStabilization(), 1.75},
     {"ordinary by bond energy", Formulation::ordinary, NoStabilization(), 2.015, true},
+    {"correspondence on a lattice", Formulation::correspondence, SillingStabilization{0.02}, 3.015, false,
+     FamilyKind::stencil},
+    {"mean gradient", Formulation::correspondence, MeanGradientStabilization{0.02}, 2.015},
+    {"mean gradient on a lattice", Formulation::correspondence, MeanGradientStabilization{0.02}, 2.015, false,
+     FamilyKind::stencil},
 };
 
 // What a bond of 1.4 mm holds, roughly, in a lattice of 1 mm and this horizon: ω = 1 and no dilatation.
@@ -49,7 +55,13 @@ BlockMaterial glass(const Kind& kind, double critical_stretch) {
 }
 
 LatticeSpec block_of(const Kind& kind, double critical_stretch) {
-  return {{7, 7, 10}, 1e-3, kind.horizon, 0, Influence::one, glass(kind, critical_stretch), FamilyKind::lists};
+  return {{7, 7, 10}, 1e-3, kind.horizon, 0, Influence::one, glass(kind, critical_stretch), kind.families};
+}
+
+// A step in which no point moves: what the one before has changed is seen.
+void hold(Body& body) {
+  body.fracture->start_step(body, body.velocity, 0);
+  advance_stress_and_force(body, 1e-9, false);
 }
 
 // ---- What a flat cut dissipates ------------------------------------------------------------------------------------
@@ -98,11 +110,12 @@ TEST(EnergyOfSeparation, IsWhatBlocksDissipate) {
   constexpr double s = 1e-4;  // small strains
   const Communicator world;
   for (const Kind& kind : kinds) {
-    if (kind.formulation == Formulation::quadratic) continue;
+    if (kind.families == FamilyKind::stencil) continue;
     SCOPED_TRACE(kind.name);
     LatticeSpec spec = block_of(kind, s);
     spec.cells = {9, 9, 10};
-    if (kind.by_energy) spec.cells = {11, 11, 10};  // the far ends of the middle have whole families, too
+    const bool by_both = residual_of(kind.stabilization) == ResidualKind::both_gradients;
+    if (kind.by_energy || by_both) spec.cells = {11, 11, 10};  // the far ends of the middle have whole families, too
     Body body = lattice_body(spec, world);
     advance_stress(body, 0, false);
     // All bonds have broken: ξ²/|ξ_z| s; by energy |ξ|/|ξ_z| times some 2 s h.
@@ -111,7 +124,7 @@ TEST(EnergyOfSeparation, IsWhatBlocksDissipate) {
     for (int n = 1; n <= steps; ++n) {
       deform(body, [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > 5e-3 ? largest * n / steps : 0); });
       advance_stress(body, 1e-9, false, n * 1e-9);
-      if (kind.by_energy) sum_forces(body, false);  // ghosts tell what they carry
+      if (kind.by_energy || by_both) sum_forces(body, false);  // ghosts tell what they carry
     }
     double sum = 0, area = 0;  // of the points far from the sides
     for (int i = 0; i < body.owned(); ++i) {
@@ -121,8 +134,13 @@ TEST(EnergyOfSeparation, IsWhatBlocksDissipate) {
       if (std::abs(X[2] - 4.5e-3) < 1e-4) area += 1e-6;
     }
     const auto moduli = std::get<materials::Elastic>(body.blocks[0].material.law).moduli();
-    const double springs = coefficient_of(kind.stabilization);
-    const PulledLattice lattice{1e-3, kind.horizon * 1e-3, Influence::one, kind.formulation, moduli, springs};
+    const PulledLattice lattice{1e-3,
+                                kind.horizon * 1e-3,
+                                Influence::one,
+                                kind.formulation,
+                                moduli,
+                                residual_of(kind.stabilization),
+                                coefficient_of(kind.stabilization)};
     const double expected = kind.by_energy ? energy_at(kind, s) * separation_by_bond_energy(lattice)
                                            : s * s * energy_of_separation(lattice);
     // A bond breaks up to a step beyond its limit, by energy two, of steps that are some 2000 to the mean one.
@@ -142,7 +160,8 @@ TEST(BondEnergy, OfAPairIsThatOfItsDilatation) {
     advance_stress_and_force(body, 0, false);
     const auto broken_at = [&](double e) {
       deform(body, [&](const Vector& X) -> Vector { return X + Vector(0, 0, X[2] > spacing ? e * spacing : 0); });
-      for (int n = 0; n < 2; ++n) advance_stress_and_force(body, 1e-9, false);  // what the first step ends with
+      advance_stress_and_force(body, 1e-9, false);
+      hold(body);  // by what the first step has ended with
       return world.sum(body.fracture->broken());
     };
     EXPECT_EQ(broken_at(-2 * strain), 0);  // in compression it holds
@@ -168,7 +187,7 @@ TEST(BondEnergy, BreaksOfOthersAreSeen) {
     });
     std::vector<std::int64_t> broken;
     for (int n = 0; n < 12; ++n) {
-      advance_stress_and_force(body, 1e-9, false);
+      n == 0 ? void(advance_stress_and_force(body, 1e-9, false)) : hold(body);
       broken.push_back(world.sum(body.fracture->broken()));
     }
     return broken;
@@ -228,7 +247,7 @@ TEST(Fracture, ConservesMomentumAndEnergy) {
 // Bonds are looked at where they may have come to break: the outcome is that of looking at all of them in every step,
 // as with a limit that changes in time.
 TEST(Fracture, IsTheSameHoweverOftenBondsAreLookedAt) {
-  for (const Kind& kind : {kinds[0], kinds[4]}) {
+  for (const Kind& kind : {kinds[0], kinds[4], kinds[5]}) {
     SCOPED_TRACE(kind.name);
     LatticeSpec often = block_of(kind, 5e-4), seldom = often;
     for (LatticeSpec* spec : {&often, &seldom}) {
@@ -260,6 +279,7 @@ TEST(Fracture, FailedPointsLoseTheirBonds) {
     SCOPED_TRACE(kind.name);
     LatticeSpec spec = block_of(kind, 1);
     spec.material = ductile(kind);
+    if (kind.formulation == Formulation::correspondence) spec.horizon = 3.015;  // with 2.015 steps are too coarse
     const Outcome outcome = tear(spec, 40, 2 * pulling());
     EXPECT_GT(outcome.broken, 1000);
     EXPECT_EQ(outcome.broken % 2, 0);
@@ -293,11 +313,11 @@ TEST(Cracks, CutBondsOnce) {
 // Points that are thrown about, so that bonds break anywhere: families of all shapes, with few, coplanar or no bonds
 // left, under any load.
 TEST(Fracture, KeepsTheBalanceWithRandomDamage) {
-  constexpr int patterns = 250;  // of each formulation
   std::mt19937 random(17);
   std::uniform_real_distribution<double> part(0, 1), number(-1, 1);
   for (const Kind& kind : kinds) {
     SCOPED_TRACE(kind.name);
+    const int patterns = kind.families == FamilyKind::stencil ? 50 : 250;
     double least = 1, most = 0;
     for (int n = 0; n < patterns; ++n) {
       LatticeSpec spec = block_of(kind, 5e-4);

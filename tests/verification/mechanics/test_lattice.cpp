@@ -17,11 +17,12 @@ struct Case {
   double full;  // the part of the cells that holds a point
   Vector spacing{1e-3, 1e-3, 1e-3};
   std::array<int, 3> cells{21, 12, 11};
+  bool cracked = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << "horizon " << c.horizon << ", influence " << static_cast<int>(c.influence) << ", Silling " << c.silling
-             << ", mean gradient " << c.mean << ", full " << c.full;
+             << ", mean gradient " << c.mean << ", full " << c.full << (c.cracked ? ", cracked" : "");
 }
 
 // Lumps of a lattice with random volumes, two blocks, and an origin somewhere.
@@ -50,13 +51,16 @@ PointCloud porous_cloud(const Case& c, const Communicator& world) {
 Body body_of(const Case& c, FamilyKind families, const Communicator& world) {
   BlockBonds bonds(c.horizon * 1e-3);
   bonds.families = families;
+  bonds.may_lose_bonds = c.cracked;
+  std::vector<Crack> cracks;
+  if (c.cracked) cracks.emplace_back(DiskCrack{Vector(0.31, -0.195, 1.705), Vector(0.6, 0, 0.8), 4.3e-3});
   const materials::Elastic soft = std::get<materials::Elastic>(elastic(1e9, 0.3));
   // Where both are asked for one block has the one, and one the other.
   const Stabilization mean = MeanGradientStabilization{c.mean};
   const Stabilization silling = SillingStabilization{c.silling}, twice = SillingStabilization{2 * c.silling};
   const BlockMaterial left{1000, soft, c.silling > 0 ? silling : mean},
       right{2000, elastic(3e9, 0.2), c.mean > 0 ? mean : twice};
-  return make_body(make_domain(partitioned(porous_cloud(c, world), world), {bonds, bonds}, world), c.influence,
+  return make_body(make_domain(partitioned(porous_cloud(c, world), world), {bonds, bonds}, world, cracks), c.influence,
                    {left, right});
 }
 
@@ -97,7 +101,10 @@ TEST_P(LatticeOf, IsFoundAndHasTheBondsOfLists) {
   const Body stencil = body_of(GetParam(), FamilyKind::stencil, world),
              lists = body_of(GetParam(), FamilyKind::lists, world);
   EXPECT_EQ(stencil.domain.families.lattices.size(), 1U);
-  EXPECT_EQ(stencil.domain.families.lists.entries(), 0U);
+  EXPECT_EQ(stencil.domain.families.lists.entries() > 0, GetParam().cracked);
+  std::int64_t off_stencil = 0;
+  for (const char off : stencil.domain.families.off_stencil) off_stencil += off;
+  EXPECT_EQ(world.sum(off_stencil) > 0, GetParam().cracked);
   EXPECT_TRUE(lists.domain.families.lattices.empty());
   const auto size = [](const Body& b) {
     return [&b](int i) { return Vector::Constant(static_cast<double>(b.domain.families.size(i))); };
@@ -149,7 +156,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{3.015, Influence::linear_decay, 0.05, 0.01, 0.5}, Case{6.015, Influence::one, 0.01, 0, 0.5},
                     Case{3.3, Influence::linear_decay, 0.05, 0.01, 0.6, {1e-3, 1.3e-3, 0.7e-3}},
                     // Two strips of rows of more than 64 pencils.
-                    Case{3.015, Influence::one, 0.02, 0.01, 0.7, {1e-3, 1e-3, 1e-3}, {560, 24, 6}}));
+                    Case{3.015, Influence::one, 0.02, 0.01, 0.7, {1e-3, 1e-3, 1e-3}, {560, 24, 6}},
+                    // With a crack, who is beside it goes by a list.
+                    Case{2.015, Influence::linear_decay, 0, 0.01, 0.7, {1e-3, 1e-3, 1e-3}, {21, 12, 11}, true},
+                    Case{3.015, Influence::one, 0.02, 0, 0.7, {1e-3, 1e-3, 1e-3}, {21, 12, 11}, true}));
 
 // What a cluster adds up in the lane of a point is what the point's own family adds up, but for round-off.
 TEST(ClusterLists, LanesAreTheSumsOfTheirPoints) {
