@@ -159,7 +159,8 @@ void add_friction(const Kinematics& kinematics, const PairLaw& law, double coeff
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
 }
 
-void for_each_normal_force(const PairLaw& law, const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) {
+void for_each_normal_force(const PairLaw& law, const Pairs& pairs,
+                           const std::function<void(std::size_t, Vector)>& visit) {
   std::visit(
       [&](const auto& one) {
         for (std::size_t k = 0; k < pairs.owned.size(); ++k) {

@@ -256,8 +256,7 @@ ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const Surf
   return result;
 }
 
-void Surfaces::for_each_normal_force(const Pairs& pairs,
-                                     const std::function<void(std::size_t, Vector)>& visit) const {
+void Surfaces::for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector force = -facing_[k].push * gradient_[k];
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {

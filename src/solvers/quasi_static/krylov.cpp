@@ -3,7 +3,9 @@
 #include <BelosPseudoBlockGmresSolMgr.hpp>
 #include <BelosTpetraAdapter.hpp>
 #include <MueLu_CreateTpetraPreconditioner.hpp>
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <exception>
 
 namespace strut {
 
@@ -108,7 +110,25 @@ std::int64_t Krylov::first() const {
 
 bool Krylov::is_preconditioned() const { return !implementation_->hierarchy.is_null(); }
 
-void Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kernel) {
+namespace {
+
+// Null where Trilinos finds none on some rank; `trouble` is then what it says.
+RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList options, std::string& trouble) {
+  RCP<Operator> hierarchy;
+  try {
+    hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
+  } catch (const std::exception& error) {
+    trouble = error.what();
+  }
+  const int own = hierarchy.is_null() ? 1 : 0;
+  int any = 0;
+  Teuchos::reduceAll(*matrix->getDomainMap()->getComm(), Teuchos::REDUCE_MAX, own, Teuchos::outArg(any));
+  return any > 0 ? RCP<Operator>() : hierarchy;
+}
+
+}  // namespace
+
+std::string Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kernel) {
   const RCP<const Map>& map = implementation_->map;
   const RCP<Vectors> modes = rcp(new Vectors(map, kernel.size()));
   for (std::size_t m = 0; m < kernel.size(); ++m) copy(kernel[m], *modes, m);
@@ -122,8 +142,16 @@ void Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kerne
   options.sublist("smoother: params").set("chebyshev: degree", 1);
   options.set("smoother: pre or post", "pre");
   options.sublist("user data").set("Nullspace", modes);
-  RCP<Operator> matrix = assembled(rows, map);
-  implementation_->hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
+  const RCP<Operator> matrix = assembled(rows, map);
+  std::string trouble;
+  implementation_->hierarchy = hierarchy_of(matrix, options, trouble);
+  if (is_preconditioned()) return "";
+  options.set("coarse: type", "CHEBYSHEV");
+  options.sublist("coarse: params").set("chebyshev: degree", 4);
+  implementation_->hierarchy = hierarchy_of(matrix, options, trouble);
+  const char* const instead = is_preconditioned() ? "its coarsest grid is smoothed instead" : "it goes on without";
+  return std::string("the preconditioner could not be made as usual; ") + instead +
+         " (Trilinos: " + trouble.substr(trouble.find_last_of('\n', trouble.size() - 2) + 1) + ")";
 }
 
 Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure measure, double tolerance, int most,
@@ -147,10 +175,14 @@ Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure meas
   options->set("Implicit Residual Scaling", scaling);
   options->set("Explicit Residual Scaling", scaling);
   Belos::PseudoBlockGmresSolMgr<double, Vectors, Operator> solver(problem, options);
-  const bool converged = solver.solve() == Belos::Converged;
-  x.resize(implementation_->owned);
-  copy(*solution, x);
-  return {solver.getNumIters(), converged};
+  x.assign(implementation_->owned, Eigen::Vector3d::Zero());
+  try {
+    const bool converged = solver.solve() == Belos::Converged;
+    copy(*solution, x);
+    return {solver.getNumIters(), converged};
+  } catch (const std::exception&) {  // numbers that are none, the same on all ranks: no step is found
+    return {most, false};
+  }
 }
 
 }  // namespace strut

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Teuchos {
@@ -36,8 +37,10 @@ class Krylov {
   std::int64_t first() const;  // of all points, the number of the first one here
 
   // Collective. A hierarchy of grids for a matrix that resembles the system. `kernel`: the fields that its stiffness
-  // does not see where nothing holds it, the rigid motions.
-  void precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
+  // does not see where nothing holds it, the rigid motions. Where its coarsest grid cannot be factorized (an aggregate
+  // with fewer unknowns than rigid motions makes it singular), that one is smoothed too; where no hierarchy can be
+  // made, there is none. Returns what went wrong, on all ranks, or nothing.
+  std::string precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
   bool is_preconditioned() const;
 
   struct Outcome {

@@ -73,6 +73,12 @@ void Newton::damp_less(double factor) {
 
 void Newton::damp_more(double factor) { damping_ = std::max(first_damping, factor * damping_); }
 
+void Newton::tell_once(const std::string& trouble) {
+  if (trouble.empty() || told_trouble_) return;
+  told_trouble_ = true;
+  if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
+}
+
 void Newton::renew_preconditioner() {
   static Teuchos::Time& timer = phase("Preconditioner");
   const Timed timed(timer);
@@ -83,7 +89,7 @@ void Newton::renew_preconditioner() {
   }
   const BlockRows matrix =
       preconditioner_matrix(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, krylov_.first());
-  krylov_.precondition(matrix, rigid_motions(body));
+  tell_once(krylov_.precondition(matrix, rigid_motions(body)));
   spring_ = mean_spring(matrix);
   renew_drag(matrix, extra);
   damping_when_new_ = damping_;

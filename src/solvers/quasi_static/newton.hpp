@@ -2,6 +2,8 @@
 // leads nowhere.
 #pragma once
 
+#include <string>
+
 #include "solvers/quasi_static/krylov.hpp"
 #include "solvers/quasi_static/search.hpp"
 
@@ -20,6 +22,7 @@ class Newton {
  private:
   int correct(const Field& way, bool moves, double accuracy, Field& step);
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
+  void tell_once(const std::string& trouble);
   void renew_preconditioner();
   double mean_spring(const BlockRows& matrix) const;
   void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
@@ -33,6 +36,7 @@ class Newton {
   double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true;
+  bool told_trouble_ = false;
 
   // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.
   double damping_ = 0, damping_when_new_ = 0;

@@ -155,8 +155,8 @@ class Runs(unittest.TestCase):
 
     def history(self, columns, cut=""):
         rows = [list(columns), *np.array(list(columns.values())).T.tolist()]
-        (self.folder / "block.csv").write_text("\n".join(",".join(map(str, [*r, 0 if i else "strut 0.1"]))
-                                                         for i, r in enumerate(rows)) + "\n" + cut)
+        lines = ["# strut 0.1", *(",".join(map(str, row)) for row in rows)]
+        (self.folder / "block.csv").write_text("\n".join(lines) + "\n" + cut)
 
     def table(self, name):
         with open(self.folder / name, newline="") as file:

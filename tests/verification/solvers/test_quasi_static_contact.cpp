@@ -315,5 +315,52 @@ TEST(QuasiStaticContact, CarriesOneBlockOnAnotherByHertz) {
   EXPECT_LT(end.balance_error, 5e-3);
 }
 
+// ---- Contact between surfaces --------------------------------------------------------------------------------------
+
+contact::SurfaceLaw surface_law() {
+  const double longitudinal = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson));
+  return {.modulus = longitudinal, .radius = contact::reach_in_spacings * spacing, .spacing = spacing};
+}
+
+// Two blocks with a common face. The upper one is pressed down until t = 0.25, then dragged along the lower one, which
+// is held at the bottom; nothing guides them between.
+struct Rubbed : Loaded {
+  Rubbed(double depth, double way, double friction)
+      : Loaded(lattice_of({6, 6, 8}, elastic(young, poisson)), Pair::two_blocks) {
+    const std::vector<int> top = layer(body, spec, 2, true), bottom = layer(body, spec, 2, false);
+    for (int axis = 0; axis < 3; ++axis) {
+      const int condition = move(bottom, axis, "0");
+      if (axis == 0) foot = condition;
+    }
+    move(top, 2, "value = " + ramp(-4 * depth) + "; if (t > 0.25) { value = " + number(-depth) + "; }");
+    drag = move(top, 0, "value = 0; if (t > 0.25) { value = " + ramp(way / 0.75) + " - " + number(way / 3) + "; }");
+    down = drag - 1;
+    move(top, 1, "0");
+    contact = contact::Contact({{0, 1, {surface_law(), friction}}}, body.domain);
+  }
+  int foot, down, drag;
+};
+
+// At first it sticks, with a force in proportion to the way; at last all slides, by μ times the load: the normals of
+// the faces are theirs within a hundredth, and the faces slide over each other by equal lattices.
+TEST(QuasiStaticSurfaces, DragWithTheirShareOfThePressure) {
+  constexpr double friction = 0.3;
+  Rubbed block(0.02 * spacing, 0.2 * spacing, friction);
+  QuasiStatic solver = block.solver({.load_steps = 32});
+  double stuck = 0;
+  load(solver, [&](QuasiStatic& now) {
+    const Reactions reactions = now.reactions(block.count);
+    const double along = reactions.forces[block.drag][0], load = -reactions.forces[block.down][2];
+    EXPECT_LT(sum_of(reactions), left_over(block, {}, 2 * load)) << now.time();
+    if (now.time() < 0.26) EXPECT_LT(std::abs(along), 1e-3 * load);
+    if (now.time() > 0.26 && stuck == 0) stuck = along;
+    if (now.time() > 0.9) EXPECT_NEAR(along, friction * load, 0.01 * friction * load);
+  });
+  EXPECT_GT(stuck, 0);
+  EXPECT_LT(solver.ledger().contact, 0);  // friction takes
+  // Of a law in rates: the strain; and of trapezoids under a force that curves as points begin to touch, over 8 steps.
+  EXPECT_LT(solver.ledger().balance_error, 0.01);
+}
+
 }  // namespace
 }  // namespace strut
