@@ -270,7 +270,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
     for (int c = 0; c < 3; ++c) sums[c] += force[c];
   }
   EXPECT_NEAR(result.energy, energy, 1e-12 * energy);
-  add_friction(part.kinematics(), model, 1e-3, pairs, density, friction);
+  add_friction(part.kinematics(), law, model.friction, 1e-3, pairs, density, friction);
   for (const Vector& f : friction) {
     for (int c = 0; c < 3; ++c) sums[3 + c] += f[c];
     sums[6] += f.norm();

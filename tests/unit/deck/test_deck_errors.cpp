@@ -175,7 +175,8 @@ const std::vector<Case> names = {
      R"(<Parameter name="Contact Radius" type="double" value="0"/>)",
      "Contact > Models > touch > Contact Radius: '0'; expected a real number > 0, in m"},
     {"UnknownContactLaw", R"(value="Short Range Force")", R"(value="Herz")",
-     "Contact > Models > touch > Contact Model: 'Herz' (did you mean 'Hertz'?); expected one of Short Range Force, "
+     "Contact > Models > touch > Contact Model: 'Herz' (did you mean 'Hertz'?); expected one of Surface, Short Range "
+     "Force, "
      "Hertz"},
     {"NoEffectiveModulus", R"(<Parameter name="Contact Model" type="string" value="Short Range Force"/>
         <Parameter name="Contact Radius" type="double" value="2e-3"/>
@@ -302,7 +303,8 @@ TEST(DeckErrors, NothingOfInertiaIsAskedOfQuasiStatic) {
             "  Solver: 'Verlet' and 'QuasiStatic' are both given; expected one of them\n"
             "  Boundary Conditions > flight > Type: 'Initial Velocity'" +
                 reason +
-                "  Contact > Models > touch > Friction Coefficient: '0.3'; expected 0 with Solver > QuasiStatic: "
+                "  Contact > Models > touch > Friction Coefficient: '0.3'; expected 0, or Contact Model 'Surface', "
+                "with Solver > QuasiStatic: "
                 "there, friction is that of surfaces, rigid planes and tools");
   const std::string open = R"(<ParameterList name="Boundary Conditions"><ParameterList name="end">
       <Parameter name="Type" type="string" value="Non-Reflecting End"/>
