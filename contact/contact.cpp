@@ -54,7 +54,7 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
   contact_pair.pairs = find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins);
-  if (contact_pair.surfaces) contact_pair.surfaces->take(kinematics.domain, blocks, contact_pair.pairs);
+  if (contact_pair.surfaces) contact_pair.surfaces->take(blocks, contact_pair.pairs);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
@@ -157,7 +157,7 @@ double Contact::friction_work_of_trial(std::span<const Vector> way) const {
 
 void Contact::commit() {
   for (ContactPair& pair : contact_pairs_) {
-    if (pair.surfaces && pair.model.friction > 0) pair.surfaces->commit(pair.pairs, pair.friction);
+    if (pair.surfaces && pair.model.friction > 0) pair.surfaces->commit(pair.friction);
   }
 }
 

@@ -18,8 +18,8 @@ constexpr double of_friction = 0.5;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// No share of material grows faster than this over the reach when all that is near moves by a length: ∫ |W'| dV is
-// 6.3/R, and material may be denser than it was.
+// No share of material grows faster than this over the smallest reach when all that is near moves by a length:
+// ∫ |W'| dV is 6.3/R, and material may be denser than it was.
 constexpr double steepest_share = 10;
 
 // By how much the cell of a point reaches beyond it towards the surface of its body, m. Of a slab √3 times the root of
@@ -57,7 +57,7 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other)
   const PointCloud& cloud = domain.cloud;
   const double volume = domain.volume(i), spacing = cloud.spacings[i];
   const double reach = reach_in_spacings * std::max(spacing, spacing_of_other);
-  const double beyond = reach_of_cell(cloud, volume, i);
+  const double beyond = std::min(reach_of_cell(cloud, volume, i), 0.5 * reach);  // farther out ρ tells nothing
   const bool nodes = cloud.at == PointsAt::nodes;
   const Face other{reach, spacing_of_other, !nodes};
   return {.reach = reach,
@@ -106,34 +106,52 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   const std::vector<double> densities(domain.owned, 1);
   SkinDistances none{std::vector<float>(blocks.points.size(), 0), 0};
   const Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
-  take(domain, blocks, pairs);
+  take(blocks, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     double& threshold = points_[places_[k]].threshold;
     threshold = std::max(threshold, feel(pairs, k).share);
   }
 }
 
-void Surfaces::take(const Domain& domain, const BlockPair& blocks, const Pairs& pairs) {
+void Surfaces::take(const BlockPair& blocks, const Pairs& pairs) {
   places_.clear();
   due_.clear();
-  std::vector<Vector> slips(blocks.points.size(), Vector::Zero()), before = slips;
+  std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
   std::vector<double> overlaps(blocks.points.size(), 0);
   int at = 0;
   for (const int i : pairs.owned) {
     while (blocks.points[at] != i) ++at;
     places_.push_back(at);
-    const bool has_lost_bonds = !domain.families.broken.empty() && !domain.families.broken[i].empty();
-    due_.push_back(points_[at].is_at_surface || has_lost_bonds ? 0 : never);
+    due_.push_back(points_[at].is_at_surface ? 0 : never);
     slips[at] = slips_[at];
-    before[at] = slips_before_[at];
     overlaps[at] = overlaps_[at];
   }
   slips_.swap(slips);  // a point without partners has none
-  slips_before_.swap(before);
   overlaps_.swap(overlaps);
   facing_.assign(pairs.sites.size(), {});
   gradient_.assign(pairs.owned.size(), Vector::Zero());
   seen_.clear();
+  set_smallest_reaches(pairs);
+}
+
+void Surfaces::set_smallest_reaches(const Pairs& pairs) {
+  smallest_reach_.clear();
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    const double reach = points_[places_[k]].reach;
+    double smallest = reach;
+    for (std::size_t p = pairs.start[k]; pairs.one_body && p < pairs.start[k + 1]; ++p) {
+      smallest = std::min(smallest, reach_between(reach, pairs.sites[k], pairs.sites[pairs.partners[p]], true));
+    }
+    smallest_reach_.push_back(smallest);
+  }
+}
+
+// Points that have lost bonds are at a surface from then on.
+void Surfaces::take_broken(const Domain& domain, const Pairs& pairs) {
+  if (domain.families.broken.empty()) return;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    if (due_[k] == never && !domain.families.broken[pairs.owned[k]].empty()) due_[k] = 0;
+  }
 }
 
 // Calls visit(partner, η, |η|², reach) for the partners that pairs.owned[k] sees.
@@ -219,7 +237,7 @@ ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
     if (travel_ < due_[k]) continue;
     const SurfacePoint& point = points_[places_[k]];
     const Felt felt = feel(pairs, k);
-    due_[k] = travel_ + (point.threshold - felt.share) * point.reach / steepest_share;
+    due_[k] = travel_ + (point.threshold - felt.share) * smallest_reach_[k] / steepest_share;
     double& overlap = overlaps_[places_[k]];
     gradient_[k] = felt.gradient;
     facing_[k] = facing(law, point, felt, pairs.masses[k], overlap);
@@ -234,6 +252,7 @@ ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
 ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                         std::vector<Vector>& force_density) {
   bring_to_present(kinematics, pairs);
+  take_broken(kinematics.domain, pairs);
   ForceResult result = feel_all(law, pairs);
   exchange_records(pairs, facing_);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
@@ -284,10 +303,9 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
   exchange_records(pairs, rubbing);
   friction.assign(pairs.owned.size(), Vector::Zero());
   grips_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
+  if (!sliding.is_trial) slips_before_ = slips_;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector& slip = slips_[places_[k]];
-    Vector& before = slips_before_[places_[k]];
-    if (!sliding.is_trial) before = slip;
     slip.setZero();
     if (!facing_[k].touches()) continue;
     Vector way = Vector::Zero();
@@ -298,7 +316,7 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
       way += part * rubbing[partner].way;
     });
     const Vector normal = gradient_[k].stableNormalized();
-    slip = before + (way / share - rubbing[k].way);
+    slip = slips_before_[places_[k]] + (way / share - rubbing[k].way);
     slip -= slip.dot(normal) * normal;
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
     const double most = coefficient * facing_[k].push * gradient_[k].norm(), wanted = stiffness * slip.norm();
@@ -322,7 +340,7 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
   }
 }
 
-void Surfaces::commit(const Pairs& pairs, const std::vector<Vector>& friction) {
+void Surfaces::commit(const std::vector<Vector>& friction) {
   slips_before_ = slips_;
   friction_before_.assign(points_.size(), Vector::Zero());
   for (std::size_t k = 0; k < friction.size(); ++k) friction_before_[places_[k]] = friction[k];

@@ -43,7 +43,7 @@ class Surfaces {
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
   // After a search.
-  void take(const Domain& domain, const BlockPair& blocks, const Pairs& pairs);
+  void take(const BlockPair& blocks, const Pairs& pairs);
 
   // As forces.hpp has them for pairs of points. `penetration`: the overlap in spacings of the point.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
@@ -54,7 +54,7 @@ class Surfaces {
                     std::vector<Vector>& force_density, std::vector<Vector>& friction);
   // What the last trial has come to is where the next ones start. Before that: the work of friction since the last
   // time, by the mean of the forces at both ends, J; `way`: of owned points since then, m.
-  void commit(const Pairs& pairs, const std::vector<Vector>& friction);
+  void commit(const std::vector<Vector>& friction);
   double friction_work(const Pairs& pairs, const std::vector<Vector>& friction, std::span<const Vector> way) const;
 
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
@@ -90,6 +90,8 @@ class Surfaces {
   void over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   template <class Visit>
   void over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const;
+  void set_smallest_reaches(const Pairs& pairs);
+  void take_broken(const Domain& domain, const Pairs& pairs);
   void advance_travel(const Pairs& pairs);
   Felt feel(const Pairs& pairs, std::size_t k) const;
   Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass, double& overlap) const;
@@ -103,6 +105,7 @@ class Surfaces {
   std::vector<Grip> grips_;                   // of pairs.owned, of a trial
   std::vector<int> places_;                   // of pairs.owned in blocks.points
   std::vector<double> due_;                   // of pairs.owned: the travel at which one may come to touch, m
+  std::vector<double> smallest_reach_;        // of pairs.owned, for any partner, m
   std::vector<Vector> seen_;                  // where pairs.sites were, m
   double travel_ = 0;                         // since the search, m
   std::vector<Facing> facing_;                // of pairs.sites, as of the last forces

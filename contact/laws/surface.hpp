@@ -68,7 +68,7 @@ struct SurfaceLaw {
   // As the two blocks have it (setup).
   double modulus = 0;  // M*, Pa: 1/M* = (1/M₁ + 1/M₂)/2, M of longitudinal waves
   double radius = 0;   // m: from where a point may see another body
-  double spacing = 0;  // the mean of both blocks', m
+  double spacing = 0;  // m: the mean of the largest spacings of both
 
   double stiffness() const { return factor * modulus / spacing; }  // K, Pa/m: of two faces
   double limit() const { return largest_overlap * spacing; }       // g_l, m

@@ -97,7 +97,7 @@ void RigidTool::fly(VelocityUpdate& update) const {
   for (int k = 0; k < most_trials; ++k) {
     const Push push = trial_push(*this, update);
     const Vector left = without - push.impulse / free->mass - free->velocity;
-    if (left.norm() <= accuracy * without.norm()) break;
+    if (left.norm() <= accuracy * std::max(without.norm(), push.impulse.norm() / free->mass)) break;
     free->velocity += left / (1 + push.mass / free->mass);
   }
 }

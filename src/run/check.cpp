@@ -97,7 +97,10 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   }
   text << "took " << as_duration(first) << " and " << solver.iterations() << " iterations\n";
   double second = first;
-  if (solver.time() < deck.solver.final_time && solver.advance()) second = seconds_since(start) - first;
+  if (solver.time() < deck.solver.final_time) {
+    solver.advance();  // or until the time is up: then it takes more
+    second = seconds_since(start) - first;
+  }
   text << "estimated time " << range(steps * std::min(first, second), most * steps * std::max(first, second)) << "\n";
   return text.str();
 }

@@ -40,11 +40,10 @@ def mean_between(strain, stress, low, high):
     """∫ σ dε / ∫ dε, the bounds interpolated: the mean at equal intervals of strain. None beyond the curve."""
     if len(strain) < 2 or strain[0] > low or strain[-1] < high:
         return None
-    W = energies(strain, stress)
     inside = (strain > low) & (strain < high)
     e = np.concatenate([[low], strain[inside], [high]])
     s = np.interp(e, strain, stress)
-    return float(energies(e, s)[-1] / (high - low)) if len(W) else None
+    return float(energies(e, s)[-1] / (high - low))
 
 
 def crossing(x, y, level):

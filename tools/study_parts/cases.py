@@ -34,7 +34,7 @@ class Case:
         return hashlib.sha256(json.dumps(self.texts, sort_keys=True).encode()).hexdigest()
 
     def state(self):
-        """What is known of the run: {mark, error, seconds}; empty where there is none of this deck."""
+        """What is known of the run: {mark, over, error, seconds}; empty where there is none of this deck."""
         try:
             with open(os.path.join(self.folder, "state.json")) as file:
                 found = json.load(file)
@@ -82,18 +82,25 @@ class Case:
                                             start_new_session=True)
         return None
 
-    def ended(self):
-        """Whether the run has come to its end, now or before."""
+    def ended(self, stopped=False):
+        """Whether the run has come to its end, now or before. One that a signal has ended goes on another time."""
         if self.process is None:
             return True
         status = self.process.poll()
         if status is None:
             return False
-        if status != EARLY and status >= 0:
+        if status != EARLY and status >= 0 and not (stopped and status != 0):
             self.put_state(over=True, error=last_line(self.log) if status else None,
                            seconds=time.monotonic() - self.started)
         self.process = None
         return True
+
+    def stop(self, ranks):
+        """strut leaves a checkpoint; mpirun would leave its ranks a second, so they are told, not mpirun."""
+        if ranks > 1:
+            subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid)])
+        else:
+            os.killpg(self.process.pid, signal.SIGTERM)
 
     def part(self):
         """Of its time that is computed, 0 to 1."""
@@ -146,7 +153,7 @@ def run_all(cases, jobs, ranks, tell):
         stopped.append(True)
         for case in running:
             if case.process is not None:
-                os.killpg(case.process.pid, signal.SIGTERM)  # strut leaves a checkpoint
+                case.stop(ranks)
     before = {s: signal.signal(s, stop) for s in (signal.SIGINT, signal.SIGTERM)}
     began, ahead = time.monotonic(), len(waiting)
     while (waiting and not stopped) or running:
@@ -154,7 +161,9 @@ def run_all(cases, jobs, ranks, tell):
             case = waiting.pop(0)
             case.start(programs, ranks)
             running.append(case)
-        over = [case for case in running if case.ended()]
+            if stopped and case.process is not None:  # while its mesh was made
+                case.stop(ranks)
+        over = [case for case in running if case.ended(stopped)]
         running = [case for case in running if case not in over]
         finished = ahead - len(waiting) - len(running)
         tell(over, running, len(cases) - len(waiting) - len(running), left(began, finished, ahead, running))

@@ -51,12 +51,12 @@ const RealKey stiffness_factor(
                 "pressure p they overlap by p/(factor M) spacings, M the modulus of longitudinal waves. With 0.25 the "
                 "critical time step is hardly smaller, and a pressure of 0.1 % of M makes 0.4 % of a spacing."});
 
-const RealKey largest_overlap(
-    {.name = "Largest Overlap",
-     .unit = "spacings",
-     .range = {.low = 0, .high = 1},
-     .fallback = "0.5",
-     .meaning = "The pressure grows without bound as the overlap comes near it. 0: there is no limit."});
+const RealKey largest_overlap({.name = "Largest Overlap",
+                               .unit = "spacings",
+                               .range = {.low = 0, .high = 1},
+                               .fallback = "0.5",
+                               .meaning = "The pressure grows like 1/(1 - overlap/limit), from 0.95 of the limit on "
+                                          "along its tangent. 0: there is no limit."});
 
 Section surface() {
   return {.name = "Surface",

@@ -65,7 +65,7 @@ std::shared_ptr<FreeMotion> read_free_motion(const Values& values, Problems& pro
   FreeMotion free{.mass = values[mass].value_or(0)};
   const auto check = [&](const Key& key, bool has_a_mass) {
     if (!values.given(key) || has_a_mass == values[mass].has_value()) return;
-    problems.add(values.path_to(key), has_a_mass ? "is of a tool with a Mass; expected this key, too"
+    problems.add(values.path_to(key), has_a_mass ? "is of a tool with a Mass; expected the key Mass, too"
                                                  : "is of a tool without a Mass; expected Speed or Force");
   };
   for (int c = 0; c < 3; ++c) {

@@ -5,7 +5,7 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
-#include <exception>
+#include <stdexcept>
 
 namespace strut {
 
@@ -117,7 +117,7 @@ RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList o
   RCP<Operator> hierarchy;
   try {
     hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
-  } catch (const std::exception& error) {
+  } catch (const std::runtime_error& error) {  // on all ranks, as the coarsest grid is theirs together
     trouble = error.what();
   }
   const int own = hierarchy.is_null() ? 1 : 0;
@@ -150,8 +150,10 @@ std::string Krylov::precondition(const BlockRows& rows, const std::vector<Field>
   options.sublist("coarse: params").set("chebyshev: degree", 4);
   implementation_->hierarchy = hierarchy_of(matrix, options, trouble);
   const char* const instead = is_preconditioned() ? "its coarsest grid is smoothed instead" : "it goes on without";
-  return std::string("the preconditioner could not be made as usual; ") + instead +
-         " (Trilinos: " + trouble.substr(trouble.find_last_of('\n', trouble.size() - 2) + 1) + ")";
+  std::string text = std::string("the preconditioner could not be made as usual; ") + instead;
+  if (!trouble.empty())
+    text += " (Trilinos: " + trouble.substr(trouble.find_last_of('\n', trouble.size() - 2) + 1) + ")";
+  return text;
 }
 
 Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure measure, double tolerance, int most,
@@ -180,7 +182,7 @@ Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure meas
     const bool converged = solver.solve() == Belos::Converged;
     copy(*solution, x);
     return {solver.getNumIters(), converged};
-  } catch (const std::exception&) {  // numbers that are none, the same on all ranks: no step is found
+  } catch (const Belos::BelosError&) {  // numbers that are none, the same on all ranks: no step is found
     return {most, false};
   }
 }

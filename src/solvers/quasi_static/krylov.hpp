@@ -39,7 +39,7 @@ class Krylov {
   // Collective. A hierarchy of grids for a matrix that resembles the system. `kernel`: the fields that its stiffness
   // does not see where nothing holds it, the rigid motions. Where its coarsest grid cannot be factorized (an aggregate
   // with fewer unknowns than rigid motions makes it singular), that one is smoothed too; where no hierarchy can be
-  // made, there is none. Returns what went wrong, on all ranks, or nothing.
+  // made, there is none. Returns what went wrong, or nothing, on all ranks.
   std::string precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
   bool is_preconditioned() const;
 
