@@ -5,6 +5,8 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <iostream>
+#include <sstream>
 #include <stdexcept>
 
 namespace strut {
@@ -112,13 +114,31 @@ bool Krylov::is_preconditioned() const { return !implementation_->hierarchy.is_n
 
 namespace {
 
-// Null where Trilinos finds none on some rank; `trouble` is then what it says.
+// Keeps what is written to the error stream meanwhile: MueLu writes of an exception before it throws it on.
+class QuietErrors {
+ public:
+  QuietErrors() : before_(std::cerr.rdbuf(kept_.rdbuf())) {}
+  QuietErrors(const QuietErrors&) = delete;
+  ~QuietErrors() { std::cerr.rdbuf(before_); }
+
+ private:
+  std::ostringstream kept_;
+  std::streambuf* before_;
+};
+
+// Null where Trilinos finds none on some rank; `trouble` is then what it says. The coarsest grid is factorized when it
+// is first used: here.
 RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList options, std::string& trouble) {
   RCP<Operator> hierarchy;
   try {
+    const QuietErrors quiet;
     hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
+    Vectors ones(matrix->getDomainMap(), 1), result(matrix->getRangeMap(), 1);
+    ones.putScalar(1);
+    hierarchy->apply(ones, result);
   } catch (const std::runtime_error& error) {  // on all ranks, as the coarsest grid is theirs together
     trouble = error.what();
+    hierarchy = {};
   }
   const int own = hierarchy.is_null() ? 1 : 0;
   int any = 0;
