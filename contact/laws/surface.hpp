@@ -13,7 +13,7 @@
 
 namespace strut::contact {
 
-// The reach R in spacings. Two equal lattices slide on each other with slopes of 0.2 % (docs/theory.md); with less the
+// The reach R in spacings. Two equal lattices slide on each other with slopes below 1 % (docs/theory.md); with less the
 // lattice shows, with more the surfaces of thin members become blunt.
 inline constexpr double reach_in_spacings = 2.5;
 
