@@ -184,6 +184,17 @@ void Surfaces::over_feeling(const Pairs& pairs, std::size_t k, const Visit& visi
   }
 }
 
+// Calls visit(facing, ∂ρ/∂y) for the ρ of all points that touch and depend on the place y of pairs.owned[k]: its own,
+// and those of partners.
+template <class Visit>
+void Surfaces::over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+  visit(facing_[k], gradient_[k]);
+  const double volume = pairs.sites[k].volume();
+  over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    visit(facing_[partner], Vector(-volume * Smoothing(reach).slope_over_distance(distance2) * eta));
+  });
+}
+
 Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
   Felt felt;
   over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
@@ -258,16 +269,11 @@ ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const Surf
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const double root = std::sqrt(pairs.masses[k]), volume = pairs.sites[k].volume();
     Tensor springs = Tensor::Zero();
-    const auto add = [&](const Facing& felt_by, const Vector& gradient) {
+    Vector force = Vector::Zero();
+    over_gradients(pairs, k, [&](const Facing& felt_by, const Vector& gradient) {
+      force -= felt_by.push * gradient;
       const double length = gradient.norm();
       if (length > 0) springs += felt_by.to_come * felt_by.spread / (root * length) * gradient * gradient.transpose();
-    };
-    add(facing_[k], gradient_[k]);
-    Vector force = -facing_[k].push * gradient_[k];
-    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      const Vector gradient = -volume * Smoothing(reach).slope_over_distance(distance2) * eta;
-      force -= facing_[partner].push * gradient;
-      add(facing_[partner], gradient);
     });
     force_density[pairs.owned[k]] += force / volume;
     result.stiffness = std::max(result.stiffness, largest_eigenvalue(springs, result.stiffness));
@@ -277,11 +283,8 @@ ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const Surf
 
 void Surfaces::for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    Vector force = -facing_[k].push * gradient_[k];
-    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
-      force += facing_[partner].push * slope * eta;
-    });
+    Vector force = Vector::Zero();
+    over_gradients(pairs, k, [&](const Facing& felt_by, const Vector& gradient) { force -= felt_by.push * gradient; });
     visit(k, force);
   }
 }
@@ -399,14 +402,13 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
 
 void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const {
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    Tensor sum = facing_[k].stiffness * gradient_[k] * gradient_[k].transpose();
+    Tensor sum = Tensor::Zero();
+    over_gradients(pairs, k, [&](const Facing& felt_by, const Vector& gradient) {
+      sum += felt_by.stiffness * gradient * gradient.transpose();
+    });
     if (!grips_.empty() && !grips_[k].slides) {
       sum += grips_[k].spring * (Tensor::Identity() - grips_[k].normal * grips_[k].normal.transpose());
     }
-    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      const double slope = pairs.sites[k].volume() * Smoothing(reach).slope_over_distance(distance2);
-      sum += facing_[partner].stiffness * slope * slope * eta * eta.transpose();
-    });
     springs[pairs.owned[k]] += sum;
   }
 }

@@ -90,6 +90,8 @@ class Surfaces {
   void over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   template <class Visit>
   void over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const;
+  template <class Visit>
+  void over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   void set_smallest_reaches(const Pairs& pairs);
   void take_broken(const Domain& domain, const Pairs& pairs);
   void advance_travel(const Pairs& pairs);
