@@ -127,8 +127,8 @@ def last_line(path):
     """What a program has said of its error."""
     with open(path, errors="replace") as file:
         lines = [line.strip() for line in file if line.strip()]
-    bad = [line for line in lines if re.search("error|problem|expected", line, re.I)]
-    return (bad or lines or ["it said nothing"])[-1]
+    own = [line for line in lines if re.match(r"strut[\w-]*: ", line)]
+    return (own or lines or ["it said nothing"])[-1]  # what MPI adds comes after
 
 
 class Programs:

@@ -5,9 +5,9 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#include <exception>
 #include <iostream>
 #include <sstream>
-#include <stdexcept>
 
 namespace strut {
 
@@ -136,7 +136,7 @@ RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList o
     Vectors ones(matrix->getDomainMap(), 1), result(matrix->getRangeMap(), 1);
     ones.putScalar(1);
     hierarchy->apply(ones, result);
-  } catch (const std::runtime_error& error) {  // on all ranks, as the coarsest grid is theirs together
+  } catch (const std::exception& error) {  // on all ranks, as the coarsest grid is theirs together
     trouble = error.what();
     hierarchy = {};
   }
@@ -146,10 +146,22 @@ RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList o
   return any > 0 ? RCP<Operator>() : hierarchy;
 }
 
+// Not where all points are held: there is nothing then that a coarser grid could stand for.
+bool couples_points(const BlockRows& rows, const Teuchos::Comm<int>& ranks) {
+  int here = 0, anywhere = 0;
+  for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
+    for (std::size_t e = rows.start[i] + 1; e < rows.start[i + 1]; ++e) here |= rows.blocks[e].isZero(0) ? 0 : 1;
+  }
+  Teuchos::reduceAll(ranks, Teuchos::REDUCE_MAX, here, Teuchos::outArg(anywhere));
+  return anywhere > 0;
+}
+
 }  // namespace
 
 std::string Krylov::precondition(const BlockRows& rows, const std::vector<Field>& kernel) {
   const RCP<const Map>& map = implementation_->map;
+  implementation_->hierarchy = {};
+  if (!couples_points(rows, *map->getComm())) return "";
   const RCP<Vectors> modes = rcp(new Vectors(map, kernel.size()));
   for (std::size_t m = 0; m < kernel.size(); ++m) copy(kernel[m], *modes, m);
   Teuchos::ParameterList options;

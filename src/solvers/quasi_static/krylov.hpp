@@ -23,7 +23,7 @@ using Field = std::vector<Eigen::Vector3d>;
 
 // Rows of 3×3 blocks, one for each point that this rank owns.
 struct BlockRows {
-  std::vector<std::size_t> start{0};  // row i: entries start[i] … start[i + 1] − 1
+  std::vector<std::size_t> start{0};  // row i: entries start[i] … start[i + 1] − 1, its own column first
   std::vector<std::int64_t> columns;  // points as Krylov::first() counts them
   std::vector<Eigen::Matrix3d> blocks;
 };
@@ -39,7 +39,7 @@ class Krylov {
   // Collective. A hierarchy of grids for a matrix that resembles the system. `kernel`: the fields that its stiffness
   // does not see where nothing holds it, the rigid motions. Where its coarsest grid cannot be factorized (an aggregate
   // with fewer unknowns than rigid motions makes it singular), that one is smoothed too; where no hierarchy can be
-  // made, there is none. Returns what went wrong, or nothing, on all ranks.
+  // made, or no point depends on another, there is none. Returns what went wrong, or nothing, on all ranks.
   std::string precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
   bool is_preconditioned() const;
 

@@ -97,5 +97,23 @@ TEST(Krylov, FindsTheSolutionWhereARankOwnsOnePoint) {
   }
 }
 
+// The system is then its diagonal, and there is no hierarchy and nothing to tell.
+TEST(Krylov, NeedsNoPreconditionerWhereNoPointDependsOnAnother) {
+  Springs springs(points / 2);
+  for (std::size_t i = 0; i + 1 < springs.rows.start.size(); ++i) {
+    for (std::size_t e = springs.rows.start[i] + 1; e < springs.rows.start[i + 1]; ++e)
+      springs.rows.blocks[e].setZero();
+    springs.rows.blocks[springs.rows.start[i]] = 3 * Eigen::Matrix3d::Identity();
+  }
+  EXPECT_EQ(springs.krylov->precondition(springs.rows, springs.rigid_motions()), "");
+  EXPECT_FALSE(springs.krylov->is_preconditioned());
+  const Field right(springs.end - springs.begin, Eigen::Vector3d(3, 6, 9));
+  Field found;
+  const auto outcome = springs.krylov->solve([&](const Field& in, Field& out) { springs.multiply(in, out); }, right,
+                                             Krylov::Measure::residual, 1e-10, 500, found);
+  EXPECT_TRUE(outcome.converged);
+  for (const auto& x : found) EXPECT_LT((x - Eigen::Vector3d(1, 2, 3)).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace strut
