@@ -44,6 +44,14 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
   return deck.damage_models[*section.damage_model].model;
 }
 
+// Where bonds break by their stretch, springs as soft as they are elsewhere would let the tip of a crack open by
+// motions that no point's deformation gradient sees: it would grow at half the fracture energy (inputs/fracture).
+Stabilization stabilization_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
+  const bool breaks_by_stretch = damage && !damage->ductility;
+  return with_coefficient(material.stabilization,
+                          material.stabilization_coefficient.value_or(breaks_by_stretch ? 0.3 : 0.01));
+}
+
 // The metal of a block whose points may fail is a law of its own; the deck has been asked whether there is one.
 materials::AnyLaw law_of(const deck::Material& material, const deck::Block& section,
                          const std::optional<DamageModel>& damage) {
@@ -67,7 +75,7 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
     const std::optional<DamageModel> damage = damage_of(deck, section);
     materials.push_back({material.density,
                          law_of(material, section, damage),
-                         material.stabilization,
+                         stabilization_of(material, damage),
                          material.formulation,
                          {material.linear_viscosity, material.quadratic_viscosity},
                          damage});

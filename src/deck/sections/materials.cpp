@@ -36,12 +36,12 @@ const ChoiceKey<Stabilization> stabilization(
                 "deformation gradient of both ends, or (Silling) each end's own, does not represent."},
     stabilizations());
 
-const RealKey stabilization_coefficient(
+const OptionalKey<double> stabilization_coefficient(
     {.name = "Stabilization Coefficient",
      .range = not_negative,
-     .fallback = "0.01",
      .meaning = "Its strength in units of (λ + 2μ)/(tr K/3), with the shape tensor K: the same for "
-                "every influence function and horizon. Not Peridigm's Hourglass Coefficient."});
+                "every influence function and horizon. Without it 0.01, and 0.3 in blocks whose bonds break by their "
+                "stretch. Not Peridigm's Hourglass Coefficient."});
 
 const RealKey linear_viscosity(
     {.name = "Linear Viscosity",
@@ -66,7 +66,8 @@ void check_needs_no_stabilization(const Values& values, Problems& problems) {
 
 void read_correspondence(const Values& values, Material& material, Problems& problems) {
   material.formulation = values[formulation];
-  material.stabilization = with_coefficient(values[stabilization], values[stabilization_coefficient]);
+  material.stabilization = values[stabilization];
+  material.stabilization_coefficient = values[stabilization_coefficient];
   material.linear_viscosity = values[linear_viscosity];
   material.quadratic_viscosity = values[quadratic_viscosity];
   if (material.formulation != Formulation::quadratic) return;

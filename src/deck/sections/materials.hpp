@@ -1,6 +1,7 @@
 // The section Materials.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct Material {
   Formulation formulation{};
   materials::AnyLaw law;  // ordinary: Elastic
   // By correspondence.
-  Stabilization stabilization = NoStabilization();
+  Stabilization stabilization = NoStabilization();  // its coefficient apart
+  std::optional<double> stabilization_coefficient;
   double linear_viscosity{}, quadratic_viscosity{};
 };
 

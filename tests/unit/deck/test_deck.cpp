@@ -57,7 +57,8 @@ TEST(Deck, ReadsMaterials) {
   const Material& copper = deck.materials[0];
   EXPECT_EQ(copper.name, "copper");
   EXPECT_EQ(copper.density, 8960);
-  EXPECT_EQ(std::get<MeanGradientStabilization>(copper.stabilization).coefficient, 0.05);
+  EXPECT_EQ(residual_of(copper.stabilization), ResidualKind::both_gradients);
+  EXPECT_EQ(copper.stabilization_coefficient, 0.05);
   const auto& j2 = std::get<materials::J2>(copper.law);
   EXPECT_DOUBLE_EQ(j2.bulk, 110e9 / (3 * (1 - 2 * 0.296)));
   EXPECT_DOUBLE_EQ(j2.shear, 110e9 / (2 * 1.296));
@@ -306,7 +307,8 @@ TEST(Deck, HasDefaults) {
   EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::error);
   EXPECT_TRUE(deck.node_sets.empty());
   EXPECT_TRUE(deck.conditions.empty());
-  EXPECT_EQ(std::get<MeanGradientStabilization>(deck.materials[0].stabilization).coefficient, 0.01);
+  EXPECT_EQ(residual_of(deck.materials[0].stabilization), ResidualKind::both_gradients);
+  EXPECT_FALSE(deck.materials[0].stabilization_coefficient);
   EXPECT_TRUE(std::holds_alternative<materials::NoHardening>(flow(deck).hardening));
   EXPECT_TRUE(std::holds_alternative<materials::NoRate>(flow(deck).rate));
   EXPECT_EQ(deck.solver.initial_time, 0);

@@ -35,7 +35,8 @@ TEST(DeckOfPeridigm, HourglassCoefficients) {
   EXPECT_EQ(residual_of(none.materials[0].stabilization), ResidualKind::none);
   EXPECT_TRUE(none.notes.empty());
   const Deck some = with(folder, poisson, poisson + key("Hourglass Coefficient", "double", "0.02"));
-  EXPECT_EQ(std::get<SillingStabilization>(some.materials[0].stabilization).coefficient, 0.04);
+  EXPECT_EQ(residual_of(some.materials[0].stabilization), ResidualKind::own_gradient);
+  EXPECT_EQ(some.materials[0].stabilization_coefficient, 0.04);
   EXPECT_TRUE(told(some,
                    "Materials > copper > Hourglass Coefficient is taken as Stabilization 'Silling' with the "
                    "coefficient 0.04, about the same in effect"));

@@ -1,0 +1,36 @@
+// What a deck's sections make of a block: its material.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "setup/blocks.hpp"
+
+namespace strut::regression {
+namespace {
+
+double coefficient_in(const std::string& text) {
+  const RunFolder folder;
+  const deck::Deck deck = deck::read(folder.write("deck.xml", text), folder.world);
+  PointCloud cloud;
+  cloud.block_names = {"bar"};
+  return coefficient_of(block_materials(deck, cloud)[0].stabilization);
+}
+
+TEST(Blocks, ThatBreakByStretchHaveStifferSprings) {
+  const std::string whole = Parts().text();
+  const std::string broken =
+      changed(changed(whole, key("Horizon", "2.01e-3"), key("Horizon", "2.01e-3") + key("Damage Model", "cracks")),
+              "<ParameterList name=\"Blocks\">",
+              section("Damage Models",
+                      section("cracks", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "100"))) +
+                  "<ParameterList name=\"Blocks\">");
+  const auto with_own = [](const std::string& text) {
+    return changed(text, key("Density", "8930"), key("Density", "8930") + key("Stabilization Coefficient", "0.07"));
+  };
+  EXPECT_EQ(coefficient_in(whole), 0.01);
+  EXPECT_EQ(coefficient_in(broken), 0.3);
+  EXPECT_EQ(coefficient_in(with_own(whole)), 0.07);
+  EXPECT_EQ(coefficient_in(with_own(broken)), 0.07);
+}
+
+}  // namespace
+}  // namespace strut::regression
