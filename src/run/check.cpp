@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
+#include "io/netcdf/trial_read.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "output/variables.hpp"
 #include "run/report.hpp"
@@ -109,6 +110,7 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
 
 void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
   const deck::Deck deck = deck::read(deck_file, communicator);
+  io::set_trial_reads(deck.discretization.trial_reads);
   Scene scene = set_up(deck, communicator);
   output_variables_of(deck, scene.body, scene.contact);
   const std::string scene_text = describe_scene(scene);
