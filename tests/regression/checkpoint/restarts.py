@@ -226,7 +226,7 @@ class Test:
     def start(self, folder, *options, ranks=1):
         command = [self.strut, *options, "deck.xml"]
         if ranks > 1:
-            command = [*self.mpirun, "-np", str(ranks), *command]
+            command = [*self.mpirun, "-n", str(ranks), *command]
         # As on a full disk, a file that may not grow is to be an error of a write, not a signal.
         before = lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
