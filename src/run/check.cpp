@@ -112,10 +112,11 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   const deck::Deck deck = deck::read(deck_file, communicator);
   io::set_trial_reads(deck.discretization.trial_reads);
   Scene scene = set_up(deck, communicator);
-  output_variables_of(deck, scene.body, scene.contact);
+  const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);
   const std::string scene_text = describe_scene(scene);
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;
-  const std::string text = scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene);
+  const std::string text = (scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene)) +
+                           memory_and_frame(scene, variables);
   if (communicator.rank() == 0) std::cout << text << deck_file.string() << ": no errors\n";
 }
 
