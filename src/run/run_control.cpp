@@ -11,8 +11,8 @@ volatile std::sig_atomic_t signalled = 0;
 
 }  // namespace
 
-void catch_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, [](int) { signalled = 1; });
+void catch_signals(std::initializer_list<int> signals) {
+  for (const int signal : signals) std::signal(signal, [](int) { signalled = 1; });
 }
 
 bool is_signalled() { return signalled != 0; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -14,8 +15,8 @@
 
 namespace strut {
 
-// From now on SIGINT, SIGTERM and SIGUSR1 end the run after the current step.
-void catch_signals();
+// From now on these (of csignal) end the run after the current step, or its first one.
+void catch_signals(std::initializer_list<int> signals);
 bool is_signalled();
 
 // Whether a run is to end before its final time, on this rank: a signal has come, or its wall time is over. Ranks agree
