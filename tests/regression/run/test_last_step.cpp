@@ -61,7 +61,8 @@ TEST(Signal, InTheLastStepLeavesTheRunComplete) {
   EXPECT_FALSE(signalled_run(folder, "1e-6"));
 }
 
-// The end of a job, told to a run that still sets up: it goes on to its first step. Uncaught, it would end this process.
+// The end of a job, told to a run that still sets up: it goes on to its first step. Uncaught, it would end this
+// process.
 TEST(Signal, DuringSetUpIsKeptForTheFirstStep) {
   const RunFolder folder;
   EXPECT_FALSE(signalled_run(folder, "1e-6", "of memory", SIGUSR1));
