@@ -1,29 +1,64 @@
-# The libraries strut stands on, all Debian packages (tools/packages lists them). Everything is included as SYSTEM.
+# The libraries strut stands on: Debian 12's packages (tools/packages lists them), or any in CMAKE_PREFIX_PATH.
+# Everything is included as SYSTEM.
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(Eigen3 REQUIRED NO_MODULE)
-find_package(GTest REQUIRED)
-find_package(benchmark REQUIRED)
-find_library(EXODUS_LIBRARY NAMES exoIIv2c exodus REQUIRED)
-find_library(NETCDF_LIBRARY NAMES netcdf REQUIRED)
-find_library(VORO_LIBRARY voro++ REQUIRED)
-find_path(VORO_INCLUDE_DIR voro++/voro++.hh REQUIRED)
+if(BUILD_TESTING)
+  find_package(GTest REQUIRED)
+endif()
+if(STRUT_BENCHES)
+  find_package(benchmark REQUIRED)
+endif()
+if(STRUT_TOOLS)
+  find_library(VORO_LIBRARY voro++ REQUIRED)
+  find_path(VORO_INCLUDE_DIR voro++/voro++.hh REQUIRED)
+endif()
 
-# Debian's Trilinos: headers in one folder, libraries with one prefix. Naming the libraries is shorter than its
-# exported targets, which pull in every package that Debian built.
-find_path(TRILINOS_INCLUDE_DIR Teuchos_ParameterList.hpp PATH_SUFFIXES trilinos REQUIRED)
+find_library(EXODUS_LIBRARY NAMES exoIIv2c exodus REQUIRED)
+find_path(EXODUS_INCLUDE_DIR exodusII.h REQUIRED)
+find_library(NETCDF_LIBRARY NAMES netcdf REQUIRED)
+find_path(NETCDF_INCLUDE_DIR netcdf.h REQUIRED)
+add_library(with_exodus INTERFACE)
+target_include_directories(with_exodus SYSTEM INTERFACE ${EXODUS_INCLUDE_DIR} ${NETCDF_INCLUDE_DIR})
+target_link_libraries(with_exodus INTERFACE ${EXODUS_LIBRARY} ${NETCDF_LIBRARY})
+
+# Trilinos (14 and later) exports a target for each of its packages. Debian 12's 13.2 does not, and its configuration of
+# MueLu asks for packages that are not there: headers in one folder, libraries with one prefix.
+find_package(Tpetra QUIET CONFIG)
+if(TARGET Tpetra::all_libs)
+  set(STRUT_TRILINOS "exported targets, ${Tpetra_DIR}")
+else()
+  set(STRUT_TRILINOS "Debian's names")
+  find_path(TRILINOS_INCLUDE_DIR Teuchos_ParameterList.hpp PATH_SUFFIXES trilinos REQUIRED)
+endif()
+message(STATUS "Trilinos: ${STRUT_TRILINOS}")
+
+# strut_trilinos(TARGET PACKAGES packages that export targets… DEBIAN libraries…)
 function(strut_trilinos target)
+  cmake_parse_arguments(trilinos "" "" "PACKAGES;DEBIAN" ${ARGN})
   add_library(${target} INTERFACE)
-  target_include_directories(${target} SYSTEM INTERFACE ${TRILINOS_INCLUDE_DIR})
-  foreach(name IN LISTS ARGN)
-    find_library(TRILINOS_${name} trilinos_${name} REQUIRED)
-    target_link_libraries(${target} INTERFACE ${TRILINOS_${name}})
-  endforeach()
+  if(TARGET Tpetra::all_libs)
+    foreach(package IN LISTS trilinos_PACKAGES)
+      if(NOT TARGET ${package}::all_libs)
+        find_package(${package} REQUIRED CONFIG)
+      endif()
+      target_link_libraries(${target} INTERFACE ${package}::all_libs)
+    endforeach()
+  else()
+    target_include_directories(${target} SYSTEM INTERFACE ${TRILINOS_INCLUDE_DIR})
+    foreach(name IN LISTS trilinos_DEBIAN)
+      find_library(TRILINOS_${name} trilinos_${name} REQUIRED)
+      target_link_libraries(${target} INTERFACE ${TRILINOS_${name}})
+    endforeach()
+  endif()
   target_link_libraries(${target} INTERFACE MPI::MPI_CXX)
 endfunction()
 
-strut_trilinos(trilinos_teuchos teuchoscore teuchosparser teuchosparameterlist teuchoscomm)
-strut_trilinos(trilinos_kokkos kokkoscore)
-strut_trilinos(trilinos_tpetra tpetra teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
-strut_trilinos(trilinos_krylov muelu muelu-adapters muelu-interface belostpetra belos ifpack2 xpetra xpetra-sup
-  amesos2 tpetra teuchosnumerics teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
-strut_trilinos(trilinos_zoltan zoltan)
+strut_trilinos(with_teuchos PACKAGES Teuchos
+               DEBIAN teuchoscore teuchosparser teuchosparameterlist teuchoscomm)
+strut_trilinos(with_kokkos PACKAGES Kokkos DEBIAN kokkoscore)
+strut_trilinos(with_tpetra PACKAGES Tpetra
+               DEBIAN tpetra teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
+strut_trilinos(with_krylov PACKAGES MueLu Belos Ifpack2 Xpetra Amesos2 Tpetra
+               DEBIAN muelu muelu-adapters muelu-interface belostpetra belos ifpack2 xpetra xpetra-sup amesos2 tpetra
+                      teuchosnumerics teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
+strut_trilinos(with_zoltan PACKAGES Zoltan DEBIAN zoltan)

@@ -32,9 +32,10 @@ usage: strut [option] deck.xml              on one core
 
 Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
 checkpoint (relative to this folder).
-Signals: SIGTERM and SIGINT end a run after the current step, with a last frame and a checkpoint.
-Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal, also of tools/run,
-which hands the signal on. An mpirun that gets it ends with 1, and leaves the ranks a second.
+Signals: SIGTERM, SIGINT and SIGUSR1 end a run after the current step, with a last frame and a checkpoint; so does the
+deck's Wall Time.
+Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal or the wall time, also
+of tools/run, which hands the signal on. An mpirun that gets it ends with 1, and leaves the ranks a second.
 )";
 
 int say(const strut::Communicator& world, const std::string& text) {

@@ -13,7 +13,9 @@ namespace strut::contact {
 struct Candidate {
   double reference[4], current[4];  // of Site
   double mass, skin;                // kg; its skin distance, m
-  std::int64_t id, block, owned;    // owned: its local index on the rank that owns it
+  std::int64_t id;
+  int block, owned;    // owned: its local index on the rank that owns it
+  std::int64_t owner;  // that rank
 };
 
 inline Vector place(const Candidate& c) { return {c.current[0], c.current[1], c.current[2]}; }

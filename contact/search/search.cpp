@@ -27,6 +27,7 @@ Candidate candidate(const Kinematics& kinematics, int i, double skin) {
   c.id = kinematics.domain.cloud.ids[i];
   c.block = kinematics.domain.cloud.blocks[i];
   c.owned = i;
+  c.owner = kinematics.domain.communicator.rank();
   return c;
 }
 
@@ -141,6 +142,7 @@ std::vector<int> paired_members(const CandidatePool& candidates, const Lists& li
 Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_body, const Communicator& communicator) {
   Pairs pairs;
   pairs.one_body = one_body;
+  std::vector<int> owners;  // of the others
   std::vector<int> local(candidates.members.size(), -1);
   for (const int m : paired_members(candidates, lists)) {
     const Candidate& member = candidates.members[m];
@@ -148,15 +150,17 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
     pairs.sites.push_back(site(member));
     pairs.masses.push_back(member.mass);
     pairs.ids.push_back(member.id);
-    if (!candidates.owns(m)) continue;
-    pairs.owned.push_back(static_cast<int>(member.owned));
+    if (!candidates.owns(m)) {
+      owners.push_back(static_cast<int>(member.owner));
+      continue;
+    }
+    pairs.owned.push_back(member.owned);
     pairs.start.push_back(pairs.start.back() + lists.of(m).size());
   }
   for (const int partner : lists.members) pairs.partners.push_back(local[partner]);
-  const auto first_other = pairs.ids.begin() + static_cast<std::ptrdiff_t>(pairs.owned.size());
-  const std::vector<std::int64_t> owned(pairs.ids.begin(), first_other), others(first_other, pairs.ids.end());
-  if (communicator.sum(static_cast<std::int64_t>(others.size())) > 0) {
-    pairs.halo.emplace(communicator, owned, others);
+  const std::span<const std::int64_t> ids(pairs.ids);
+  if (communicator.sum(static_cast<std::int64_t>(owners.size())) > 0) {
+    pairs.halo.emplace(communicator, ids.first(pairs.owned.size()), ids.subspan(pairs.owned.size()), owners);
   }
   return pairs;
 }

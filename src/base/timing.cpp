@@ -59,6 +59,14 @@ Timed::~Timed() {
   running = outer_;
 }
 
+double seconds_outside(std::initializer_list<const char*> waiting) {
+  double sum = 0;
+  for (const Teuchos::Time& timer : phases()) {
+    if (std::find(waiting.begin(), waiting.end(), timer.name()) == waiting.end()) sum += timer.totalElapsedTime();
+  }
+  return sum;
+}
+
 std::vector<PhaseTime> phase_times(const Communicator& communicator) {
   std::vector<PhaseTime> times;
   for (const std::string& name : names_on_all_ranks(communicator)) {

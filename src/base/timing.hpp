@@ -1,6 +1,7 @@
 // Where the time of a run goes: named phases on Teuchos timers, and their table.
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct PhaseTime {
   std::string name;
   double mean, longest;  // s over ranks
 };
+
+// What this rank has taken in phases other than these, s: those in which it waits for others.
+double seconds_outside(std::initializer_list<const char*> waiting);
 
 // Collective. All phases of all ranks in the order of their first use; on a rank that never came to one it took no
 // time.

@@ -24,7 +24,8 @@ namespace {
 struct Candidate {
   double position[3];
   double volume, horizon;
-  std::int64_t id, block;
+  std::int64_t id;
+  int block, owner;  // the rank
 };
 
 // Points of other ranks that lie within `reach` of the box of this rank's points.
@@ -33,7 +34,8 @@ std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<dou
   std::vector<Candidate> mine;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vector& X = cloud.positions[i];
-    mine.push_back({{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i], cloud.blocks[i]});
+    mine.push_back(
+        {{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i], cloud.blocks[i], communicator.rank()});
   }
   return from_nearby_ranks<Candidate>(box_around(cloud.positions), cloud.positions, mine, reach, communicator);
 }
@@ -47,12 +49,13 @@ struct CandidatePool {
   std::vector<int> bodies;
   std::vector<char> asks;      // for bonds through material, or (2) for those that touch
   std::vector<double> deltas;  // δ, m: horizons are those of the search
+  std::vector<int> owners;     // the ranks of the candidates
 };
 
 CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons,
                             const std::vector<BlockBonds>& bonds, const std::vector<Candidate>& others) {
   CandidatePool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
-  const auto add_block = [&](std::int64_t block) {
+  const auto add_block = [&](int block) {
     pool.bodies.push_back(bonds[block].body);
     pool.asks.push_back(bonds[block].touching ? 2 : bonds[block].through_material ? 1 : 0);
     pool.deltas.push_back(pool.horizons[pool.deltas.size()] / bonds[block].search_factor());
@@ -63,6 +66,7 @@ CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& 
     pool.volumes.push_back(c.volume);
     pool.ids.push_back(c.id);
     pool.horizons.push_back(c.horizon);
+    pool.owners.push_back(c.owner);
     add_block(c.block);
   }
   return pool;
@@ -432,6 +436,7 @@ struct Members {
   std::vector<int> in_pool, local, bodies;  // local: of the pool's members, −1 of those that are left out
   std::vector<Site> sites;
   std::vector<std::int64_t> ghost_ids;
+  std::vector<int> ghost_owners;
 };
 
 Members members_of(const CandidatePool& pool, const Order& order, int owned) {
@@ -444,7 +449,9 @@ Members members_of(const CandidatePool& pool, const Order& order, int owned) {
     site.reference << pool.positions[p].array(), pool.volumes[p];
     site.current << pool.positions[p].array(), pool.deltas[p];
     members.bodies.push_back(pool.bodies[p]);
-    if (p >= owned) members.ghost_ids.push_back(pool.ids[p]);
+    if (p < owned) continue;
+    members.ghost_ids.push_back(pool.ids[p]);
+    members.ghost_owners.push_back(pool.owners[p - owned]);
   }
   return members;
 }
@@ -500,7 +507,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   Members members = members_of(pool, order, owned);
   Families families{.lists = lists_of(stencils, search, pool, cloud.blocks, order, members.local)};
   add_lattices(frames, pool, members, owned, families);
-  Halo halo(communicator, mine.ids, members.ghost_ids);
+  Halo halo(communicator, mine.ids, members.ghost_ids, members.ghost_owners);
   const int ghosts = static_cast<int>(order.ghosts.size());
   return {communicator,
           std::move(mine),

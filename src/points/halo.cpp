@@ -1,10 +1,11 @@
 #include "points/halo.hpp"
 
-#include <Tpetra_Core.hpp>
+#include <Kokkos_Core.hpp>
 #include <Tpetra_Distributor.hpp>
-#include <Tpetra_Import.hpp>
-#include <Tpetra_Map.hpp>
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "base/parallel/communicator.hpp"
 
@@ -12,14 +13,35 @@ namespace strut {
 
 namespace {
 
-using Map = Tpetra::Map<>;
-using GlobalId = Map::global_ordinal_type;
 using Buffer = Kokkos::View<double*, Kokkos::HostSpace>;
 
-Teuchos::RCP<const Map> map_of(const Communicator& communicator, const std::vector<GlobalId>& ids) {
-  const auto unknown = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
-  return Teuchos::rcp(
-      new Map(unknown, Teuchos::ArrayView<const GlobalId>(ids.data(), ids.size()), 0, communicator.teuchos()));
+template <class T>
+Teuchos::ArrayView<const T> view(const std::vector<T>& values) {
+  return {values.data(), static_cast<Teuchos::ArrayView<const T>::size_type>(values.size())};
+}
+
+// The places of the ghosts in the order in which they arrive: by owners.
+std::vector<int> by_owners(std::span<const int> owners) {
+  std::vector<int> order(owners.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int g) { return owners[g]; });
+  return order;
+}
+
+// The places of some ids among the owned ones.
+template <class Ids>
+std::vector<int> places_of(const Ids& wanted, std::span<const std::int64_t> owned) {
+  std::vector<int> by_id(owned.size()), places;
+  std::iota(by_id.begin(), by_id.end(), 0);
+  std::ranges::sort(by_id, {}, [&](int i) { return owned[i]; });
+  for (const std::int64_t id : wanted) {
+    const auto place = std::ranges::lower_bound(by_id, id, {}, [&](int i) { return owned[i]; });
+    if (place == by_id.end() || owned[*place] != id) {
+      throw std::logic_error("a rank asks for point " + std::to_string(id) + ", which is not this one's");
+    }
+    places.push_back(*place);
+  }
+  return places;
 }
 
 }  // namespace
@@ -30,21 +52,24 @@ struct Halo::Plan {
   Buffer outgoing, incoming;
 };
 
-Halo::Halo(const Communicator& communicator, const std::vector<std::int64_t>& owned,
-           const std::vector<std::int64_t>& ghosts)
+// A rank asks the owners of its ghosts, which learn so to whom they send what.
+Halo::Halo(const Communicator& communicator, std::span<const std::int64_t> owned, std::span<const std::int64_t> ghosts,
+           std::span<const int> owners)
     : plan_(std::make_unique<Plan>()) {
   if (communicator.size() == 1) return;
-  std::vector<GlobalId> ids(owned.begin(), owned.end());
-  const auto source = map_of(communicator, ids);
-  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
-  const auto target = map_of(communicator, ids);
-  const Tpetra::Import<> import(source, target);
-  plan_->distributor = Teuchos::rcp(new Tpetra::Distributor(import.getDistributor()));
-  const auto sent = import.getExportLIDs(), receivers = import.getExportPIDs();
-  const auto received = import.getRemoteLIDs();
-  plan_->sent.assign(sent.begin(), sent.end());
+  std::vector<std::int64_t> asked;
+  std::vector<int> from;
+  for (const int g : by_owners(owners)) {
+    plan_->received.push_back(static_cast<int>(owned.size()) + g);
+    asked.push_back(ghosts[g]);
+    from.push_back(owners[g]);
+  }
+  Teuchos::Array<std::int64_t> wanted;
+  Teuchos::Array<int> receivers;
+  plan_->distributor = Teuchos::rcp(new Tpetra::Distributor(communicator.teuchos()));
+  plan_->distributor->createFromRecvs(view(asked), view(from), wanted, receivers);
+  plan_->sent = places_of(wanted, owned);
   plan_->receivers.assign(receivers.begin(), receivers.end());
-  plan_->received.assign(received.begin(), received.end());
 }
 
 Halo::Halo(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
@@ -62,7 +87,7 @@ Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std
     if (wanted[i] != 0) part->received.push_back(i);
   }
   part->distributor = Teuchos::rcp(new Tpetra::Distributor(communicator.teuchos()));
-  part->distributor->createFromSends(Teuchos::ArrayView<const int>(part->receivers.data(), part->receivers.size()));
+  part->distributor->createFromSends(view(part->receivers));
   return Halo(std::move(part));
 }
 

@@ -10,12 +10,13 @@ namespace strut {
 
 class Communicator;
 
-// Built on a Tpetra import from the map of owned points to the map of owned and ghost points.
+// Built on Tpetra's distributor.
 class Halo {
  public:
-  // Collective. `owned`, `ghosts`: global ids in the order of local indices (ghosts follow the owned points).
-  Halo(const Communicator& communicator, const std::vector<std::int64_t>& owned,
-       const std::vector<std::int64_t>& ghosts);
+  // Collective. `owned`, `ghosts`: global ids in the order of local indices (ghosts follow the owned points); `owners`:
+  // the ranks that own the ghosts. Each of these must know the id as one of its own.
+  Halo(const Communicator& communicator, std::span<const std::int64_t> owned, std::span<const std::int64_t> ghosts,
+       std::span<const int> owners);
   // Collective. The same for some of the points: `wanted` of owned points and ghosts, as their owners have it.
   Halo restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const;
   ~Halo();

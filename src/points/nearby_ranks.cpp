@@ -3,6 +3,8 @@
 #include <Tpetra_Distributor.hpp>
 #include <algorithm>
 
+#include "points/bounding_box.hpp"
+
 namespace strut {
 
 namespace {
@@ -24,25 +26,63 @@ std::vector<Eigen::AlignedBox3d> boxes_of_all(const Eigen::AlignedBox3d& mine, c
   return boxes;
 }
 
+// Places follow each other along a curve, or in a lattice: a run of them is in a small box.
+constexpr std::size_t run_length = 32;
+
+struct Run {
+  std::size_t begin, end;
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Run> runs_of(std::span<const Vector> places) {
+  std::vector<Run> runs;
+  for (std::size_t begin = 0; begin < places.size(); begin += run_length) {
+    const std::size_t count = std::min(run_length, places.size() - begin);
+    runs.push_back({begin, begin + count, box_around(places.subspan(begin, count))});
+  }
+  return runs;
+}
+
 }  // namespace
+
+// A box that holds places is no farther from another than any of them, to the last bit: the differences of coordinates
+// and the sum of their squares grow alike.
+NearbyRanks nearby_ranks(std::span<const Eigen::AlignedBox3d> boxes, int this_rank, std::span<const Vector> places,
+                         double reach) {
+  NearbyRanks found;
+  const Eigen::AlignedBox3d around = box_around(places);
+  const std::vector<Run> runs = runs_of(places);
+  for (int r = 0; r < static_cast<int>(boxes.size()); ++r) {
+    const auto near = [&](const auto& what) { return boxes[r].squaredExteriorDistance(what) <= reach * reach; };
+    if (r == this_rank || boxes[r].isEmpty() || !near(around)) continue;
+    for (const Run& run : runs) {
+      if (!near(run.box)) continue;
+      found.tests += static_cast<std::int64_t>(run.end - run.begin);
+      for (std::size_t k = run.begin; k < run.end; ++k) {
+        if (!near(places[k])) continue;
+        found.ranks.push_back(r);
+        found.places.push_back(static_cast<int>(k));
+      }
+    }
+  }
+  return found;
+}
 
 std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
                                               std::span<const double> records, int width, double reach,
                                               const Communicator& communicator) {
   if (communicator.size() == 1) return {};
   const auto boxes = boxes_of_all(box, communicator);
+  const NearbyRanks targets = nearby_ranks(boxes, communicator.rank(), places, reach);
   std::vector<double> outgoing;
-  std::vector<int> targets;
-  for (int r = 0; r < communicator.size(); ++r) {
-    if (r == communicator.rank() || boxes[r].isEmpty()) continue;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      if (boxes[r].squaredExteriorDistance(places[k]) > reach * reach) continue;
-      outgoing.insert(outgoing.end(), records.begin() + k * width, records.begin() + (k + 1) * width);
-      targets.push_back(r);
-    }
+  outgoing.reserve(targets.places.size() * width);
+  for (const int k : targets.places) {
+    const auto record = records.subspan(static_cast<std::size_t>(k) * width, width);
+    outgoing.insert(outgoing.end(), record.begin(), record.end());
   }
   Tpetra::Distributor distributor(communicator.teuchos());
-  const std::size_t arriving = distributor.createFromSends(Teuchos::ArrayView<const int>(targets));
+  const std::size_t arriving =
+      distributor.createFromSends(Teuchos::ArrayView<const int>(targets.ranks.data(), targets.ranks.size()));
   std::vector<double> incoming(arriving * width);
   const Kokkos::View<const double*, Kokkos::HostSpace> from(outgoing.data(), outgoing.size());
   const Kokkos::View<double*, Kokkos::HostSpace> to(incoming.data(), incoming.size());

@@ -1,6 +1,7 @@
 // Points that lie near the points of other ranks: how ghosts are found before anyone knows who they are.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -9,6 +10,17 @@
 #include "base/parallel/communicator.hpp"
 
 namespace strut {
+
+// places[k] goes to ranks[k], in the order of ranks, and to each of them in the order of places.
+struct NearbyRanks {
+  std::vector<int> ranks, places;
+  std::int64_t tests = 0;  // of a place against a box
+};
+
+// Which places lie within `reach` (m) of which box of another rank than this one; an empty box is near nobody. Of boxes
+// out of reach of all places, or of a run of them, no place is tested.
+NearbyRanks nearby_ranks(std::span<const Eigen::AlignedBox3d> boxes, int this_rank, std::span<const Vector> places,
+                         double reach);
 
 // `width` doubles a place. Used through the template below.
 std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,

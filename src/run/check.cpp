@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
+#include "io/netcdf/trial_read.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "output/variables.hpp"
 #include "run/report.hpp"
@@ -109,11 +110,13 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
 
 void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
   const deck::Deck deck = deck::read(deck_file, communicator);
+  io::set_trial_reads(deck.discretization.trial_reads);
   Scene scene = set_up(deck, communicator);
-  output_variables_of(deck, scene.body, scene.contact);
+  const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);
   const std::string scene_text = describe_scene(scene);
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;
-  const std::string text = scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene);
+  const std::string text = (scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene)) +
+                           memory_and_frame(scene, variables);
   if (communicator.rank() == 0) std::cout << text << deck_file.string() << ": no errors\n";
 }
 

@@ -1,5 +1,6 @@
 #include "run/report.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -107,6 +108,23 @@ std::string describe_scene(const Scene& scene) {
   return text.str();
 }
 
+double frame_bytes(const OutputVariables& variables, std::int64_t points) {
+  double numbers = 1;  // the time
+  for (const Observable& variable : variables.frame) numbers += variable.components * static_cast<double>(points);
+  return sizeof(double) * numbers;
+}
+
+std::string memory_and_frame(const Scene& scene, const OutputVariables& variables) {
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  const double mine = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  const Communicator& ranks = scene.body.domain.communicator;
+  const bool first = ranks.rank() == 0;
+  const double root = ranks.max(first ? mine : 0.0), most = ranks.max(first ? 0.0 : mine);
+  return "most memory so far: rank 0 " + as_size(root) + (ranks.size() > 1 ? ", the others " + as_size(most) : "") +
+         "; a frame takes " + as_size(frame_bytes(variables, scene.points)) + "\n";
+}
+
 std::string step_warning(const StepControl& control, double limit, double time) {
   if (!(control.fixed_dt > limit)) return "";
   return formatted(
@@ -127,6 +145,31 @@ std::string table_of_phases(const Scene& scene, double seconds) {
   text << formatted("%-26s %10.3f %10s %6.1f%%\n", "other", seconds - sum, "", 100 * (seconds - sum) / seconds)
        << formatted("%-26s %10.3f\n", "whole run", seconds);
   return text.str();
+}
+
+// Collective. A number of each rank, over all.
+std::string row_of_ranks(const Communicator& ranks, const char* name, const char* format, double mine) {
+  const double mean = ranks.sum(mine) / ranks.size();
+  std::string text = formatted("%-26s", name);
+  for (const double value : {ranks.min(mine), mean, ranks.max(mine)}) {
+    text += formatted(" %10s", formatted(format, value).c_str());
+  }
+  return text + "\n";
+}
+
+// How evenly the work is spread: the ranks wait for the one that has most of it.
+std::string table_of_ranks(const Body& body) {
+  const Communicator& ranks = body.domain.communicator;
+  if (ranks.size() == 1) return "";
+  double updates = body.time_levels.empty() ? body.owned() : 0;
+  for (const std::uint8_t level : body.time_levels) updates += 1 << level;
+  return formatted("\n%-26s %10s %10s %10s\n", "of a rank", "least", "mean", "most") +
+         row_of_ranks(ranks, "points", "%.0f", body.owned()) +
+         row_of_ranks(ranks, "ghosts", "%.0f", body.domain.ghosts) +
+         row_of_ranks(ranks, "updates a step, at the end", "%.0f", updates) +
+         row_of_ranks(ranks, "s at work, not waiting", "%.3f",
+                      seconds_outside({"Halo exchange", "Agreement of ranks"})) +
+         "\n";
 }
 
 std::string searches(const contact::Contact& contact) {
@@ -167,7 +210,7 @@ std::string energies(const Ledger& ledger) {
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
                            int before) {
   std::ostringstream text;
-  text << table_of_phases(scene, seconds) << searches(solver.contact());
+  text << table_of_phases(scene, seconds) << table_of_ranks(scene.body) << searches(solver.contact());
   const int steps = std::max(1, solver.steps() - before);  // none where a run that was over goes on
   const double core_seconds = seconds * scene.body.domain.communicator.size();
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
@@ -183,7 +226,7 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
 std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,
                            int before) {
   const double point_evaluations = static_cast<double>(scene.points) * solver.evaluations();
-  return table_of_phases(scene, seconds) + searches(solver.contact()) +
+  return table_of_phases(scene, seconds) + table_of_ranks(scene.body) + searches(solver.contact()) +
          formatted("%d load steps, %d iterations, %d evaluations of forces or tangent, %.3g points*evaluations/s\n",
                    solver.steps() - before, solver.iterations(), solver.evaluations(), point_evaluations / seconds) +
          energies(ledger);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "deck/deck.hpp"
+#include "output/variables.hpp"
 #include "setup/scene.hpp"
 
 namespace strut {
@@ -34,11 +35,18 @@ std::string describe_scene(const Scene& scene);
 // on all ranks; the program itself has some 50 MB a rank, 80 with equilibria.
 double predicted_memory(const Scene& scene);
 
+// Of the result file, for each frame.
+double frame_bytes(const OutputVariables& variables, std::int64_t points);
+
+// Collective. What rank 0, which reads the mesh, and the others have taken at most until now, the program itself
+// included; what a frame takes.
+std::string memory_and_frame(const Scene& scene, const OutputVariables& variables);
+
 // A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 
-// Collective. The table of time by phase, points·steps per second, ns per bond, the ledger at the end. `before`: steps
-// that were made by an earlier run.
+// Collective. The tables of time by phase and of the ranks' shares, points·steps per second, ns per bond, the ledger at
+// the end. `before`: steps that were made by an earlier run.
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
                            int before);
 std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,

@@ -11,12 +11,20 @@ volatile std::sig_atomic_t signalled = 0;
 
 }  // namespace
 
-void catch_signals() {
-  std::signal(SIGINT, [](int) { signalled = 1; });
-  std::signal(SIGTERM, [](int) { signalled = 1; });
+void catch_signals(std::initializer_list<int> signals) {
+  for (const int signal : signals) std::signal(signal, [](int) { signalled = 1; });
 }
 
 bool is_signalled() { return signalled != 0; }
+
+bool EarlyEnd::wanted() const {
+  const auto passed = [this] { return std::chrono::duration<double>(Clock::now() - began_).count(); };
+  return is_signalled() || (wall_time_ && passed() > *wall_time_);
+}
+
+std::string EarlyEnd::reason(const Communicator& communicator) const {
+  return communicator.max(is_signalled() ? 1.0 : 0.0) > 0 ? "ended by a signal" : "ended by its Wall Time";
+}
 
 void say(const Communicator& communicator, const std::string& text) {
   if (communicator.rank() == 0) std::cout << text << std::flush;
@@ -54,7 +62,9 @@ void ExplicitRunControl::warn_of_fixed_step(const CentralDifference& solver) {
 bool ExplicitRunControl::prepare_next(CentralDifference& solver) {
   using Request = CentralDifference::Request;
   const Checkpoint& checkpoint = services_.checkpoint;
-  solver.request(is_signalled() ? Request::stop : checkpoint.due_by_the_clock() ? Request::save : Request::none);
+  solver.request(services_.early_end.wanted()    ? Request::stop
+                 : checkpoint.due_by_the_clock() ? Request::save
+                                                 : Request::none);
   ending_ = solver.agreed_request() == Request::stop;
   saving_ = solver.agreed_request() == Request::save;
   const double next = solver.time() + solver.dt();

@@ -1,6 +1,11 @@
 // What a run does besides its steps: checkpoints, output, limits, progress, and how a run is ended by a signal.
 #pragma once
 
+#include <chrono>
+#include <initializer_list>
+#include <optional>
+#include <string>
+
 #include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
 #include "output/writers.hpp"
@@ -10,9 +15,24 @@
 
 namespace strut {
 
-// From now on SIGINT and SIGTERM end the run after the current step.
-void catch_signals();
+// From now on these (of csignal) end the run after the current step, or its first one.
+void catch_signals(std::initializer_list<int> signals);
 bool is_signalled();
+
+// Whether a run is to end before its final time, on this rank: a signal has come, or its wall time is over. Ranks agree
+// on it by themselves.
+class EarlyEnd {
+ public:
+  using Clock = std::chrono::steady_clock;
+  EarlyEnd(Clock::time_point began, std::optional<double> wall_time) : began_(began), wall_time_(wall_time) {}  // s
+
+  bool wanted() const;
+  std::string reason(const Communicator& communicator) const;  // collective
+
+ private:
+  Clock::time_point began_;
+  std::optional<double> wall_time_;
+};
 
 // On rank 0.
 void say(const Communicator& communicator, const std::string& text);
@@ -24,6 +44,7 @@ struct RunServices {
   OutputWriters& writers;
   Checkpoint& checkpoint;
   Monitor& monitor;
+  const EarlyEnd& early_end;
 };
 
 // Of explicit steps. Energies are known everywhere at the times that are looked at or kept, for ranks agree a step

@@ -1,10 +1,11 @@
 #include "run/simulation.hpp"
 
-#include <chrono>
+#include <csignal>
 #include <iostream>
 
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
+#include "io/netcdf/trial_read.hpp"
 #include "output/variables.hpp"
 #include "run/run_control.hpp"
 #include "setup/setup.hpp"
@@ -13,7 +14,7 @@ namespace strut {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using Clock = EarlyEnd::Clock;
 
 // On the rank that has something to tell.
 void tell(const std::string& line) { std::cout << line << std::endl; }
@@ -49,7 +50,7 @@ Ledger step_through(const RunServices& services, CentralDifference& solver) {
 
 // The same by load steps.
 Ledger load_through(const RunServices& services, QuasiStatic& solver) {
-  const auto& [deck, scene, writers, checkpoint, monitor] = services;
+  const auto& [deck, scene, writers, checkpoint, monitor, early_end] = services;
   const int conditions = writers.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
   const Communicator& ranks = scene.body.domain.communicator;
   const auto record = [&](bool last) {
@@ -70,14 +71,14 @@ Ledger load_through(const RunServices& services, QuasiStatic& solver) {
       quietly([&] { record(true); });
       throw;
     }
-    ending = ranks.max(ending || is_signalled() ? 1.0 : 0.0) > 0;
+    ending = ranks.max(ending || early_end.wanted() ? 1.0 : 0.0) > 0;
     save = ending || ranks.max(checkpoint.due_by_the_clock() ? 1.0 : 0.0) > 0;
   }
 }
 
-Observer observer(const deck::Deck& deck, const Communicator& communicator) {
+Observer observer(const deck::Deck& deck, const Communicator& communicator, const EarlyEnd& early_end) {
   const auto tell = [&communicator](const std::string& line) { say(communicator, line + "\n"); };
-  Observer observer{tell, {}, [] { return is_signalled(); }};
+  Observer observer{tell, {}, [&early_end] { return early_end.wanted(); }};
   if (deck.solver.verbose) observer.iterations = tell;
   return observer;
 }
@@ -85,7 +86,7 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator) {
 // From set-up to the end, by a solver of either kind.
 template <class Solver, class Through>
 bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Solver& solver, Start start,
-               Clock::time_point began, const Through& through) {
+               Clock::time_point began, const EarlyEnd& early_end, const Through& through) {
   const Communicator& communicator = scene.body.domain.communicator;
   Monitor monitor(deck.watch, scene.body, tell);
   Checkpoint checkpoint(deck, communicator, [&](Archive& archive) {
@@ -100,10 +101,10 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
   }
   writers.open(scene.body);
   const int before = solver.steps();
-  catch_signals();
+  catch_signals({SIGINT, SIGTERM});
   const Ledger ledger = [&] {
     try {
-      return through(RunServices{deck, scene, writers, checkpoint, monitor});
+      return through(RunServices{deck, scene, writers, checkpoint, monitor, early_end});
     } catch (const Error& error) {
       leave_frame(writers, solver.time(), scene.body);
       throw Error(error.what() + checkpoint.hint());
@@ -113,7 +114,7 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
   if (over) checkpoint.close();
   const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
   say(communicator, closing_report(scene, solver, ledger, seconds, before));
-  if (!over) say(communicator, "ended by a signal" + checkpoint.hint() + "\n");
+  if (!over) say(communicator, early_end.reason(communicator) + checkpoint.hint() + "\n");
   return over;
 }
 
@@ -121,7 +122,10 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
 
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
+  catch_signals({SIGUSR1});  // a job that ends while the mesh is read goes on in the next; the others end it at once
   const deck::Deck deck = deck::read(deck_file, communicator);
+  io::set_trial_reads(deck.discretization.trial_reads);
+  const EarlyEnd early_end(began, deck.solver.wall_time);
   if (start == Start::continued && !checkpoint_exists(deck, communicator) && is_over(deck, communicator)) {
     say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
     return true;
@@ -133,14 +137,14 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   OutputWriters writers(deck, variables);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                       deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator));
-    return carry_out(deck, scene, writers, solver, start, began,
+                       deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end));
+    return carry_out(deck, scene, writers, solver, start, began, early_end,
                      [&](const RunServices& services) { return load_through(services, solver); });
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time);
   if (writers.history.has_reactions()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
-  return carry_out(deck, scene, writers, solver, start, began,
+  return carry_out(deck, scene, writers, solver, start, began, early_end,
                    [&](const RunServices& services) { return step_through(services, solver); });
 }
 

@@ -171,14 +171,20 @@ def captured():
 # A mesh, to the program that writes Exodus
 
 
+def programs(*names):
+    """strut, strut-mesh: of this source tree, built where they are stale, or of an installed one."""
+    prepare = os.path.join(ROOT, "tools", "prepare")
+    if not os.path.exists(prepare):
+        return [os.path.join(ROOT, "..", "..", "bin", name) for name in names]
+    if subprocess.run([prepare, "release", "--target", *names]).returncode != 0:
+        fail(f"{' and '.join(names)} could not be built")
+    folders = {"strut": "."}
+    return [os.path.join(ROOT, "build", "release", folders.get(name, "tools"), name) for name in names]
+
+
 def mesh_program():
-    """STRUT_MESH, or the one of this source tree, built where it is stale."""
-    program = os.environ.get("STRUT_MESH")
-    if program:
-        return program
-    if subprocess.run([os.path.join(ROOT, "tools", "prepare"), "release", "--target", "strut-mesh"]).returncode != 0:
-        fail("strut-mesh could not be built")
-    return os.path.join(ROOT, "build", "release", "tools", "strut-mesh")
+    """STRUT_MESH, or the one that belongs to this tool."""
+    return os.environ.get("STRUT_MESH") or programs("strut-mesh")[0]
 
 
 def parts_of(nodes, blocks, sets):

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 
-from strut_tools import ROOT, fail
+from strut_tools import fail, programs
 
 EARLY = 3  # the exit status of a run that a signal has ended
 
@@ -132,16 +132,12 @@ def last_line(path):
 
 
 class Programs:
-    """STRUT and STRUT_MESH, or those of this source tree, built where they are stale."""
+    """STRUT and STRUT_MESH, or those that belong to this tool."""
 
     def __init__(self):
         self.strut, self.mesh = os.environ.get("STRUT"), os.environ.get("STRUT_MESH")
-        if self.strut and self.mesh:
-            return
-        command = [os.path.join(ROOT, "tools/prepare"), "release", "--target", "strut", "strut-mesh"]
-        if subprocess.run(command).returncode != 0:
-            fail("strut could not be built")
-        self.strut, self.mesh = (os.path.join(ROOT, "build/release", p) for p in ("strut", "tools/strut-mesh"))
+        if not (self.strut and self.mesh):
+            self.strut, self.mesh = programs("strut", "strut-mesh")
 
 
 def run_all(cases, jobs, ranks, tell):

@@ -84,6 +84,12 @@ const ChoiceKey<DegeneratePoints> degenerate(
                 "points at most; `Drop Any` goes on with whatever is left."},
     {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
 
+const BooleanKey trial_reads(
+    {.name = "Trial Reads",
+     .fallback = "true",
+     .meaning = "A mesh in HDF5 is read by a copy of the process first, which a damaged file may "
+                "crash. `false`: no process is forked, which some networks under MPI forbid."});
+
 // What each type of discretization must have, and what it cannot.
 void check_source(const Values& values, Problems& problems) {
   if (!values.has(type)) return;
@@ -112,7 +118,7 @@ Section discretization_section() {
           .keys = {type, mesh_file, neighborhood, verbose_without_effect(),
                    without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
                                   "the mesh is not kept"),
-                   points, influence, degenerate},
+                   points, influence, degenerate, trial_reads},
           .sections = {grid_section(), bond_filters_section()},
           .hints = {{"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
 }
@@ -132,6 +138,7 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
           .points = values[points],
           .influence = values[influence],
           .degenerate = values[degenerate],
+          .trial_reads = values[trial_reads],
           .cracks = read_bond_filters(values, problems)};
 }
 
@@ -141,10 +148,11 @@ void check_mesh(const fs::path& mesh, Problems& problems) {
   const bool there = fs::exists(mesh);
   if (mesh.empty() || (!of_others && fs::is_regular_file(mesh) && std::ifstream(mesh))) return;
   const fs::path recipe = fs::path(mesh).replace_extension(".recipe");
-  std::string what = "'" + mesh.string() +
-                     (!there      ? "' does not exist"
-                      : of_others ? "' is a mesh of another program, of which tools/tetrahedra makes one that can be read"
-                                  : "' is not a file that can be read");
+  std::string what =
+      "'" + mesh.string() +
+      (!there      ? "' does not exist"
+       : of_others ? "' is a mesh of another program, of which tools/tetrahedra makes one that can be read"
+                   : "' is not a file that can be read");
   if (!there && fs::exists(recipe)) what += " (tools/run makes it from " + recipe.string() + ")";
   problems.add(path_to(name, mesh_file.name), what + "; expected a mesh, its path relative to the deck's folder");
 }

@@ -29,6 +29,7 @@ struct Discretization {
   Points points{};             // where they are; nodes: of Exodus meshes only
   Influence influence{};
   DegeneratePoints degenerate{};
+  bool trial_reads{};         // of a mesh in HDF5, by a copy of the process
   std::vector<Crack> cracks;  // that no bond crosses
 };
 

@@ -84,6 +84,13 @@ const RealKey initial_time({.name = "Initial Time", .unit = "s", .fallback = "0"
 
 const RealKey final_time({.name = "Final Time", .unit = "s", .meaning = "When it ends: after the initial time."});
 
+const OptionalKey<double> wall_time(
+    {.name = "Wall Time",
+     .unit = "s",
+     .range = positive,
+     .meaning = "After so long, set-up included, the run ends as by a signal: with a checkpoint, a last frame and the "
+                "exit status 3. A job's limit, less what a step, a frame and a checkpoint take."});
+
 void check_times(const Values& values, Problems& problems) {
   if (!values.has(initial_time) || !values.has(final_time)) return;
   const double begin = values[initial_time], end = values[final_time];
@@ -100,7 +107,7 @@ Section solver_section() {
           .meaning = "The time that is simulated, and its steps.",
           .keys = {verbose, without_effect({.name = "Peridigm Preconditioner", .kind = Kind::text}, own_solver),
                    without_effect({.name = "Finite Difference Probe Length", .range = positive}, own_solver),
-                   initial_time, final_time},
+                   initial_time, final_time, wall_time},
           .sections = {verlet, quasi_static},
           .hints = {{"Implicit", "unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia"}}};
 }
@@ -110,6 +117,7 @@ Solver read_solver(const Values& deck, Problems& problems) {
   const Values& steps = values.section(verlet.name);
   Solver solver{.initial_time = values[initial_time],
                 .final_time = values[final_time],
+                .wall_time = values[wall_time],
                 .verbose = values[verbose],
                 .fixed_dt = steps[fixed_dt],
                 .safety_factor = steps[safety_factor],

@@ -17,6 +17,9 @@ auto read_after_trial(const std::filesystem::path& file, const Read& read) {
   return read();
 }
 
+// From now on, of this process: false where nothing may be forked (some networks under MPI); files are then trusted.
+void set_trial_reads(bool wanted);
+
 bool is_hdf5(const std::filesystem::path& file);
 
 }  // namespace strut::io

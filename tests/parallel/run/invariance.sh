@@ -228,7 +228,7 @@ for name in bar fast nodes cells mixed mixed-cells meeting touching breaking cra
   problem $name
   for ranks in 1 2 3 4; do
     deck $name$ranks > deck.xml
-    if ! "$@" -np $ranks "$strut" deck.xml > log 2>&1; then
+    if ! "$@" -n $ranks "$strut" deck.xml > log 2>&1; then
       echo "FAILED: the run of $name on $ranks ranks"
       cat log
       exit 1

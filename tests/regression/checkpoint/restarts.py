@@ -6,7 +6,7 @@
 Scenes: in explicit steps a plastic bar that strikes a plane with an ordinary elastic one behind it (points that are
 subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break;
 equilibria between tools. Each is run once
-without a break. Then it is ended by SIGTERM, by N SIGKILLs at random times (a checkpoint is written every third step, so
+without a break. Then it is ended by SIGTERM, by its wall time again and again, by N SIGKILLs at random times (a checkpoint is written every third step, so
 that many of them come in the middle of that, of a frame or of a line), by the loss of a rank, by a full disk; and goes
 on. Histories must be the same to the last byte and fields to the last bit on as many ranks; 1e-12 on others.
 """
@@ -226,7 +226,7 @@ class Test:
     def start(self, folder, *options, ranks=1):
         command = [self.strut, *options, "deck.xml"]
         if ranks > 1:
-            command = [*self.mpirun, "-np", str(ranks), *command]
+            command = [*self.mpirun, "-n", str(ranks), *command]
         # As on a full disk, a file that may not grow is to be an error of a write, not a signal.
         before = lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
@@ -284,6 +284,23 @@ class Test:
         tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "cells": (1e-12, 1e-9),
                       "breaking": (1e-12, 1e-9), "tearing": (1e-12, 1e-9), "cracking": (1e-12, 1e-9)}
         self.same(whole, elsewhere, scene, *tolerances[scene])
+
+    def out_of_time(self, scene, whole):
+        """A chain of jobs, each with a wall time that ends it after some steps, or after one."""
+        folder = self.folder(f"{scene}-out-of-time", scene, 10**6)
+        deck = folder / "deck.xml"
+        text = deck.read_text()
+        part = self.setup[scene] + 0.25 * self.seconds[scene]
+        ended = 0
+        for seconds in (1e-9, part, part, 1e9):
+            deck.write_text(text.replace('name="Solver">', 'name="Solver">' + keys(Wall_Time=seconds)))
+            log = self.run(folder, "--continue", expect=None)
+            if "ended by its Wall Time" not in log:
+                break
+            ended += 1
+        if not 1 <= ended <= 3:
+            self.fail(f"{folder}: {ended} jobs ended by their wall time", folder / "log")
+        self.same(whole, folder, scene)
 
     def killed(self, scene, whole, kills):
         folder = self.folder(f"{scene}-killed", scene)
@@ -428,6 +445,7 @@ class Test:
             self.fail("no bond broke", whole / "log")
         self.setup[name] = 0.1
         self.terminated(name, whole)
+        self.out_of_time(name, whole)
         self.killed(name, whole, kills)
         if name in ("impact", "cells"):
             self.rank_lost(name)

@@ -125,16 +125,29 @@ END
 
 conditions=$(condition twist "Initial Velocity" all x "10*sin(500*z)") solver="" frequency=20
 write_deck
-for signal in TERM INT; do
+for signal in TERM INT USR1; do
   run "one process, SIG$signal" pid $signal "$strut" deck.xml
   [ $status -eq 3 ] || { fail "one process, SIG$signal: exit status $status, expected 3"; cat log; }
 done
 
 # What mpirun makes of its ranks' exit status is its own affair; it may not be success.
-run "SIGTERM to the second of two ranks" rank.1 TERM "$@" -np 2 sh ./start
+run "SIGTERM to the second of two ranks" rank.1 TERM "$@" -n 2 sh ./start
 [ $status -ne 0 ] || fail "SIGTERM to a rank: mpirun reports success"
-run "SIGINT to mpirun" pid INT "$@" -np 2 sh ./start
+run "SIGINT to mpirun" pid INT "$@" -n 2 sh ./start
 [ $status -ne 0 ] || fail "SIGINT to mpirun: mpirun reports success"
+
+# This one mpirun hands on, and waits.
+run "SIGUSR1 to mpirun" pid USR1 "$@" -n 2 sh ./start
+[ $status -eq 3 ] || fail "SIGUSR1 to mpirun: exit status $status, expected 3"
+grep -q "ended by a signal; 'strut --continue" log || { fail "SIGUSR1 to mpirun: no such end is told"; cat log; }
+
+# Wall time, of two ranks whose clocks differ by their start: both end at the same step, with what a signal leaves.
+solver='<Parameter name="Wall Time" type="double" value="1.5"/>'
+write_deck
+rm -f history.csv result.e deck.restart
+"$@" -n 2 "$strut" deck.xml > log 2>&1 && fail "wall time: mpirun reports success"
+grep -q "ended by its Wall Time; 'strut --continue deck.xml' goes on from" log || { fail "wall time: no such end is told"; cat log; }
+check_results "wall time"
 
 # The same of a run by equilibria.
 conditions=$(for axis in x y z; do

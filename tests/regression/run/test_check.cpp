@@ -59,6 +59,52 @@ TEST(Check, TellsTheTimeOfEquilibria) {
   EXPECT_EQ(numbers_in(told, "estimated time ([0-9.]+) s to ([0-9.]+) s").size(), 2u);
 }
 
+// What rank 0 has taken is told, and the size of a frame, by which the result file grows.
+TEST(Check, TellsMemoryAndTheSizeOfAFrame) {
+  const RunFolder folder({.nx = 4, .ny = 4, .nz = 8});
+  const auto size_with = [&](const std::string& final_time) {
+    Parts parts;
+    parts.times = key("Final Time", final_time);
+    parts.verlet = key("Fixed dt", "1e-8");
+    parts.output =
+        key("Output Filename", (folder / "result.e").string()) + key("Output Frequency", "1") +
+        section("Output Variables", key("Displacement", "true") + key("Cauchy_Stress", "true") + key("Volume", "true"));
+    const auto deck = folder.write("deck.xml", parts.text());
+    testing::internal::CaptureStdout();
+    check(deck, folder.world);
+    const std::string told = testing::internal::GetCapturedStdout();
+    run(deck, folder.world);
+    if (folder.world.rank() == 0) {
+      EXPECT_GT(numbers_in(told, "most memory so far: rank 0 ([0-9.]+) MB").at(0), 5) << "a program of some MB";
+    }
+    return folder.world.rank() == 0 ? std::filesystem::file_size(folder / "result.e") : 0;
+  };
+  const std::uintmax_t few = size_with("4.5e-8"), more = size_with("9.5e-8");
+  if (folder.world.rank() != 0) return;
+  OutputVariables variables;
+  for (const int components : {3, 6, 1}) variables.frame.push_back({.name = "", .components = components});
+  EXPECT_EQ(static_cast<double>(more - few), 5 * frame_bytes(variables, 4 * 4 * 8));
+}
+
+// At the end of a run on several ranks, what each had of it.
+TEST(ClosingReport, TellsTheSharesOfTheRanks) {
+  const RunFolder folder({.nx = 4, .ny = 4, .nz = 8});
+  const auto deck = folder.write("deck.xml", Parts().text());
+  testing::internal::CaptureStdout();
+  run(deck, folder.world);
+  const std::string told = testing::internal::GetCapturedStdout();
+  if (folder.world.rank() != 0) return;
+  EXPECT_EQ(told.find("of a rank ") != std::string::npos, folder.world.size() > 1);
+  if (folder.world.size() == 1) return;
+  const auto points = numbers_in(told, "\npoints +([0-9]+) +([0-9]+) +([0-9]+)\n");
+  const auto ghosts = numbers_in(told, "\nghosts +([0-9]+) +([0-9]+) +([0-9]+)\n");
+  const auto work = numbers_in(told, "\ns at work, not waiting +([0-9.]+) +([0-9.]+) +([0-9.]+)\n");
+  EXPECT_EQ(points, (std::vector<double>(3, 64))) << "two halves";
+  EXPECT_EQ(ghosts, (std::vector<double>(3, 32))) << "the horizon reaches two layers of 16 points";
+  EXPECT_LE(work[0], work[1]);
+  EXPECT_LE(work[1], work[2]);
+}
+
 TEST(Check, RefusesFilesThatCannotBeWritten) {
   const RunFolder folder;
   Parts parts;
@@ -73,7 +119,7 @@ TEST(Check, RefusesFilesThatCannotBeWritten) {
     said = error.what();
   }
   for (const char* part : {"2 problems", "Output > Output Filename: '", "History > Filename: '",
-                                  "cannot create it: there is no folder '"}) {
+                           "cannot create it: there is no folder '"}) {
     EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
   }
 }

@@ -11,14 +11,14 @@
 namespace strut::regression {
 namespace {
 
-// Stands for std::cout, and raises SIGTERM when the run tells its progress for the first time: between the two halves
-// of its first step.
-class SignalAtProgress : public std::streambuf {
+// Stands for std::cout, and raises a signal when the run tells a text for the first time. Of progress it tells first
+// between the two halves of its first step.
+class SignalAt : public std::streambuf {
  public:
-  SignalAtProgress() : replaced_(std::cout.rdbuf(this)) {}
-  ~SignalAtProgress() override {
+  SignalAt(const char* text, int signal) : text_(text), signal_(signal), replaced_(std::cout.rdbuf(this)) {}
+  ~SignalAt() override {
     std::cout.rdbuf(replaced_);
-    std::signal(SIGTERM, SIG_DFL);
+    std::signal(signal_, SIG_DFL);
   }
 
  private:
@@ -29,25 +29,28 @@ class SignalAtProgress : public std::streambuf {
   }
   std::streamsize xsputn(const char* text, std::streamsize size) override {
     shown_.append(text, static_cast<std::size_t>(size));
-    if (!raised_ && shown_.find("left: ") != std::string::npos) {
+    if (!raised_ && shown_.find(text_) != std::string::npos) {
       raised_ = true;
-      std::raise(SIGTERM);
+      std::raise(signal_);
     }
     return size;
   }
 
+  const char* text_;
+  int signal_;
   std::streambuf* replaced_;
   std::string shown_;
   bool raised_ = false;
 };
 
-// What a run of so many equal steps returns when it is signalled in the first.
-bool signalled_run(const RunFolder& folder, const std::string& final_time) {
+// What a run of so many equal steps returns when it is signalled.
+bool signalled_run(const RunFolder& folder, const std::string& final_time,
+                   const char* at = "left: ", int with = SIGTERM) {
   Parts parts;
   parts.times = key("Final Time", final_time);
   parts.verlet = key("Fixed dt", "1e-8");
   const std::filesystem::path deck = folder.write("deck.xml", parts.text());
-  const SignalAtProgress signal;
+  const SignalAt signal(at, with);
   return run(deck, folder.world);
 }
 
@@ -56,6 +59,13 @@ TEST(Signal, InTheLastStepLeavesTheRunComplete) {
   const RunFolder folder;
   EXPECT_TRUE(signalled_run(folder, "1e-8"));
   EXPECT_FALSE(signalled_run(folder, "1e-6"));
+}
+
+// The end of a job, told to a run that still sets up: it goes on to its first step. Uncaught, it would end this
+// process.
+TEST(Signal, DuringSetUpIsKeptForTheFirstStep) {
+  const RunFolder folder;
+  EXPECT_FALSE(signalled_run(folder, "1e-6", "of memory", SIGUSR1));
 }
 
 }  // namespace

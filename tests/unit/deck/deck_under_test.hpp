@@ -20,6 +20,7 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
     <Parameter name="Input Mesh File" type="string" value="bar.txt"/>
     <Parameter name="Influence Function" type="string" value="Cubic Decay"/>
     <Parameter name="Degenerate Points" type="string" value="Drop"/>
+    <Parameter name="Trial Reads" type="bool" value="false"/>
   </ParameterList>
   <ParameterList name="Node Sets">
     <Parameter name="low" type="string" value="z &lt; 1e-3"/>
@@ -107,6 +108,7 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
     <Parameter name="Verbose" type="bool" value="false"/>
     <Parameter name="Initial Time" type="double" value="1e-4"/>
     <Parameter name="Final Time" type="double" value="3e-4"/>
+    <Parameter name="Wall Time" type="double" value="3600"/>
     <ParameterList name="Verlet">
       <Parameter name="Fixed dt" type="double" value="1e-8"/>
     </ParameterList>

@@ -23,6 +23,7 @@ TEST(Deck, ReadsPoints) {
   EXPECT_EQ(deck.discretization.mesh, folder / "bar.txt");
   EXPECT_EQ(deck.discretization.influence, Influence::cubic_decay);
   EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::drop);
+  EXPECT_FALSE(deck.discretization.trial_reads);
   ASSERT_EQ(deck.node_sets.size(), 1u);
   EXPECT_EQ(deck.node_sets[0].name, "low");
   EXPECT_NE(deck.node_sets[0].where(0, 0, 0.5e-3, 0), 0);
@@ -287,6 +288,7 @@ TEST(Deck, ReadsSolverOutputAndHistory) {
   const Deck deck = folder.read(full_deck);
   EXPECT_EQ(deck.solver.initial_time, 1e-4);
   EXPECT_EQ(deck.solver.final_time, 3e-4);
+  EXPECT_EQ(deck.solver.wall_time, 3600);
   EXPECT_EQ(deck.solver.fixed_dt, 1e-8);
   EXPECT_TRUE(deck.output.enabled);
   EXPECT_EQ(deck.output.file, "bar.e");
@@ -305,6 +307,7 @@ TEST(Deck, HasDefaults) {
   const Deck deck = folder.read(small_deck);
   EXPECT_EQ(deck.discretization.influence, Influence::one);
   EXPECT_EQ(deck.discretization.degenerate, DegeneratePoints::error);
+  EXPECT_TRUE(deck.discretization.trial_reads);
   EXPECT_TRUE(deck.node_sets.empty());
   EXPECT_TRUE(deck.conditions.empty());
   EXPECT_EQ(residual_of(deck.materials[0].stabilization), ResidualKind::both_gradients);
@@ -312,6 +315,7 @@ TEST(Deck, HasDefaults) {
   EXPECT_TRUE(std::holds_alternative<materials::NoHardening>(flow(deck).hardening));
   EXPECT_TRUE(std::holds_alternative<materials::NoRate>(flow(deck).rate));
   EXPECT_EQ(deck.solver.initial_time, 0);
+  EXPECT_FALSE(deck.solver.wall_time);
   EXPECT_FALSE(deck.solver.fixed_dt);
   EXPECT_EQ(deck.solver.safety_factor, 0.8);
   EXPECT_FALSE(deck.solver.quasi_static);

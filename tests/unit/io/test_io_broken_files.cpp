@@ -1,5 +1,6 @@
 // Whatever a file holds, reading it gives one Error on all ranks that names the file: no crash, no hang.
 #include <gtest/gtest.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/resource.h>
 
@@ -11,6 +12,7 @@
 #include "base/parallel/communicator.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
+#include "io/netcdf/trial_read.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace strut::io {
@@ -82,6 +84,19 @@ TEST_F(BrokenFile, NoMeshAtAll) {
   expect_error(world, folder / "short.g", "not an Exodus");
   expect_error(world, folder / "hdf.g", "cannot open");
   expect_error(world, folder / "folder.g", "directory");
+}
+
+// HDF5 is tried by a copy of the process, but where nothing may be forked; the error is one of this process then.
+TEST_F(BrokenFile, NoProcessIsForkedWhereTheDeckSaysSo) {
+  static int forks = 0;
+  ASSERT_EQ(pthread_atfork([] { ++forks; }, nullptr, nullptr), 0);
+  run_on_root(world, [&] { write_bytes(folder / "hdf.g", "\x89HDF\r\n\x1a\n and nothing more"); });
+  expect_error(world, folder / "hdf.g", "cannot open");
+  EXPECT_EQ(forks, world.rank() == 0 ? 1 : 0);
+  set_trial_reads(false);
+  expect_error(world, folder / "hdf.g", "cannot open");
+  set_trial_reads(true);
+  EXPECT_EQ(forks, world.rank() == 0 ? 1 : 0) << "and none more";
 }
 
 TEST_F(BrokenFile, TruncatedAnywhere) {
