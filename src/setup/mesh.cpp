@@ -16,7 +16,12 @@ namespace {
 
 // Whether anything needs to know what the points are cells of.
 bool needs_cells(const deck::Deck& deck) {
+  const auto is_tool = [](const deck::Condition& condition) {
+    return std::holds_alternative<RigidTool>(condition.kind);
+  };
   return std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic) ||
+         (deck.discretization.points == deck::Points::elements &&
+          std::any_of(deck.conditions.begin(), deck.conditions.end(), is_tool)) ||
          std::any_of(deck.blocks.begin(), deck.blocks.end(),
                      [](const deck::Block& block) { return !block.across_voids.value_or(true); });
 }
