@@ -8,6 +8,7 @@
 #include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/friction.hpp"
 #include "contact/search/search.hpp"
+#include "points/cell_reach.hpp"
 
 namespace strut::contact {
 
@@ -22,15 +23,14 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // ∫ |W'| dV is 6.3/R, and material may be denser than it was.
 constexpr double steepest_share = 10;
 
-// By how much the cell of a point reaches beyond it towards the surface of its body, m. Of a slab √3 times the root of
-// its second moment.
-double reach_of_cell(const PointCloud& cloud, double volume, int i) {
-  if (cloud.shapes.empty()) return cloud.at == PointsAt::nodes ? 0 : 0.5 * std::cbrt(volume);
-  const CellShape& shape = cloud.shapes[i];
-  const double area = shape.surface.norm();
-  if (!(area > 0.1 * std::pow(cloud.spacings[i], 2))) return std::sqrt(trace(shape.moments));
-  const Vector n = shape.surface / area;
-  return std::max(0.0, n.dot(shape.offset) + std::sqrt(3 * n.dot(to_tensor(shape.moments) * n)));
+// By how much the cell of a point reaches beyond it towards the surface of its body, m; where that has no direction, as
+// in a thin plate, the mean of all.
+double reach_to_surface(const PointCloud& cloud, double volume, int i) {
+  if (cloud.shapes.empty()) return reach_of_cell(cloud, volume, i, Vector::Zero());
+  const Vector& surface = cloud.shapes[i].surface;
+  const double area = surface.norm();
+  if (!(area > 0.1 * std::pow(cloud.spacings[i], 2))) return std::sqrt(trace(cloud.shapes[i].moments));
+  return reach_of_cell(cloud, volume, i, surface / area);
 }
 
 // Σ V ξ over the family, in units of its volume and the horizon: 0 inside a body.
@@ -57,7 +57,7 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other)
   const PointCloud& cloud = domain.cloud;
   const double volume = domain.volume(i), spacing = cloud.spacings[i];
   const double reach = reach_in_spacings * std::max(spacing, spacing_of_other);
-  const double beyond = std::min(reach_of_cell(cloud, volume, i), 0.5 * reach);  // farther out ρ tells nothing
+  const double beyond = std::min(reach_to_surface(cloud, volume, i), 0.5 * reach);  // farther out ρ tells nothing
   const bool nodes = cloud.at == PointsAt::nodes;
   const Face other{reach, spacing_of_other, !nodes};
   return {.reach = reach,

@@ -1,9 +1,11 @@
 #include "conditions/rigid_tool.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/parallel/reproducible_sum.hpp"
 #include "conditions/velocity_update.hpp"
+#include "points/cell_reach.hpp"
 
 namespace strut {
 
@@ -50,7 +52,8 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
   const auto keep_out = [&](const auto& shape) {
     for (const int i : tool.points) {
       const double dt = update.steps.of(i);
-      const Surface at = surface(shape, update.body.current(i) - motion.offset());
+      Surface at = surface(shape, update.body.current(i) - motion.offset());
+      at.gap -= tool.reach(i);
       const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
       if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
       visit(i, correction(at, tool.friction, relative, dt));
@@ -89,6 +92,18 @@ Vector RigidTool::offset(double t) const {
   return sum;
 }
 
+void RigidTool::set_reaches(double t, const Body& body) {
+  const Domain& domain = body.domain;
+  if (domain.cloud.at == PointsAt::nodes) return;
+  auto all = std::make_shared<std::vector<double>>(body.owned(), 0);
+  for (const int i : points) {
+    const Surface at = surface(shape, domain.reference(i) - offset(t));
+    const double reach = reach_of_cell(domain.cloud, domain.volume(i), i, -at.normal);
+    (*all)[i] = std::clamp(at.gap, 0.0, reach);
+  }
+  reaches = std::move(all);
+}
+
 // The velocity V with which it goes on and the impulse J(V) that it gives to the points depend on each other: V = V* −
 // J(V)/M. By Newton's method, with the mass of the points that it pushes as the slope of J.
 void RigidTool::fly(VelocityUpdate& update) const {
@@ -117,7 +132,7 @@ void RigidTool::change_velocities(VelocityUpdate& update) const {
 }
 
 std::optional<RigidTool> RigidTool::in_substeps(const MovingPoints& moving) const {
-  return RigidTool{moving.among(points), shape, travel, friction, reaction_place, free, false};
+  return RigidTool{moving.among(points), shape, travel, friction, reaction_place, free, false, reaches};
 }
 
 }  // namespace strut

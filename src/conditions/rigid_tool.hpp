@@ -14,8 +14,9 @@
 
 namespace strut {
 
-// A tool that some points meet. One that would enter it is stopped at its surface, and is free to leave. While it is
-// stopped, Coulomb friction takes up to `friction` times the impulse of the tool from its sliding over the tool.
+// A tool that some points meet, where their cells end. One that would enter it is stopped at its surface, and is free
+// to leave. While it is stopped, Coulomb friction takes up to `friction` times the impulse of the tool from its sliding
+// over the tool.
 struct RigidTool {
   std::vector<int> points = {};
   Shape shape;                                         // before it travels
@@ -26,9 +27,16 @@ struct RigidTool {
   // it gives.
   std::shared_ptr<FreeMotion> free = {};
   bool in_whole_steps = true;
+  // Of all owned points, m. Nothing: it meets the points themselves.
+  std::shared_ptr<const std::vector<double>> reaches = {};
 
   // How far it has traveled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
   Vector offset(double t) const;
+  // How far the cell of a point reaches towards it, m. It touches where the gap of the point is no more.
+  double reach(int i) const { return reaches ? (*reaches)[i] : 0; }
+  // Of the body as it was read and the tool where it is at time t (s): cells that would overlap it there end at its
+  // surface. None of nodes, for those at a surface lie on it.
+  void set_reaches(double t, const Body& body);
 
   static constexpr Stage stage = Stage::tools;
   static constexpr double Work::*ledger_entry = &Work::tools;

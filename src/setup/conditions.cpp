@@ -1,6 +1,7 @@
 #include "setup/conditions.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -33,8 +34,11 @@ void check_values(const std::vector<Function>& values, const std::vector<int>& p
   }
 }
 
-void put(const ConditionType auto& prototype, std::vector<int> points, int place, double, Scene& scene) {
-  scene.conditions.add(prototype.on(std::move(points), place, scene.body));
+template <ConditionType Type>
+void put(const Type& prototype, std::vector<int> points, int place, double t, Scene& scene) {
+  Type condition = prototype.on(std::move(points), place, scene.body);
+  if constexpr (std::is_same_v<Type, RigidTool>) condition.set_reaches(t, scene.body);
+  scene.conditions.add(std::move(condition));
 }
 
 void put(const ActsOnce auto& prototype, const std::vector<int>& points, int, double t, Scene& scene) {

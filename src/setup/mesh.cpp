@@ -14,9 +14,20 @@ namespace strut {
 
 namespace {
 
+// Whether anything meets the faces of cells: points at nodes lie on them.
+bool meets_faces(const deck::Deck& deck) {
+  const auto is_tool = [](const deck::Condition& one) { return std::holds_alternative<RigidTool>(one.kind); };
+  const auto is_of_surfaces = [](const deck::ContactModel& one) {
+    return std::holds_alternative<contact::SurfaceLaw>(one.model.law);
+  };
+  return deck.discretization.points == deck::Points::elements &&
+         (std::any_of(deck.conditions.begin(), deck.conditions.end(), is_tool) ||
+          std::any_of(deck.contact_models.begin(), deck.contact_models.end(), is_of_surfaces));
+}
+
 // Whether anything needs to know what the points are cells of.
 bool needs_cells(const deck::Deck& deck) {
-  return std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic) ||
+  return std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic) || meets_faces(deck) ||
          std::any_of(deck.blocks.begin(), deck.blocks.end(),
                      [](const deck::Block& block) { return !block.across_voids.value_or(true); });
 }

@@ -55,7 +55,8 @@ void ToolContact::begin(const Body& body, double t, double dt) {
 void ToolContact::add_forces(const Body& body, Field& forces) {
   for (ContactPoint& contact : contact_points_) {
     const Vector place = body.current(contact.point);
-    const Surface at = surface(tools_[contact.tool].shape, place - offsets_[contact.tool]);
+    Surface at = surface(tools_[contact.tool].shape, place - offsets_[contact.tool]);
+    at.gap -= tools_[contact.tool].reach(contact.point);
     const Vector way = place - contact.start - travels_[contact.tool];
     press(at, way - way.dot(at.normal) * at.normal, contact);
     forces[contact.point] += contact.now.force;

@@ -5,8 +5,8 @@
 
 Scenes: in explicit steps a plastic bar that strikes a plane with an ordinary elastic one behind it (points that are
 subcycled, contact, friction, viscosity, reactions), the same by quadratic correspondence, and with bonds that break;
-equilibria between tools. Each is run once
-without a break. Then it is ended by SIGTERM, by its wall time again and again, by N SIGKILLs at random times (a checkpoint is written every third step, so
+equilibria between tools, and of surfaces that rub on each other. Each is run once without a break. Then it is ended by
+SIGTERM, by its wall time again and again, by N SIGKILLs at random times (a checkpoint is written every third step, so
 that many of them come in the middle of that, of a frame or of a line), by the loss of a rank, by a full disk; and goes
 on. Histories must be the same to the last byte and fields to the last bit on as many ranks; 1e-12 on others.
 """
@@ -26,8 +26,8 @@ SPACING = 0.004
 GAP = 0.0005  # between the two bars
 
 
-def points(path, with_flap):
-    """Two bars, one above the other: no two points alike, so that a mistake has nowhere to hide. The flap is one layer,
+def points(path, with_flap, between):
+    """Two bars, one above the other, with a gap between: no two points alike, so that a mistake has nowhere to hide. The flap is one layer,
     nearly flat, at a side of the lower one: its points are subcycled."""
     rng = random.Random(1)
     with open(path, "w") as file:
@@ -35,7 +35,7 @@ def points(path, with_flap):
             for j in range(5):
                 for i in range(5):
                     x, y, z = (SPACING * (n + 0.1 * rng.random()) for n in (i - 2, j - 2, k + 0.5))
-                    block, gap = (1, 0) if k < 8 else (2, GAP)
+                    block, gap = (1, 0) if k < 8 else (2, between)
                     file.write(f"{x:.17g} {y:.17g} {z + gap:.17g} {block} {SPACING**3:.17g}\n")
         for j in (-1, 0, 1) if with_flap else ():
             z = 4 + 0.2 * (1 if j else -1)
@@ -56,7 +56,7 @@ def keys(**values):
 
 
 COMMON = [
-    section("Node Sets", keys(foot=f"z < {1.2 * SPACING}").replace("<", "&lt;").replace("&lt;Param", "<Param")),
+    section("Node Sets", keys(foot=f"z < {1.2 * SPACING}", head=f"z > {13 * SPACING}").replace("<", "&lt;").replace("&lt;Param", "<Param")),
     section("Discretization", keys(Type="Text File", Input_Mesh_File="points.txt")),
     section(
         "Materials",
@@ -148,6 +148,20 @@ def press():
     return [text.replace('name="Separate Body" type="bool" value="true"', 'name="Separate Body" type="bool" value="false"')]
 
 
+def rubbing():
+    """The upper bar is pressed on the lower one, then dragged along it: surfaces that touch, stick and slide."""
+    text = "\n".join(press()).replace("press.", "rubbing.").replace("(plate)", "(drag)")
+    held = lambda name, axis, value: section(
+        name, keys(Type="Prescribed Displacement", Coordinate=axis, Node_Set="head", Value=value))
+    plate = plane("plate", 13.62 * SPACING + GAP, -1, Travel_Z="-0.003*t")
+    assert plate in text
+    text = text.replace(plate, held("down", "z", "-0.0002*t") + held("drag", "x", "(t &gt; 0.4)*(t - 0.4)*0.0015") + held("y", "y", "0"))
+    text = text.replace('name="Separate Body" type="bool" value="false"', 'name="Separate Body" type="bool" value="true"')
+    model = section("touch", keys(Contact_Model="Surface", Friction_Coefficient=0.3))
+    contact = section("Models", model), section("Interactions", section("General Contact", keys(Contact_Model="touch")))
+    return [text, section("Contact", *contact)]
+
+
 def cells():
     """The impact, its copper by quadratic correspondence: law points of their own. Contact of surfaces."""
     text = "\n".join(impact()).replace("impact.", "cells.")
@@ -196,7 +210,7 @@ def cracking():
     return [text, section("Damage Models", section("brittle", model))]
 
 
-SCENES = {"impact": impact, "press": press, "cells": cells, "breaking": breaking, "tearing": tearing, "cracking": cracking}
+SCENES = {"impact": impact, "press": press, "rubbing": rubbing, "cells": cells, "breaking": breaking, "tearing": tearing, "cracking": cracking}
 
 
 class Test:
@@ -215,7 +229,7 @@ class Test:
         """A new folder with the deck of a scene."""
         path = Path(name)
         path.mkdir()
-        points(path / "points.txt", with_flap=scene == "cells")
+        points(path / "points.txt", with_flap=scene == "cells", between=0 if scene == "rubbing" else GAP)
         keep = section("Restart", keys(Frequency=frequency))
         text = section(scene, *SCENES[scene](), keep).replace(f' name="{scene}"', "", 1)
         if not frames:  # but the first
@@ -281,7 +295,7 @@ class Test:
         self.same(whole, folder, scene)
         self.run(Path(elsewhere), "--continue", ranks=2)
         # Equilibria are found to 1e-6 of the forces, by preconditioners that differ with the ranks.
-        tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "cells": (1e-12, 1e-9),
+        tolerances = {"impact": (1e-12, 1e-9), "press": (1e-5, 1e-4), "rubbing": (1e-5, 1e-4), "cells": (1e-12, 1e-9),
                       "breaking": (1e-12, 1e-9), "tearing": (1e-12, 1e-9), "cracking": (1e-12, 1e-9)}
         self.same(whole, elsewhere, scene, *tolerances[scene])
 

@@ -307,10 +307,10 @@ TEST(RigidPlane, BlockBouncesOff) {
   const RunFolder folder(lattice);
   Parts parts;
   parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20") +
-                     plane("wall", "Rigid Plane", "all", "0 0 0.4e-3", "0 0 3");
+                     plane("wall", "Rigid Plane", "all", "0 0 -0.1e-3", "0 0 3");
   parts.times = key("Final Time", "15e-6");
   Simulation run(folder, parts);
-  Wall wall(run, Vector::UnitZ(), 0.4e-3);
+  Wall wall(run, Vector::UnitZ(), 0.4e-3);  // where points are when their cells, of 1 mm, touch
   const Ledger end = run.go([&](const Ledger& now) { wall.look(now); });
   const double thrown = 20 * run.mass();
   EXPECT_GE(wall.lowest(), -1e-12 * 12e-3);                                  // of the block's size

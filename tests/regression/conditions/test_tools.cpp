@@ -178,6 +178,29 @@ TEST(RigidTool, BeltAcceleratesWhatSlidesOnIt) {
   EXPECT_LT(worst_balance, 1e-3);
 }
 
+// A block flies 0.7 spacings to a wall that its face meets all at once, with points in the middles of cells and at
+// nodes, after the way of its face and not of its points: within a step, which takes it a few hundredths of a spacing.
+TEST(RigidTool, IsMetWhereTheFaceOfABodyIs) {
+  const RunFolder folder;
+  const double way = 0.7e-3, speed = 227;
+  for (const std::string points : {"Elements", "Nodes"}) {
+    Parts parts;
+    parts.points = points;
+    parts.conditions =
+        along("flight", "Initial Velocity", "all", "z", "-227") + rigid_plane("wall", "0 0 -0.7e-3", "0 0 1");
+    Simulation run(folder, parts);
+    double before = 0, touched = 0, step = 0, stopped = 0;
+    run.go([&](const Ledger& now) {
+      if (touched > 0 || now.momentum[2] < -(1 - 1e-9) * run.mass() * speed) return void(before = now.time);
+      touched = now.time, step = now.time - before;
+      for (int i = 0; i < run.body().owned(); ++i) stopped += run.body().velocity[i][2] > -0.99 * speed;
+    });
+    EXPECT_NEAR(touched, way / speed, step) << points;
+    EXPECT_LT(speed * step, 0.1e-3);
+    EXPECT_EQ(run.world().sum(stopped), points == "Nodes" ? 25 : 16) << points;
+  }
+}
+
 // The momentum and the energy of a punch that strikes a free bar and leaves it again; 4 g against 0.86 g.
 TEST(FreeTool, KeepsMomentumAndEnergyWithTheBodyThatItStrikes) {
   const RunFolder folder;
