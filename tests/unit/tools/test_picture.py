@@ -2,27 +2,16 @@
 """tools/picture, run as a user runs it, on small results that are written here: is what is seen where it should be, in the
 color that the scale gives to its value?"""
 import os
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 import unittest.mock
 
-try:
-    import matplotlib
-    import netCDF4
-    import numpy as np
+from tool_test import InFolder
 
-    matplotlib.use("Agg")
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
-
-TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
-sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
-from picture_parts import history, painter, rigid, surface, view  # noqa: E402
-from picture_parts.result import Result, clock_of  # noqa: E402
+import matplotlib.image
+import netCDF4
+import numpy as np
+from picture_parts import history, painter, rigid, surface, view
+from picture_parts.result import Result, clock_of
 
 H = 1e-3  # m, the spacing
 
@@ -68,16 +57,9 @@ def hue(color):
     return color / np.linalg.norm(color)
 
 
-class Pictures(unittest.TestCase):
-    def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
-
-    def tearDown(self):
-        self.keep.cleanup()
-
+class Pictures(InFolder):
     def picture(self, *words):
-        return subprocess.run([TOOLS / "picture", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+        return self.run_tool("picture", *words)
 
     def made(self, *words):
         done = self.picture(*words)
@@ -246,15 +228,8 @@ def deck_of(path, tools, history=""):
     return path
 
 
-class RigidTools(unittest.TestCase):
+class RigidTools(InFolder):
     """Tools of a deck: where they are, and that they are seen there."""
-
-    def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
-
-    def tearDown(self):
-        self.keep.cleanup()
 
     def test_a_tool_is_seen_as_glass_where_it_has_traveled_to(self):
         places = box(6, 6, 6)
@@ -280,8 +255,7 @@ class RigidTools(unittest.TestCase):
                 np.testing.assert_allclose(hue(found), hue(view.GREY), atol=1e-6)
         self.assertEqual(seen(1, 1, 6.25)[3], 0)  # beside it
         self.assertGreater(seen(0, 3, -0.1)[3], 0.1)  # the floor's edge, 0.03 of the body's size thick
-        done = subprocess.run([TOOLS / "picture", "body.e", "body.png", "--tools", "body.xml", "--variable", "S"],
-                              capture_output=True, text=True, cwd=self.folder)
+        done = self.run_tool("picture", "body.e", "body.png", "--tools", "body.xml", "--variable", "S")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertGreater((self.folder / "body.png").stat().st_size, 5000)
 
@@ -320,8 +294,7 @@ class RigidTools(unittest.TestCase):
                              ({"roll": {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 1", "Mass": "1", "Speed X": "1"}},
                               "follows from Reaction_X(roll): add it to the deck's History")):
             deck_of(self.folder / "a.xml", tools, "h.csv")
-            done = subprocess.run([TOOLS / "picture", "body.e", "a.png", "--tools", "a.xml"], capture_output=True, text=True,
-                                  cwd=self.folder)
+            done = self.run_tool("picture", "body.e", "a.png", "--tools", "a.xml")
             self.assertIn(words, done.stderr)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
 
