@@ -32,9 +32,10 @@ usage: strut [option] deck.xml              on one core
 
 Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
 checkpoint (relative to this folder).
-Signals: SIGTERM and SIGINT end a run after the current step, with a last frame and a checkpoint.
+Signals: SIGTERM, SIGINT and SIGUSR1 end a run after the current step, with a last frame and a checkpoint.
 Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal, also of tools/run,
-which hands the signal on. An mpirun that gets it ends with 1, and leaves the ranks a second.
+which hands the signal on, and of an mpirun that gets SIGUSR1. An mpirun that gets SIGTERM or SIGINT ends with 1, a
+status of its own, and kills ranks that take longer than a second.
 )";
 
 int say(const strut::Communicator& world, const std::string& text) {

@@ -12,8 +12,7 @@ volatile std::sig_atomic_t signalled = 0;
 }  // namespace
 
 void catch_signals() {
-  std::signal(SIGINT, [](int) { signalled = 1; });
-  std::signal(SIGTERM, [](int) { signalled = 1; });
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, [](int) { signalled = 1; });
 }
 
 bool is_signalled() { return signalled != 0; }

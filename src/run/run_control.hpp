@@ -10,7 +10,7 @@
 
 namespace strut {
 
-// From now on SIGINT and SIGTERM end the run after the current step.
+// From now on SIGINT, SIGTERM and SIGUSR1, which mpirun hands on, end the run after the current step.
 void catch_signals();
 bool is_signalled();
 
