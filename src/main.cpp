@@ -35,7 +35,8 @@ checkpoint (relative to this folder).
 Signals: SIGTERM, SIGINT and SIGUSR1 end a run after the current step, with a last frame and a checkpoint; so does the
 deck's Wall Time.
 Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal or the wall time, also
-of tools/run, which hands the signal on. An mpirun that gets it ends with 1, and leaves the ranks a second.
+of tools/run, which hands the signal on, and of an mpirun that gets SIGUSR1. An mpirun that gets SIGTERM or SIGINT ends
+with 1, a status of its own, and kills ranks that take longer than a second.
 )";
 
 int say(const strut::Communicator& world, const std::string& text) {

@@ -13,22 +13,28 @@ namespace strut {
 class Log::Both : public std::streambuf {
  public:
   Both(std::streambuf* terminal, std::ofstream& file) : terminal_(terminal), file_(file) {}
+  ~Both() override {
+    if (!line_.empty()) end_line();
+  }
 
  protected:
   int overflow(int character) override {
     if (character == traits_type::eof()) return traits_type::not_eof(character);
     const auto c = static_cast<char>(character);
     if (c == '\r') line_.clear();
-    if (c != '\r') line_ += c;
-    if (c == '\n') {
-      file_ << line_ << std::flush;
-      line_.clear();
-    }
+    if (c == '\n') end_line();
+    if (c != '\r' && c != '\n') line_ += c;
     return terminal_->sputc(c);
   }
   int sync() override { return terminal_->pubsync(); }
 
  private:
+  void end_line() {
+    line_ += '\n';
+    file_ << line_ << std::flush;
+    line_.clear();
+  }
+
   std::streambuf* terminal_;
   std::ofstream& file_;
   std::string line_;

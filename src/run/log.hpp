@@ -10,7 +10,8 @@
 
 namespace strut {
 
-// As long as it lives, what std::cout and std::cerr get on any rank goes to the file, too.
+// As long as it lives, what std::cout and std::cerr get on any rank goes to the file, too; at the end also a line that
+// has not ended.
 class Log {
  public:
   // Collective. Replaces the file; throws Error on all ranks where it cannot be created.

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "contact/passing.hpp"
 
 namespace strut {
 
@@ -77,6 +78,22 @@ void Monitor::check_step(const CentralDifference& solver) {
     }
     passed(penetration, text.str());
   }
+}
+
+void Monitor::check_passing(double time, const contact::Contact& contact) {
+  if (!contact.any() || limits_.passing >= 1 || told_[passing] || time < next_look_) return;
+  next_look_ = time + pause_;
+  const auto found = contact::find_passing(body_.domain, contact, limits_.passing);
+  if (!found) return;
+  std::ostringstream text;
+  if (found->point >= 0) {
+    const std::vector<std::string>& names = body_.domain.cloud.block_names;
+    text << at(time) << "blocks " << names[found->first] << " and " << names[found->second]
+         << " pass through each other: " << found->points << " points, " << 100 * found->part
+         << " % of the smaller one, are inside the other (Watch > Passing): " << locate(body_, found->point)
+         << ". Likely causes: contact too soft for the speed or the load, a Contact Radius far below the spacing";
+  }
+  passed(passing, text.str());
 }
 
 void Monitor::serialize(Archive& archive) {

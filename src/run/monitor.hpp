@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "deck/deck.hpp"
@@ -14,22 +15,26 @@ namespace strut {
 
 class Monitor {
  public:
-  // `tell`: takes a line, on any rank.
-  Monitor(const deck::Watch& limits, const Body& body, std::function<void(const std::string&)> tell)
-      : limits_(limits), body_(body), tell_(std::move(tell)) {}
+  // `duration`: of the run, s. `tell`: takes a line, on any rank.
+  Monitor(const deck::Watch& limits, double duration, const Body& body, std::function<void(const std::string&)> tell)
+      : limits_(limits), pause_(duration / looks), body_(body), tell_(std::move(tell)) {}
 
   // Where a limit is passed each throws Error on all ranks, or tells of it once where the deck says that the run goes
   // on; else they are free.
   void check_step(const CentralDifference& solver);  // after advance_velocity()
   void check_energy(const Ledger& ledger);
+  void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
 
   void serialize(Archive& archive);
 
  private:
-  enum What { step, energy, penetration, point, count };
+  enum What { step, energy, penetration, passing, point, count };
+  static constexpr double looks = 200;  // in a run, for bodies inside each other
   void passed(What what, const std::string& text);
 
   deck::Watch limits_;
+  double pause_;  // s, between looks
+  double next_look_ = -std::numeric_limits<double>::infinity();
   const Body& body_;
   std::function<void(const std::string&)> tell_;
   double first_step_ = 0;  // s, stable

@@ -44,6 +44,7 @@ void ExplicitRunControl::save(CentralDifference& solver) {
 bool ExplicitRunControl::observe(CentralDifference& solver) {
   warn_of_fixed_step(solver);
   services_.monitor.check_step(solver);
+  services_.monitor.check_passing(solver.time(), solver.contact());
   const bool last = is_over(solver) || ending_;
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);

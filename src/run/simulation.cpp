@@ -64,6 +64,7 @@ Ledger load_through(const RunServices& services, QuasiStatic& solver) {
     if (save || checkpoint.due(solver.steps(), solver.time())) checkpoint.write(solver.steps(), solver.time());
     const auto ledger = record(last);
     if (ledger) monitor.check_energy(*ledger);
+    monitor.check_passing(solver.time(), solver.contact());
     if (last) return solver.ledger();
     try {
       ending = !solver.advance();
@@ -88,7 +89,7 @@ template <class Solver, class Through>
 bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Solver& solver, Start start,
                Clock::time_point began, const EarlyEnd& early_end, const Through& through) {
   const Communicator& communicator = scene.body.domain.communicator;
-  Monitor monitor(deck.watch, scene.body, tell);
+  Monitor monitor(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene.body, tell);
   Checkpoint checkpoint(deck, communicator, [&](Archive& archive) {
     solver.serialize(archive);
     monitor.serialize(archive);

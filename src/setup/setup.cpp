@@ -14,6 +14,7 @@
 #include "setup/mesh.hpp"
 #include "setup/outline.hpp"
 #include "setup/undeclared_contact.hpp"
+#include "setup/weak_contact.hpp"
 
 namespace strut {
 
@@ -68,6 +69,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   scene.warnings += sudden_failure(scene.body);
   scene.warnings += undeclared_contacts(scene, interactions, deck.solver.initial_time,
                                         deck.solver.final_time - deck.solver.initial_time);
+  scene.warnings += weak_contacts(deck, scene, interactions, spacing);
   return scene;
 }
 

@@ -2,16 +2,8 @@
 # prepare.sh ROOT: tools/prepare in a tree that was copied with its build folder builds the copy, not what it was copied
 # from; a build that fails is an error, and its text is told.
 root=$1
-folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-prepare-XXXXXX")
-trap 'rm -rf "$folder"' EXIT
+. "$root/tests/newcomer/folder.sh" # prepare
 cd "$folder" || exit 1
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  cat log
-  failed=1
-}
 
 # prepared TREE TEXT: what it built says TEXT.
 prepared() {

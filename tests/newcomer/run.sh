@@ -2,16 +2,8 @@
 # run.sh ROOT: tools/run hands on signals, gives the ranks the time to end, and ends with the documented status; after an
 # error there is one line. In the place of strut stands a script that does what its deck says.
 root=$1
-folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-run-XXXXXX")
-trap 'rm -rf "$folder"' EXIT
+. "$root/tests/newcomer/folder.sh" # run
 cd "$folder" || exit 1
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  cat log
-  failed=1
-}
 
 mkdir -p tools build/release
 cp "$root/tools/run" tools

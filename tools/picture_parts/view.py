@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from strut_tools import fail
 
-from . import painter
+from . import painter, rigid
 from .result import Result, clock_of, stem, title, unit_of
 from .surface import joined, surface_of
 
@@ -20,9 +20,10 @@ class Wanted:
     """What the command line asks for."""
 
     def __init__(self, variables=None, view=(1, -2.2, 0.6), zoom=1, times=None, frames=None, blocks=None, clip=None,
-                 glass=None, limits=None, hide=None):
+                 glass=None, limits=None, hide=None, tools=()):
         self.variables, self.view, self.zoom, self.times, self.frames = variables, view, zoom, times, frames
         self.blocks, self.clip, self.glass, self.limits, self.hide = blocks, clip, glass, limits, hide
+        self.tools = tools  # of rigid.tools_of
 
 
 def variables_of(result, wanted):
@@ -88,8 +89,9 @@ class Row:
     """A variable: its values in the frames, and the scale."""
 
     def __init__(self, result, name, frames):
-        self.name, self.values = name, [result.values(name, f) for f in frames]
-        self.grey = np.zeros(len(result.reference), bool)
+        # The last one is no point's, but that of rigid tools.
+        self.name, self.values = name, [np.append(result.values(name, f), np.nan) for f in frames]
+        self.grey = np.zeros(len(result.reference) + 1, bool)
 
     def idle(self, blocks):
         """Blocks in which it stays zero, as plastic strain does in an elastic plate; none where it does so in all."""
@@ -181,13 +183,30 @@ class Scene:
         moved = [[s and self.camera.seen(s.moved(result.displacement(f))) for s in both]
                  for f, both in zip(self.frames, surfaces)]
         corners = np.concatenate([c for layers in moved for c in layers if c is not None])
-        self.camera.frame(corners.min(axis=0), corners.max(axis=0), *PANEL, wanted.zoom)
+        tools = [self._tools(t, wanted.tools, corners @ self.camera.axes) for t in self.times]
+        framed = np.concatenate([corners, *(near for _, _, near in filter(None, tools))])
+        self.camera.frame(framed.min(axis=0), framed.max(axis=0), *PANEL, wanted.zoom)
         self.drawn = [[s and Drawn(s, c, self.camera) for s, c in zip(*pair)] for pair in zip(surfaces, moved)]
+        self.tools = [found and Drawn(*found[:2], self.camera) for found in tools]
+
+    def _tools(self, t, tools, places):
+        """The surface of rigid tools at a time, its corners as they are seen, and these as far as the picture is to
+        reach: a margin around where the bodies are in any frame (places, m)."""
+        if not tools:
+            return None
+        low, high = places.min(axis=0), places.max(axis=0)
+        margin = rigid.MARGIN * np.max(high - low)
+        offsets = [tool.offset(t) for tool in tools]
+        parts = [tool.surface(low - u, high - u) for tool, u in zip(tools, offsets)]
+        moved = np.concatenate([part.corners + u for part, u in zip(parts, offsets)])
+        return joined(parts), self.camera.seen(moved), self.camera.seen(np.clip(moved, low - margin, high + margin))
 
     def image(self, row, column):
         solid, glass = self.drawn[column]
         image = solid.image(row, column) if solid else np.zeros((*glass.canvas.shape, 4))
-        return painter.coarser(with_glass(image, solid, glass, row, column) if glass else image)
+        for layer in filter(None, (glass, self.tools[column])):
+            image = with_glass(image, solid, layer, row, column)
+        return painter.coarser(image)
 
 
 def panels(camera, rows, columns):

@@ -42,6 +42,13 @@ const RealKey penetration(
      .meaning = "How far two points may come nearer than the distance at which they touch, as a part of "
                 "it; in explicit steps."});
 
+const RealKey passing(
+    {.name = "Passing",
+     .range = {.low = 0, .high = 1},
+     .fallback = "0.01",
+     .meaning = "How many points of two bodies between which there is contact may be inside the other one, in those of "
+                "the smaller body, wherever points touch; looked at 200 times in a run. 1: never."});
+
 }  // namespace
 
 Section watch_section() {
@@ -49,7 +56,7 @@ Section watch_section() {
           .meaning =
               "What ends a run that has gone wrong, with the point, the likely cause and a last frame. A number "
               "that is not finite always does.",
-          .keys = {stops, stops_inverted, balance_error, smallest_step, penetration}};
+          .keys = {stops, stops_inverted, balance_error, smallest_step, penetration, passing}};
 }
 
 Watch read_watch(const Values& deck) {
@@ -58,7 +65,8 @@ Watch read_watch(const Values& deck) {
           .stops_inverted = values[stops_inverted],
           .balance_error = values[balance_error],
           .smallest_step = values[smallest_step],
-          .penetration = values[penetration]};
+          .penetration = values[penetration],
+          .passing = values[passing]};
 }
 
 }  // namespace strut::deck

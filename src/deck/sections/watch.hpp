@@ -11,6 +11,7 @@ struct Watch {
   double balance_error{};  // of the largest energy
   double smallest_step{};  // of the first step
   double penetration{};    // of the distance at which points touch
+  double passing{};        // of the points of the smaller of two bodies
 };
 
 Section watch_section();

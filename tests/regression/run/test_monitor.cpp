@@ -88,25 +88,73 @@ TEST(Monitor, StepThatCollapsesNamesThePointThatLimitsIt) {
   if (folder.world.rank() == 0) EXPECT_EQ(o.result.times.size(), 2u);
 }
 
-// Two cubes and a penalty that cannot hold them.
-TEST(Monitor, ContactThatIsPassedThroughNamesThePoint) {
+// Two blocks of 3 x 3 points, the second thrown at the first. `aside`: how far, m.
+Parts thrown(const RunFolder& folder, const std::string& contact, double aside = 0, int layers = 3) {
   constexpr double h = 1e-3;
-  const RunFolder folder;
-  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, h) + cubes(2, {0, 0, 3.5 * h}, 3, 3, 3, h));
+  folder.write("points.txt",
+               cubes(1, {0, 0, (3 - layers) * h}, 3, 3, layers, h) + cubes(2, {aside, aside, 3.5 * h}, 3, 3, 3, h));
   Parts parts;
   parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
-  parts.blocks = section("one", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon", "2.01e-3") +
-                                    key("Separate Body", "true")) +
-                 section("two", key("Block Names", "block_2") + key("Material", "copper") + key("Horizon", "2.01e-3") +
-                                    key("Separate Body", "true"));
-  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e3");
+  parts.blocks.clear();
+  for (const std::string name : {"block_1", "block_2"}) {
+    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Separate Body", "true"));
+  }
+  parts.contact = contact;
   parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-100");
   parts.times = key("Final Time", "4e-5");
+  return parts;
+}
+
+// A penalty that is not hopeless (test_weak_contact) and still cannot hold them.
+TEST(Monitor, ContactThatIsPassedThroughNamesThePoint) {
+  const RunFolder folder;
+  Parts parts = thrown(folder, contact_of({{"block_1", "block_2"}}, "1e-3", "1e8"));
   parts.watch = key("Penetration", "0.7");
   const Outcome stopped = outcome(folder, parts);
   expect_words(stopped.error, {"at t = 1.", "contact is penetrated by 7", "Watch > Penetration", "element ",
                                " of block block_", "now at (", "Likely causes: a Spring Constant that is too small"});
   parts.watch += key("Beyond Limits", "Continue");
+  EXPECT_EQ(outcome(folder, parts).error, "");
+}
+
+// Points that meet the middles of the squares of a face, with a radius below the distance to their corners, 0.707 of a
+// spacing: no two of them touch.
+TEST(Monitor, BodiesThatPassThroughEachOtherAreSeenWhateverTheRadius) {
+  const RunFolder folder;
+  for (const int layers : {3, 2}) {
+    const Parts parts = thrown(folder, contact_of({{"block_1", "block_2"}}, "0.6e-3", "1e12"), 0.5e-3, layers);
+    expect_words(outcome(folder, parts).error, {"at t = ", "blocks block_1 and block_2 pass through each other: ",
+                                                "Watch > Passing", "element ", "now at (", "Likely causes: "});
+  }
+}
+
+TEST(Monitor, BodiesThatPassThroughSoftSurfacesAreSeen) {
+  const RunFolder folder;
+  Parts parts = thrown(
+      folder,
+      section("Models", section("m", key("Contact Model", "Surface") + key("Stiffness Factor", "1e-7") +
+                                         key("Largest Overlap", "0"))) +
+          section("Interactions", section("pair", key("First Block", "block_1") + key("Second Block", "block_2") +
+                                                      key("Contact Model", "m"))));
+  parts.watch = key("Beyond Limits", "Continue");
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error, "");
+  const bool tells = o.said.find("blocks block_1 and block_2 pass through each other") != std::string::npos;
+  EXPECT_EQ(folder.world.sum(tells ? 1.0 : 0.0), 1) << "the rank that has the point: " << o.said;
+}
+
+// Contact that holds is no passing, by points that meet corners or middles; nor are bodies that stand in each other.
+TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
+  const RunFolder folder;
+  for (const double aside : {0.0, 0.5e-3}) {
+    const Outcome o = outcome(folder, thrown(folder, contact_of({{"block_1", "block_2"}}, "1e-3", "1e12"), aside));
+    EXPECT_EQ(o.error, "");
+    if (folder.world.rank() == 0) EXPECT_EQ(o.warnings(), 0) << o.said;
+  }
+  Parts parts = thrown(folder, contact_of({{"block_1", "block_2"}}, "0.6e-3", "1e12"));
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {0.5e-3, 0.5e-3, 0.5e-3}, 3, 3, 3, 1e-3));
+  parts.conditions.clear();
   EXPECT_EQ(outcome(folder, parts).error, "");
 }
 

@@ -4,24 +4,17 @@ that were put there, and the beam whose compliance follows a formula."""
 import pathlib
 import re
 import subprocess
-import tempfile
 import unittest
 
 from test_picture import H, box, write_result
+from tool_test import InFolder
 
 import numpy as np
 
 CRACK = pathlib.Path(__file__).resolve().parents[3] / "inputs/fracture/crack"
 
 
-class Cracks(unittest.TestCase):
-    def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
-
-    def tearDown(self):
-        self.keep.cleanup()
-
+class Cracks(InFolder):
     def printed(self, *words):
         done = subprocess.run([CRACK, *map(str, words)], capture_output=True, text=True, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,25 +1,15 @@
 #!/usr/bin/python3
 """tools/curve on curves and shocks whose numbers are known in closed form, and run as a user runs it."""
 import csv
-import math
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 
-try:
-    import matplotlib  # noqa: F401
-    import netCDF4  # noqa: F401
-    import numpy as np
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from tool_test import InFolder
 
-TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
-sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
-from curve_parts import measures, shock  # noqa: E402
-from decks import Deck, Recipe, value_at  # noqa: E402
+import numpy as np
+from curve_parts import measures, shock
+from decks import Deck, Recipe, value_at
 
 E, YIELD, UNLOADING = 100e6, 2e6, 150e6  # Pa
 DENSE, K = 0.5, 60e6                     # strain from which on the stress rises, Pa per strain
@@ -140,18 +130,14 @@ DECK = """<ParameterList>
 RECIPE = "shape = foam   # a comment\nsize = 5e-3 8e-3 20e-3\nrelative_density = 0.1\nspacing=1e-3\n"
 
 
-class Runs(unittest.TestCase):
+class Runs(InFolder):
     def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
+        super().setUp()
         (self.folder / "block.xml").write_text(DECK)
         (self.folder / "block.recipe").write_text(RECIPE)
 
-    def tearDown(self):
-        self.keep.cleanup()
-
     def curve(self, *words):
-        return subprocess.run([TOOLS / "curve", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+        return self.run_tool("curve", *words)
 
     def history(self, columns, cut=""):
         rows = [list(columns), *np.array(list(columns.values())).T.tolist()]

@@ -2,27 +2,16 @@
 """tools/picture, run as a user runs it, on small results that are written here: is what is seen where it should be, in the
 color that the scale gives to its value?"""
 import os
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
 import unittest.mock
 
-try:
-    import matplotlib
-    import netCDF4
-    import numpy as np
+from tool_test import InFolder
 
-    matplotlib.use("Agg")
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
-
-TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
-sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
-from picture_parts import history, painter, surface, view  # noqa: E402
-from picture_parts.result import Result, clock_of  # noqa: E402
+import matplotlib.image
+import netCDF4
+import numpy as np
+from picture_parts import history, painter, rigid, surface, view
+from picture_parts.result import Result, clock_of
 
 H = 1e-3  # m, the spacing
 
@@ -68,16 +57,9 @@ def hue(color):
     return color / np.linalg.norm(color)
 
 
-class Pictures(unittest.TestCase):
-    def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
-
-    def tearDown(self):
-        self.keep.cleanup()
-
+class Pictures(InFolder):
     def picture(self, *words):
-        return subprocess.run([TOOLS / "picture", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+        return self.run_tool("picture", *words)
 
     def made(self, *words):
         done = self.picture(*words)
@@ -231,6 +213,90 @@ class Pictures(unittest.TestCase):
         write_result(self.folder / "still.e", {"bar": box(2, 2, 2)}, np.zeros((1, 8, 3)), {"S": np.zeros((1, 8))}, [0], "ABC")
         self.assertIn("still.e has no variable Displacement", self.error("still.e", "a.png", "--variable", "S"))
         self.assertFalse((self.folder / "a.png").exists())
+
+
+def deck_of(path, tools, history=""):
+    """tools: name -> keys."""
+    def section(name, inside):
+        return f'<ParameterList name="{name}">{inside}</ParameterList>\n'
+
+    def keys(values):
+        return "".join(f'<Parameter name="{k}" type="string" value="{v}"/>' for k, v in values.items())
+    conditions = "".join(section(name, keys(values)) for name, values in tools.items())
+    path.write_text("<ParameterList>" + section("Boundary Conditions", conditions) +
+                    section("History", keys({"Filename": history})) + "</ParameterList>")
+    return path
+
+
+class RigidTools(InFolder):
+    """Tools of a deck: where they are, and that they are seen there."""
+
+    def test_a_tool_is_seen_as_glass_where_it_has_traveled_to(self):
+        places = box(6, 6, 6)
+        write_result(self.folder / "body.e", {"body": places}, np.zeros((2, len(places), 3)),
+                     {"S": np.ones((2, len(places)))})
+        deck = deck_of(self.folder / "body.xml", {
+            "punch": {"Type": "Rigid Box", "Lower Corner": f"{2 * H} {2 * H} {6.5 * H}", "Upper Corner": f"{4 * H} {4 * H} {12 * H}",
+                      "Travel Z": "-0.5*t"},  # by 0.5 H at the end
+            "floor": {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 2"}})
+        scene = view.Scene(Result(str(self.folder / "body.e")),
+                           view.Wanted(variables=["S"], view=(0, -1, 0), tools=rigid.tools_of(str(deck))))
+        images = [scene.image(scene.rows[0], column) for column in (0, 1)]
+
+        def seen(column, x, z):
+            right, down = (int(p) for p in scene.camera.position([x * H, 0, z * H]))
+            return images[column][down, right]
+        # Of the punch, from 6.5 H on before and from 6 H on after, the picture shows what is below 6.9 H.
+        for column, z, there in ((0, 6.25, False), (1, 6.25, True), (0, 6.7, True), (1, 6.7, True)):
+            found = seen(column, 3, z)
+            self.assertEqual(found[3] > 0.1, there, (column, z))
+            if there:
+                self.assertLess(found[3], 0.5, (column, z))
+                np.testing.assert_allclose(hue(found), hue(view.GREY), atol=1e-6)
+        self.assertEqual(seen(1, 1, 6.25)[3], 0)  # beside it
+        self.assertGreater(seen(0, 3, -0.1)[3], 0.1)  # the floor's edge, 0.03 of the body's size thick
+        done = self.run_tool("picture", "body.e", "body.png", "--tools", "body.xml", "--variable", "S")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater((self.folder / "body.png").stat().st_size, 5000)
+
+    def test_surfaces_are_closed_and_face_outwards(self):
+        low, high = np.zeros(3), np.full(3, 6.0)
+        roll = {"Type": "Rigid Cylinder", "Point": "3 0 7", "Axis": "0 2 0", "Radius": "1"}
+        plane = {"Type": "Rigid Plane", "Point": "1 2 3", "Normal": "1 1 0"}
+        deck = deck_of(self.folder / "a.xml", {"roll": roll, "plane": plane})
+        parts = [tool.surface(low, high) for tool in rigid.tools_of(str(deck))]
+        # Volumes by the divergence theorem, to round-off as all quads are plane. The roll reaches 0.15 of the size beyond the body at both ends; the
+        # slab is 0.03 of it thick, and the body, sqrt(2) 6 wide across (1, 1, 0), has the margin on all sides.
+        circle = 0.5 * rigid.ARC * np.sin(2 * np.pi / rigid.ARC)
+        for part, expected in zip(parts, (circle * 7.8, 0.18 * (6 * 2**0.5 + 1.8) * 7.8)):
+            p = part.corners[part.quads]
+            area = 0.5 * np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
+            self.assertAlmostEqual(np.sum(area * p.mean(axis=1)) / 3 / expected, 1, 9)
+            self.assertLess(np.abs(area.sum(axis=0)).max(), 1e-9)
+        front = parts[1].corners @ np.array([1, 1, 0])
+        self.assertAlmostEqual(front.max(), 3)  # x + y = 3 at the point
+
+    def test_a_tool_with_a_mass_goes_as_the_forces_on_it_say(self):
+        t = np.linspace(0, 1e-3, 11)
+        rows = "\n".join(f"{x},{6 * x}" for x in t)
+        (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n" + rows + "\n")
+        punch = {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 1", "Mass": "2", "Speed Z": "-3", "Force Z": "-4"}
+        deck = deck_of(self.folder / "a.xml", {"punch": punch}, str(self.folder / "h.csv"))
+        tool, = rigid.tools_of(str(deck))
+        x = t[-1]  # m z'' = -4 - 6 t; trapezoids of a velocity that is quadratic err by its bend: 1.5 dt² x/6
+        np.testing.assert_allclose(tool.offset(x), [0, 0, -3 * x - x**2 - 0.5 * x**3], atol=0.26 * (x / 10)**2 * x)
+        self.assertNotEqual(tool.offset(x)[2], -3 * x)
+
+    def test_what_cannot_be_drawn_is_told(self):
+        (self.folder / "h.csv").write_text("Time\n0\n1\n")
+        write_result(self.folder / "body.e", {"body": box(2, 2, 2)}, np.zeros((2, 8, 3)), {"S": np.ones((2, 8))})
+        for tools, words in (({}, "has no rigid tools"),
+                             ({"roll": {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 1", "Mass": "1", "Speed X": "1"}},
+                              "follows from Reaction_X(roll): add it to the deck's History")):
+            deck_of(self.folder / "a.xml", tools, "h.csv")
+            done = self.run_tool("picture", "body.e", "a.png", "--tools", "a.xml")
+            self.assertIn(words, done.stderr)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
 
 
 class Surfaces(unittest.TestCase):

@@ -3,23 +3,13 @@
 known in closed form."""
 import csv
 import os
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
-try:
-    import matplotlib  # noqa: F401
-    import netCDF4  # noqa: F401
-    import numpy as np
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from tool_test import InFolder
 
-TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
-sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
-from stiffness_parts import tensors  # noqa: E402
+import numpy as np
+from stiffness_parts import tensors
 
 
 def deck(mesh, materials, formulation="Correspondence"):
@@ -38,16 +28,9 @@ def deck(mesh, materials, formulation="Correspondence"):
             section("Materials", laws) + section("Blocks", blocks) + "</ParameterList>\n")
 
 
-class Samples(unittest.TestCase):
-    def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
-
-    def tearDown(self):
-        self.keep.cleanup()
-
+class Samples(InFolder):
     def stiffness(self, *words):
-        return subprocess.run([TOOLS / "stiffness", *map(str, words)], capture_output=True, text=True, cwd=self.folder)
+        return self.run_tool("stiffness", *words)
 
     def tensors_of(self, name, *words):
         done = self.stiffness(f"{name}.xml", name, *words)

@@ -2,25 +2,14 @@
 """tools/study: whole studies of bars in free flight, whose outcome is known, and of programs that fail or are stopped."""
 import csv
 import os
-import pathlib
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
-try:
-    import matplotlib  # noqa: F401
-    import netCDF4  # noqa: F401
-    import numpy  # noqa: F401
-except ImportError as error:
-    print(f"skipped: {error}")
-    sys.exit(77)
+from tool_test import TOOLS, InFolder
 
-TOOLS = pathlib.Path(__file__).resolve().parents[3] / "tools"
-sys.path[:0] = [str(TOOLS), str(TOOLS / "shared")]
-from study_parts import plan  # noqa: E402
+from study_parts import plan
 
 DECK = """<ParameterList>
   <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
@@ -66,15 +55,11 @@ while :; do sleep 0.1; done
 """
 
 
-class Studies(unittest.TestCase):
+class Studies(InFolder):
     def setUp(self):
-        self.keep = tempfile.TemporaryDirectory()
-        self.folder = pathlib.Path(self.keep.name)
+        super().setUp()
         for name, text in (("bar.xml", DECK), ("bar.recipe", RECIPE), ("bar.study", STUDY)):
             (self.folder / name).write_text(text)
-
-    def tearDown(self):
-        self.keep.cleanup()
 
     def start(self, *words, **environment):
         return subprocess.Popen([TOOLS / "study", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,

@@ -1,0 +1,180 @@
+#include "contact/passing.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "contact/laws/surface.hpp"
+#include "points/bounding_box.hpp"
+#include "points/nearby_ranks.hpp"
+#include "points/neighbors/cell_grid.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+// Of the share at the nearest point of the other body. What presses on a face stays in front of its first layer of
+// points, where the share falls by half within half a spacing.
+constexpr double as_deep = 0.95;
+
+using Place = Vector (Domain::*)(int) const;
+
+// The points of one block, over all ranks.
+struct Extent {
+  Eigen::AlignedBox3d box;
+  std::int64_t points = 0;
+};
+
+std::vector<Extent> extents_of_blocks(const Domain& domain, Place place) {
+  std::vector<Extent> all(domain.blocks.size());
+  for (int i = 0; i < domain.owned; ++i) {
+    Extent& extent = all[domain.cloud.blocks[i]];
+    extent.box.extend((domain.*place)(i));
+    ++extent.points;
+  }
+  std::vector<double> bounds, counts;
+  for (const Extent& extent : all) {
+    for (int c = 0; c < 3; ++c) bounds.insert(bounds.end(), {extent.box.max()[c], -extent.box.min()[c]});
+    counts.push_back(static_cast<double>(extent.points));
+  }
+  domain.communicator.max(bounds);
+  domain.communicator.sum(counts);
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    const double* at = &bounds[6 * b];
+    all[b] = {{-Vector(at[1], at[3], at[5]), Vector(at[0], at[2], at[4])}, static_cast<std::int64_t>(counts[b])};
+  }
+  return all;
+}
+
+// A point as it travels to other ranks.
+struct Seen {
+  double place[3], volume;
+};
+
+// The material of one body.
+class Material {
+ public:
+  Material(const std::vector<Seen>& points, double spacing)
+      : spacing_(spacing), smoothing_(reach()), places_(places(points)), grid_(places_, reach()) {
+    for (const Seen& point : points) volumes_.push_back(point.volume);
+  }
+
+  // Whether a place is as deep in it as the nearest of its points.
+  bool holds(const Vector& x) const {
+    double nearest = spacing_ * spacing_;
+    const Vector* point = nullptr;
+    grid_.visit_near(x, [&](int j, const Vector& y) {
+      const double r2 = (y - x).squaredNorm();
+      if (r2 < nearest) nearest = r2, point = &places_[j];
+    });
+    return point && share(x) >= as_deep * share(*point);
+  }
+
+ private:
+  double reach() const { return reach_in_spacings * spacing_; }
+  static std::vector<Vector> places(const std::vector<Seen>& points) {
+    std::vector<Vector> all;
+    for (const Seen& point : points) all.emplace_back(point.place[0], point.place[1], point.place[2]);
+    return all;
+  }
+  double share(const Vector& x) const {
+    double sum = 0;
+    grid_.visit_near(x, [&](int j, const Vector& y) {
+      const double r2 = (y - x).squaredNorm();
+      if (r2 < reach() * reach()) sum += volumes_[j] * smoothing_.value(r2);
+    });
+    return sum;
+  }
+
+  double spacing_;
+  Smoothing smoothing_;
+  std::vector<Vector> places_;
+  CellGrid grid_;
+  std::vector<double> volumes_;
+};
+
+// This rank's points of a block within `box`, and with them those near `mine` of other ranks.
+Material material_of(const Domain& domain, int block, Place place, const Eigen::AlignedBox3d& box,
+                     const Eigen::AlignedBox3d& mine, double near) {
+  std::vector<Vector> places;
+  std::vector<Seen> points;
+  for (int i = 0; i < domain.owned; ++i) {
+    const Vector x = (domain.*place)(i);
+    if (domain.cloud.blocks[i] != block || !box.contains(x)) continue;
+    places.push_back(x);
+    points.push_back({{x[0], x[1], x[2]}, domain.volume(i)});
+  }
+  const auto others = from_nearby_ranks(mine, places, std::span<const Seen>(points), near, domain.communicator);
+  points.insert(points.end(), others.begin(), others.end());
+  return {points, domain.blocks[block].spacing};
+}
+
+// Collective. This rank's points of two blocks that are inside the other one.
+std::vector<int> points_inside(const Domain& domain, int first, int second, const Eigen::AlignedBox3d& overlap,
+                               Place place) {
+  std::vector<int> tested;
+  Eigen::AlignedBox3d mine;
+  for (int i = 0; i < domain.owned; ++i) {
+    const int block = domain.cloud.blocks[i];
+    if ((block != first && block != second) || !overlap.contains((domain.*place)(i))) continue;
+    tested.push_back(i);
+    mine.extend((domain.*place)(i));
+  }
+  // As far as the nearest point may be, and what is around that.
+  const double near = (1 + reach_in_spacings) * std::max(domain.blocks[first].spacing, domain.blocks[second].spacing);
+  const Vector margin = Vector::Constant(near);
+  const Eigen::AlignedBox3d around(overlap.min() - margin, overlap.max() + margin);
+  const Material one = material_of(domain, first, place, around, mine, near);
+  const Material other = material_of(domain, second, place, around, mine, near);
+  std::erase_if(tested,
+                [&](int i) { return !(domain.cloud.blocks[i] == first ? other : one).holds((domain.*place)(i)); });
+  return tested;
+}
+
+// Of all ranks, that of the lowest id.
+int one_of(const std::vector<int>& points, const Domain& domain) {
+  double lowest = std::numeric_limits<double>::max();
+  int point = -1;
+  for (const int i : points) {
+    if (static_cast<double>(domain.id(i)) < lowest) lowest = static_cast<double>(domain.id(i)), point = i;
+  }
+  return domain.communicator.min(lowest) == lowest ? point : -1;
+}
+
+std::int64_t number_inside(const Domain& domain, int first, int second, const Eigen::AlignedBox3d& overlap,
+                           Place place) {
+  if (overlap.isEmpty()) return 0;
+  const std::vector<int> inside = points_inside(domain, first, second, overlap, place);
+  return domain.communicator.sum(static_cast<std::int64_t>(inside.size()));
+}
+
+std::optional<Passing> passing(const Domain& domain, const std::vector<Extent>& extents, int first, int second,
+                               double limit) {
+  const Eigen::AlignedBox3d overlap = extents[first].box.intersection(extents[second].box);
+  const auto smaller = static_cast<double>(std::min(extents[first].points, extents[second].points));
+  if (overlap.isEmpty()) return std::nullopt;
+  std::vector<int> inside = points_inside(domain, first, second, overlap, &Domain::current);
+  std::int64_t points = domain.communicator.sum(static_cast<std::int64_t>(inside.size()));
+  if (!(static_cast<double>(points) > limit * smaller)) return std::nullopt;
+  const std::vector<Extent> before = extents_of_blocks(domain, &Domain::reference);
+  points -=
+      number_inside(domain, first, second, before[first].box.intersection(before[second].box), &Domain::reference);
+  const double part = static_cast<double>(points) / smaller;
+  if (!(part > limit)) return std::nullopt;
+  return Passing{first, second, points, part, one_of(inside, domain)};
+}
+
+}  // namespace
+
+std::optional<Passing> find_passing(const Domain& domain, const Contact& contact, double limit) {
+  const int blocks = static_cast<int>(domain.blocks.size());
+  const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::current);
+  for (int a = 0; a < blocks; ++a) {
+    for (int b = a + 1; b < blocks; ++b) {
+      if (domain.blocks[a].body == domain.blocks[b].body || !contact.between(a, b)) continue;
+      if (const auto found = passing(domain, extents, a, b, limit)) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace strut::contact
