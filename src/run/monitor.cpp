@@ -99,6 +99,8 @@ void Monitor::check_passing(double time, const contact::Contact& contact) {
 void Monitor::serialize(Archive& archive) {
   archive.number("first_step", first_step_);
   archive.number("ledgers", ledgers_);
+  archive.number("next_look", next_look_);
+  for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
 }
 
 void Monitor::check_energy(const Ledger& ledger) {

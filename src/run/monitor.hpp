@@ -33,8 +33,8 @@ class Monitor {
   void passed(What what, const std::string& text);
 
   deck::Watch limits_;
-  double pause_;  // s, between looks
-  double next_look_ = -std::numeric_limits<double>::infinity();
+  double pause_;                                              // s, between looks
+  double next_look_ = std::numeric_limits<double>::lowest();  // s
   const Body& body_;
   std::function<void(const std::string&)> tell_;
   double first_step_ = 0;  // s, stable

@@ -162,12 +162,12 @@ std::string table_of_ranks(const Body& body) {
   const Communicator& ranks = body.domain.communicator;
   if (ranks.size() == 1) return "";
   double updates = body.time_levels.empty() ? body.owned() : 0;
-  for (const std::uint8_t level : body.time_levels) updates += 1 << level;
+  for (int i = 0; !body.time_levels.empty() && i < body.owned(); ++i) updates += 1 << body.time_levels[i];
   return formatted("\n%-26s %10s %10s %10s\n", "of a rank", "least", "mean", "most") +
          row_of_ranks(ranks, "points", "%.0f", body.owned()) +
          row_of_ranks(ranks, "ghosts", "%.0f", body.domain.ghosts) +
          row_of_ranks(ranks, "updates a step, at the end", "%.0f", updates) +
-         row_of_ranks(ranks, "s at work, not waiting", "%.3f",
+         row_of_ranks(ranks, "s beside halo exchanges", "%.3f",
                       seconds_outside({"Halo exchange", "Agreement of ranks"})) +
          "\n";
 }

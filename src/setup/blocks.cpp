@@ -47,9 +47,10 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
 // Where bonds break by their stretch, springs as soft as they are elsewhere would let the tip of a crack open by
 // motions that no point's deformation gradient sees: it would grow at half the fracture energy (inputs/fracture).
 Stabilization stabilization_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
+  constexpr double usual = 0.01, if_bonds_break = 0.3;  // as the key says (deck/sections/materials.cpp)
   const bool breaks_by_stretch = damage && !damage->ductility;
   return with_coefficient(material.stabilization,
-                          material.stabilization_coefficient.value_or(breaks_by_stretch ? 0.3 : 0.01));
+                          material.stabilization_coefficient.value_or(breaks_by_stretch ? if_bonds_break : usual));
 }
 
 // The metal of a block whose points may fail is a law of its own; the deck has been asked whether there is one.

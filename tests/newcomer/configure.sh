@@ -1,21 +1,14 @@
 #!/bin/sh
 # configure.sh CMAKE SOURCES: what a build needs and how it compiles, as options say. Nothing is compiled.
 cmake=$1 sources=$2
-folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-configure-XXXXXX")
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder.sh"
 cd "$folder" || exit 1
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  failed=1
-}
 
 # configured NAME OPTION…: in the folder NAME.
 configured() {
   name=$1
   shift
-  "$cmake" -S "$sources" -B "$name" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@" > log 2>&1 || { fail "$name: cannot be configured"; cat log; exit 1; }
+  "$cmake" -G Ninja -S "$sources" -B "$name" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@" > log 2>&1 || { fail "$name: cannot be configured"; exit 1; }
 }
 
 # compiles NAME WORD: some of its lines have the word.

@@ -2,16 +2,8 @@
 # install.sh CMAKE BUILD VERSION: what cmake --install makes of a build runs without sources and build: programs, a deck
 # with its recipe, what tools start.
 cmake=$1 build=$2 version=$3
-folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-install-XXXXXX")
-trap 'rm -rf "$folder"' EXIT
+. "$(dirname "$0")/folder.sh"
 cd "$folder" || exit 1
-failed=0
-
-fail() {
-  echo "FAILED: $1"
-  cat log
-  failed=1
-}
 
 "$cmake" --install "$build" --prefix "$folder/prefix" > log 2>&1 || { fail "cmake --install"; exit 1; }
 share=prefix/share/strut
@@ -20,6 +12,7 @@ grep -q "^strut $version " log || fail "the version is not the project's, $versi
 for file in README.md LICENSE docs/cluster.md docs/theory.md inputs/KEYS.md inputs/taylor/taylor-C-50.xml; do
   [ -f "$share/$file" ] || fail "$file is not there"
 done
+[ -x "$share/inputs/taylor/table" ] || fail "inputs/taylor/table cannot be started"
 [ ! -e "$share/tools/prepare" ] || fail "tools/prepare is there: it would look for sources"
 find prefix -name '*.cpp' -o -name '*.hpp' > log
 [ ! -s log ] || fail "sources are installed"

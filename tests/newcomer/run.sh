@@ -16,7 +16,7 @@ case $1 in
   done.xml) exit 0 ;;
 esac
 ended() { sleep 2; touch "written.$rank"; sleep 0.5; exit 3; }  # a step that takes longer than mpirun's second
-trap ended TERM
+trap ended TERM USR1
 touch "begun.$rank"
 for n in $(seq 300); do sleep 0.1 & wait $!; done
 END
@@ -28,17 +28,20 @@ status=$?
 [ "$(cat log)" = "strut: wrong.xml: 1 problem" ] || fail "an error: expected one line"
 tools/run -np 2 done.xml > log 2>&1 || fail "a run that is done fails"
 
-tools/run -np 2 long.xml > log 2>&1 &
-run=$!
-tries=200
-while [ ! -f begun.0 ] || [ ! -f begun.1 ]; do
-  tries=$((tries - 1))
-  [ $tries -gt 0 ] || { fail "the run has not begun"; break; }
-  sleep 0.1
+for signal in TERM USR1; do
+  rm -f begun.* written.*
+  tools/run -np 2 long.xml > log 2>&1 &
+  run=$!
+  tries=200
+  while [ ! -f begun.0 ] || [ ! -f begun.1 ]; do
+    tries=$((tries - 1))
+    [ $tries -gt 0 ] || { fail "the run has not begun"; break; }
+    sleep 0.1
+  done
+  kill -$signal $run
+  wait $run
+  status=$?
+  [ $status -eq 3 ] || fail "SIG$signal to tools/run: exit status $status, expected 3"
+  [ -f written.0 ] && [ -f written.1 ] || fail "SIG$signal to tools/run: the ranks could not write"
 done
-kill -TERM $run
-wait $run
-status=$?
-[ $status -eq 3 ] || fail "SIGTERM to tools/run: exit status $status, expected 3"
-[ -f written.0 ] && [ -f written.1 ] || fail "SIGTERM to tools/run: the ranks could not write"
 exit $failed

@@ -125,6 +125,21 @@ struct Parts {
   }
 };
 
+// Two bodies of copper, "block_1" and "block_2" of points.txt (cubes() below), the second one on its way to the first.
+inline Parts thrown_block(const std::string& contact) {
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.blocks.clear();
+  for (const std::string name : {"block_1", "block_2"}) {
+    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Separate Body", "true"));
+  }
+  parts.contact = contact;
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-100");
+  parts.times = key("Final Time", "4e-5");
+  return parts;
+}
+
 // `text` with the first `old` replaced; a test whose `old` is not there is wrong.
 inline std::string changed(std::string text, const std::string& old, const std::string& replacement) {
   const std::size_t at = text.find(old);

@@ -8,7 +8,7 @@ from .surface import FACES, Surface, joined
 
 ARC = 48       # quads around a cylinder
 MARGIN = 0.15  # of the bodies' size: how far beyond them the picture reaches for tools
-NO_POINT = -1  # which quads of a tool belong to
+NO_POINT = -1  # the point that quads of a tool belong to
 
 
 class Tool:

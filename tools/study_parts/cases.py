@@ -11,7 +11,7 @@ import time
 
 from strut_tools import fail, programs
 
-EARLY = 3  # the exit status of a run that a signal has ended
+EARLY = 3  # the exit status of a run that a signal or its wall time has ended
 
 
 class Case:

@@ -118,7 +118,7 @@ ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems)
 }
 
 Section rigid_plane_section() {
-  return tool(plane("Rigid Plane", "A wall: the points stay on the side the normal points to."));
+  return tool(plane("Rigid Plane", "A wall: bodies stay on the side the normal points to."));
 }
 
 ConditionPrototype read_rigid_plane(const Values& values, Problems& problems) {
@@ -127,7 +127,7 @@ ConditionPrototype read_rigid_plane(const Values& values, Problems& problems) {
 
 Section rigid_cylinder_section() {
   return tool({.name = "Rigid Cylinder",
-               .meaning = "A roll without ends: the points stay outside.",
+               .meaning = "A roll without ends: bodies stay outside.",
                .keys = {point_on_axis, axis, radius}});
 }
 
@@ -138,7 +138,7 @@ ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems)
 
 Section rigid_box_section() {
   return tool({.name = "Rigid Box",
-               .meaning = "A solid block with faces across the axes and sharp edges: the points stay outside.",
+               .meaning = "A solid block with faces across the axes and sharp edges: bodies stay outside.",
                .keys = {lower, upper}});
 }
 

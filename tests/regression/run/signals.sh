@@ -102,7 +102,7 @@ check_results() {
     { fail "$1: the ledger of the last step does not balance"; tail -n 3 history.csv; }
 }
 
-# run NAME TARGET SIGNAL command…: starts the command, sends SIGNAL to the process whose number the file TARGET holds,
+# run NAME TARGET SIGNAL command…, run_and_check …: starts the command, sends SIGNAL to the process whose number the file TARGET holds,
 # leaves the exit status in $status. Each rank writes its number to rank.N.
 run() {
   name=$1 target=$2 signal=$3
@@ -114,7 +114,11 @@ run() {
   kill "-$signal" "$(cat "$target")" || fail "$name: no process to signal"
   wait "$(cat pid)"
   status=$?
-  check_results "$name"
+}
+
+run_and_check() {
+  run "$@"
+  check_results "$1"
 }
 
 # $$ stays the number of the process through exec.
@@ -126,14 +130,15 @@ END
 conditions=$(condition twist "Initial Velocity" all x "10*sin(500*z)") solver="" frequency=20
 write_deck
 for signal in TERM INT USR1; do
-  run "one process, SIG$signal" pid $signal "$strut" deck.xml
+  run_and_check "one process, SIG$signal" pid $signal "$strut" deck.xml
   [ $status -eq 3 ] || { fail "one process, SIG$signal: exit status $status, expected 3"; cat log; }
 done
 
-# mpirun has the status of its ranks, but where it is told to end itself; SIGUSR1 it hands on.
-run "SIGTERM to the second of two ranks" rank.1 TERM "$@" -n 2 sh ./start
+# mpirun has the status of its ranks, but where it is told to end itself: then it kills, after a second, ranks that may
+# still write. SIGUSR1 it hands on.
+run_and_check "SIGTERM to the second of two ranks" rank.1 TERM "$@" -n 2 sh ./start
 [ $status -eq 3 ] || fail "SIGTERM to a rank: mpirun ends with $status, expected 3"
-run "SIGUSR1 to mpirun" pid USR1 "$@" -n 2 sh ./start
+run_and_check "SIGUSR1 to mpirun" pid USR1 "$@" -n 2 sh ./start
 [ $status -eq 3 ] || fail "SIGUSR1 to mpirun: mpirun ends with $status, expected 3"
 checkpoint=$(sed -n 's/^ended by a signal.* goes on from t = .*(\(.*\))$/\1/p' log)
 [ -s "$checkpoint" ] || { fail "SIGUSR1 to mpirun: no checkpoint is left"; cat log; }
@@ -158,7 +163,7 @@ done)
 solver='<ParameterList name="QuasiStatic"><Parameter name="Number of Load Steps" type="int" value="100000"/></ParameterList>'
 frequency=1
 write_deck
-run "equilibria, SIGTERM" pid TERM "$strut" deck.xml
+run_and_check "equilibria, SIGTERM" pid TERM "$strut" deck.xml
 [ $status -eq 3 ] || { fail "equilibria, SIGTERM: exit status $status, expected 3"; cat log; }
 
 [ $failures -eq 0 ] && echo "passed"

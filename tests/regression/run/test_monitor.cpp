@@ -93,17 +93,7 @@ Parts thrown(const RunFolder& folder, const std::string& contact, double aside =
   constexpr double h = 1e-3;
   folder.write("points.txt",
                cubes(1, {0, 0, (3 - layers) * h}, 3, 3, layers, h) + cubes(2, {aside, aside, 3.5 * h}, 3, 3, 3, h));
-  Parts parts;
-  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
-  parts.blocks.clear();
-  for (const std::string name : {"block_1", "block_2"}) {
-    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
-                                      key("Separate Body", "true"));
-  }
-  parts.contact = contact;
-  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-100");
-  parts.times = key("Final Time", "4e-5");
-  return parts;
+  return thrown_block(contact);
 }
 
 // A penalty that is not hopeless (test_weak_contact) and still cannot hold them.

@@ -16,17 +16,7 @@ constexpr int nx = 5, nz = 4;                  // points across and along each b
 // Two equal blocks of copper, lattice on lattice.
 Parts impact(const RunFolder& folder, const std::string& contact) {
   folder.write("points.txt", cubes(1, {0, 0, 0}, nx, nx, nz, h) + cubes(2, {0, 0, (nz + 0.5) * h}, nx, nx, nz, h));
-  Parts parts;
-  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
-  parts.blocks.clear();
-  for (const std::string name : {"block_1", "block_2"}) {
-    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
-                                      key("Separate Body", "true"));
-  }
-  parts.contact = contact;
-  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-100");
-  parts.times = key("Final Time", "4e-5");
-  return parts;
+  return thrown_block(contact);
 }
 
 Parts by_penalty(const RunFolder& folder, double radius, double penalty) {
