@@ -107,7 +107,9 @@ std::string remedy(const contact::Law& law, const Side& a, const Side& b, double
   if (!slips.empty()) return slips;
   std::ostringstream text;
   text.precision(2);
-  text << "it should be " << times << " times as stiff";
+  text << "to bear the pressure of an elastic impact its "
+       << (std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant") << " should be "
+       << times << " times as large";
   return text.str();
 }
 

@@ -173,6 +173,17 @@ class Runs(InFolder):
         self.assertEqual(len(rows), 1 + len(STRAIN))
         self.assertGreater((self.folder / "block-curve.png").stat().st_size, 10000)
 
+    def test_the_blow_of_the_first_step_does_not_count(self):
+        force = 4e-5 * stress_at(STRAIN)
+        columns = {"Time": STRAIN * 20e-3 / 1e-2, "Reaction_Z(top)": -force, "Reaction_Z(bottom)": force}
+        self.history(columns)
+        expected = self.made("block.xml")
+        blow = -force
+        blow[0] = -300 * force.max()
+        self.history({**columns, "Reaction_Z(top)": blow})
+        self.assertEqual(self.made("block.xml"), expected)
+        self.assertIn("first row", self.curve("block.xml").stdout)
+
     def test_an_impact_by_its_layers(self):
         places, velocities = shocked(TIMES)
         columns = {"Time": TIMES}
