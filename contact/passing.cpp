@@ -31,16 +31,9 @@ std::vector<Extent> extents_of_blocks(const Domain& domain, Place place) {
     extent.box.extend((domain.*place)(i));
     ++extent.points;
   }
-  std::vector<double> bounds, counts;
-  for (const Extent& extent : all) {
-    for (int c = 0; c < 3; ++c) bounds.insert(bounds.end(), {extent.box.max()[c], -extent.box.min()[c]});
-    counts.push_back(static_cast<double>(extent.points));
-  }
-  domain.communicator.max(bounds);
-  domain.communicator.sum(counts);
-  for (std::size_t b = 0; b < all.size(); ++b) {
-    const double* at = &bounds[6 * b];
-    all[b] = {{-Vector(at[1], at[3], at[5]), Vector(at[0], at[2], at[4])}, static_cast<std::int64_t>(counts[b])};
+  for (Extent& extent : all) {
+    extent.box = common_box(extent.box, domain.communicator);
+    extent.points = domain.communicator.sum(extent.points);
   }
   return all;
 }

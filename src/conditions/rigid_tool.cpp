@@ -52,8 +52,7 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
   const auto keep_out = [&](const auto& shape) {
     for (const int i : tool.points) {
       const double dt = update.steps.of(i);
-      Surface at = surface(shape, update.body.current(i) - motion.offset());
-      at.gap -= tool.reach(i);
+      const Surface at = tool.met_by(i, shape, update.body.current(i) - motion.offset());
       const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
       if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
       visit(i, correction(at, tool.friction, relative, dt));

@@ -32,8 +32,13 @@ struct RigidTool {
 
   // How far it has traveled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
   Vector offset(double t) const;
-  // How far the cell of a point reaches towards it, m. It touches where the gap of the point is no more.
-  double reach(int i) const { return reaches ? (*reaches)[i] : 0; }
+  // Its surface, of the kind S of shape or any, as the cell of point i meets it from a place y − offset(t).
+  template <class S>
+  Surface met_by(int i, const S& kind, const Vector& place) const {
+    Surface at = surface(kind, place);
+    if (reaches) at.gap -= (*reaches)[i];
+    return at;
+  }
   // Of the body as it was read and the tool where it is at time t (s): cells that would overlap it there end at its
   // surface. None of nodes, for those at a surface lie on it.
   void set_reaches(double t, const Body& body);

@@ -15,8 +15,6 @@ namespace {
 constexpr double least_density = 10, most_density = 30e3;         // kg/m³
 constexpr double least_wave_speed = 100, most_wave_speed = 20e3;  // m/s
 
-constexpr double short_part = 1e-3;  // of the duration: over which prescribed displacements are looked at
-
 // Of longitudinal waves in the undeformed material, m/s.
 double wave_speed(const BlockMaterial& material) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
@@ -36,11 +34,11 @@ double mass_of(const Body& body) {
 }
 
 // How far apart the velocities of points and tools are, m/s.
-double largest_difference(const Scene& scene, double start, double duration) {
-  const double moment = short_part * duration;
+double largest_difference(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,
+                          double duration) {
+  const double moment = first_moment * duration;
   Eigen::AlignedBox3d velocities;
-  for (const Vector& v : predicted_velocities(scene.conditions, start, moment, scene.body)) velocities.extend(v);
-  velocities = common_box(velocities, scene.body.domain.communicator);
+  for (const Trajectory& one : trajectories) velocities.extend(one.velocities);
   for (const RigidTool& tool : tools_of(scene.conditions))
     velocities.extend(Vector((tool.offset(start + moment) - tool.offset(start)) / moment));
   return velocities.isEmpty() ? 0 : velocities.diagonal().norm();
@@ -48,7 +46,7 @@ double largest_difference(const Scene& scene, double start, double duration) {
 
 }  // namespace
 
-std::string outline(const Scene& scene, double start, double duration) {
+std::string outline(const Scene& scene, const std::vector<Trajectory>& trajectories, double start, double duration) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const MaterialBlock& block : scene.body.blocks) {
     least = std::min(least, wave_speed(block.material));
@@ -61,7 +59,7 @@ std::string outline(const Scene& scene, double start, double duration) {
        << mass_of(scene.body) << " kg; wave speed " << least;
   if (most > least) text << " to " << most;
   text << " m/s";
-  const double difference = largest_difference(scene, start, duration);
+  const double difference = largest_difference(scene, trajectories, start, duration);
   if (difference > 0 && !scene.quasi_static)
     text << ", speeds up to " << difference << " m/s apart, " << difference / least << " of it";
   return text.str() + "\n";

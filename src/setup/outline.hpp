@@ -2,14 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "setup/scene.hpp"
+#include "setup/trajectories.hpp"
 
 namespace strut {
 
 // Collective. Lines for the start of a run: box and mass of the reference state; wave speed √((K + 4μ/3)/ρ), with the
 // largest difference of speeds that the conditions give in the first moment as a part of it. `duration`: of the run, s.
-std::string outline(const Scene& scene, double start, double duration);
+std::string outline(const Scene& scene, const std::vector<Trajectory>& trajectories, double start, double duration);
 
 // A warning for each block whose density or wave speed no solid has; it names the units.
 std::string improbable_materials(const Body& body);

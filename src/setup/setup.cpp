@@ -13,6 +13,7 @@
 #include "setup/families.hpp"
 #include "setup/mesh.hpp"
 #include "setup/outline.hpp"
+#include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
 #include "setup/weak_contact.hpp"
 
@@ -63,13 +64,14 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   set_surface_laws(scene.body, interactions);
   scene.contact = contact::Contact(interactions, scene.body.domain);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
-  scene.outline = outline(scene, deck.solver.initial_time, deck.solver.final_time - deck.solver.initial_time);
+  const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
+  const std::vector<Trajectory> ways = trajectories(scene, start, duration);
+  scene.outline = outline(scene, ways, start, duration);
   scene.warnings += improbable_materials(scene.body);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
-  scene.warnings += undeclared_contacts(scene, interactions, deck.solver.initial_time,
-                                        deck.solver.final_time - deck.solver.initial_time);
-  scene.warnings += weak_contacts(deck, scene, interactions, spacing);
+  scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
+  scene.warnings += weak_contacts(deck, scene, interactions, ways, spacing);
   return scene;
 }
 

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double short_part = 1e-3;  // of the duration: over which prescribed displacements are looked at
-
 // Restricts the interval [from, to] to the times at which distance + speed t ≤ 0.
 void restrict_to_overlap(double distance, double speed, double& from, double& to) {
   if (speed == 0) {
@@ -30,7 +28,7 @@ std::vector<Trajectory> trajectories(const Scene& scene, double start, double du
   const Domain& domain = scene.body.domain;
   std::vector<Trajectory> all(domain.cloud.block_names.size());
   const std::vector<Vector> velocities =
-      predicted_velocities(scene.conditions, start, short_part * duration, scene.body);
+      predicted_velocities(scene.conditions, start, first_moment * duration, scene.body);
   for (int i = 0; i < domain.owned; ++i) {
     all[domain.cloud.blocks[i]].places.extend(scene.body.current(i));
     all[domain.cloud.blocks[i]].velocities.extend(velocities[i]);

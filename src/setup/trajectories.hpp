@@ -10,6 +10,9 @@
 
 namespace strut {
 
+// The first moment, over which prescribed displacements are looked at, as a part of the duration.
+inline constexpr double first_moment = 1e-3;
+
 // Where the points of a block are and how fast they go, over all ranks.
 struct Trajectory {
   Eigen::AlignedBox3d places, velocities;

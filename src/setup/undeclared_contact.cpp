@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "setup/trajectories.hpp"
-
 namespace strut {
 
 namespace {
@@ -21,10 +19,9 @@ bool declared(const std::vector<contact::Interaction>& interactions, int a, int 
 
 }  // namespace
 
-std::string undeclared_contacts(const Scene& scene, const std::vector<contact::Interaction>& interactions, double start,
-                                double duration) {
+std::string undeclared_contacts(const Scene& scene, const std::vector<contact::Interaction>& interactions,
+                                const std::vector<Trajectory>& all, double start, double duration) {
   const Domain& domain = scene.body.domain;
-  const std::vector<Trajectory> all = trajectories(scene, start, duration);
   std::ostringstream text;
   for (int a = 0; a < static_cast<int>(all.size()); ++a) {
     for (int b = a + 1; b < static_cast<int>(all.size()); ++b) {

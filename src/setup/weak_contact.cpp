@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "deck/problems.hpp"
-#include "setup/trajectories.hpp"
 
 namespace strut {
 
@@ -138,11 +137,11 @@ std::string weakness(const contact::Law& law, const Side& a, const Side& b, cons
 }  // namespace
 
 std::string weak_contacts(const deck::Deck& deck, const Scene& scene,
-                          const std::vector<contact::Interaction>& interactions, const std::vector<double>& spacings) {
+                          const std::vector<contact::Interaction>& interactions, const std::vector<Trajectory>& ways,
+                          const std::vector<double>& spacings) {
   const Domain& domain = scene.body.domain;
   if (interactions.empty()) return "";
   const double duration = deck.solver.final_time - deck.solver.initial_time;
-  const std::vector<Trajectory> ways = trajectories(scene, deck.solver.initial_time, duration);
   const std::vector<Side> sides = sides_of(scene.body, spacings);
   deck::Problems problems;
   std::string warnings;

@@ -7,6 +7,7 @@
 #include "contact/contact.hpp"
 #include "deck/deck.hpp"
 #include "setup/scene.hpp"
+#include "setup/trajectories.hpp"
 
 namespace strut {
 
@@ -16,6 +17,7 @@ namespace strut {
 // impact even if all points pressed on all that they can reach; where the deck goes on beyond its limits (Watch >
 // Beyond Limits) that is a warning, too.
 std::string weak_contacts(const deck::Deck& deck, const Scene& scene,
-                          const std::vector<contact::Interaction>& interactions, const std::vector<double>& spacings);
+                          const std::vector<contact::Interaction>& interactions,
+                          const std::vector<Trajectory>& trajectories, const std::vector<double>& spacings);
 
 }  // namespace strut

@@ -55,8 +55,8 @@ void ToolContact::begin(const Body& body, double t, double dt) {
 void ToolContact::add_forces(const Body& body, Field& forces) {
   for (ContactPoint& contact : contact_points_) {
     const Vector place = body.current(contact.point);
-    Surface at = surface(tools_[contact.tool].shape, place - offsets_[contact.tool]);
-    at.gap -= tools_[contact.tool].reach(contact.point);
+    const RigidTool& tool = tools_[contact.tool];
+    const Surface at = tool.met_by(contact.point, tool.shape, place - offsets_[contact.tool]);
     const Vector way = place - contact.start - travels_[contact.tool];
     press(at, way - way.dot(at.normal) * at.normal, contact);
     forces[contact.point] += contact.now.force;
