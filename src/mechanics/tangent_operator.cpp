@@ -1,10 +1,8 @@
 #include "mechanics/tangent_operator.hpp"
 
-#include <optional>
-
 #include "mechanics/force_sum.hpp"
+#include "mechanics/formulation/cell_tangent.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
-#include "mechanics/formulation/shared_volume.hpp"
 #include "mechanics/formulation/tangent.hpp"
 
 namespace strut {
@@ -12,14 +10,6 @@ namespace strut {
 namespace {
 
 using small::Lanes;
-
-// δP at a law point, for δF: J C:sym(δF F⁻¹) F⁻ᵀ.
-Tensor elastic_change(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF) {
-  const Tensor inverse_F = point.deformation_gradient.inverse();
-  const Symmetric D = symmetric_part(dF * inverse_F);
-  const Symmetric stress = 2 * moduli.shear * D + spherical((moduli.bulk - 2 * moduli.shear / 3) * trace(D));
-  return point.deformation_gradient.determinant() * to_tensor(stress) * inverse_F.transpose();
-}
 
 // The force state of the tangent at one point, for δF. A subcycled point, whose step is a `share` of the whole, is as
 // stiff to its own step as one of share² the stiffness is to the whole step. C: of its springs.
@@ -34,22 +24,6 @@ ForceState tangent_state(const Symmetric& shape_inverse, double C, const PointTa
   return bonds::force_state(tangent.times(dF) * to_tensor(shape_inverse) - C * dF, C);
 }
 
-// δP at the places of the cell of block.points[k], for δF there.
-CellTensors change_of_cell(const Body& body, const MaterialBlock& block, int k, CellTensors dF,
-                           const std::vector<PointTangent>* tangents) {
-  std::optional<SharedVolume> shared;
-  if (block.flowed[k]) shared.emplace(block, k);
-  if (shared) shared->share_gradients(dF);
-  CellTensors dP;
-  for (int q = 0; q < 4; ++q) {
-    const std::size_t place = block.place(k, q);
-    dP[q] = tangents ? (*tangents)[body.owned() + block.first_law_point + place].times(dF[q])
-                     : elastic_change(block.cells[place], block.moduli(place), dF[q]);
-  }
-  if (shared) shared->share_stresses(dP);
-  return dP;
-}
-
 // The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
 template <class Weight>
 void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
@@ -61,7 +35,7 @@ void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneG
   for (int l = 0; l < group.count; ++l) {
     CellTensors changes;
     for (int q = 0; q < 4; ++q) changes[q] = at(dF[q], l);
-    changes = change_of_cell(body, block, group.k[l], changes, tangents);
+    changes = CellTangent(body, block, group.k[l], tangents).change(changes);
     for (int q = 0; q < 4; ++q) {
       for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) dP[q].c[r][c][l] = changes[q](r, c);

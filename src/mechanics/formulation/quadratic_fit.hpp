@@ -53,7 +53,10 @@ class QuadraticFits {
   bool refit(const Body& body, int i, double most);
   void drop(int i) { fit(i) = {}; }  // it carries no stress
 
-  // F at a place of the cell of an owned point that carries stress, of points at place(j).
+  // What the family of an owned point that carries stress gives to F at a place of its cell: calls visit(j, g) with
+  // F = Σ (y_j − y_i) ⊗ g, g in 1/m.
+  void for_each_weight(const Body& body, int i, int q, const std::function<void(int j, const Vector& g)>& visit) const;
+  // F at such a place, of points at place(j).
   Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;
 
   const QuadraticFit& operator[](int i) const { return fits_[number_[i]]; }

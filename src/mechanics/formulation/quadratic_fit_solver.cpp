@@ -4,6 +4,7 @@
 
 #include "mechanics/formulation/lattice_cell.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "points/parallel_for.hpp"
 
@@ -47,15 +48,6 @@ Basis basis(const Vector& xi, double h) {
   Basis b;
   b << x.c[0], x.c[1], x.c[2], q[0], q[1], q[2], q[3], q[4], q[5];
   return b;
-}
-
-// Calls visit(j, ω V_j, ξ) over the family of a point.
-template <class Visit>
-void over_family(const Body& body, int i, const Visit& visit) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
-                [&](int j, double w, const auto& xi, double) { visit(j, w, Vector(xi.c[0], xi.c[1], xi.c[2])); });
-  });
 }
 
 // In the direction in which it is the least.
@@ -492,14 +484,19 @@ bool QuadraticFits::refit(const Body& body, int i, double most) {
   return spans;
 }
 
-Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const {
+void QuadraticFits::for_each_weight(const Body& body, int i, int q,
+                                    const std::function<void(int j, const Vector& g)>& visit) const {
   const QuadraticFit& fit = (*this)[i];
-  const Vector here = place(i), at = place_of(fit, q);
-  Tensor F = Tensor::Zero();
+  const Vector at = place_of(fit, q);
   over_family(body, i, [&](int j, double w, const Vector& xi) {
-    const Vector g = weight_of_bond(fit, body.domain.volume(i), w, xi, multipliers_[j], at);
-    F += (place(j) - here) * g.transpose();
+    visit(j, weight_of_bond(fit, body.domain.volume(i), w, xi, multipliers_[j], at));
   });
+}
+
+Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const {
+  const Vector here = place(i);
+  Tensor F = Tensor::Zero();
+  for_each_weight(body, i, q, [&](int j, const Vector& g) { F += (place(j) - here) * g.transpose(); });
   return F;
 }
 

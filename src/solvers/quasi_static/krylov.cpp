@@ -37,8 +37,9 @@ void copy(const Vectors& vectors, Field& field) {
 // A product with fields as Belos wants it.
 class ProductOperator : public Operator {
  public:
-  ProductOperator(const Krylov::Product& product, RCP<const Map> map, std::size_t owned)
-      : product_(product), map_(std::move(map)), in_(owned), out_(owned) {}
+  ProductOperator(Krylov::Product product, RCP<const Map> map, std::size_t owned)
+
+      : product_(std::move(product)), map_(std::move(map)), in_(owned), out_(owned) {}
   RCP<const Map> getDomainMap() const override { return map_; }
   RCP<const Map> getRangeMap() const override { return map_; }
   void apply(const Vectors& X, Vectors& Y, Teuchos::ETransp, double alpha, double beta) const override {
@@ -58,7 +59,7 @@ class ProductOperator : public Operator {
     copy(out_, Y);
   }
 
-  const Krylov::Product& product_;
+  Krylov::Product product_;
   RCP<const Map> map_;
   mutable Field in_, out_;
 };
@@ -108,6 +109,11 @@ Krylov::~Krylov() = default;
 
 std::int64_t Krylov::first() const {
   return implementation_->owned == 0 ? 0 : implementation_->map->getMinGlobalIndex() / 3;
+}
+
+void Krylov::precondition_by(Product inverse) {
+  implementation_->hierarchy =
+      rcp(new ProductOperator(std::move(inverse), implementation_->map, implementation_->owned));
 }
 
 bool Krylov::is_preconditioned() const { return !implementation_->hierarchy.is_null(); }

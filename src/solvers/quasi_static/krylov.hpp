@@ -41,6 +41,9 @@ class Krylov {
   // with fewer unknowns than rigid motions makes it singular), that one is smoothed too; where no hierarchy can be
   // made, or no point depends on another, there is none. Returns what went wrong, or nothing, on all ranks.
   std::string precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
+  // The same by what solves a system that resembles it, on each rank by itself or together.
+  using Product = std::function<void(const Field&, Field&)>;
+  void precondition_by(Product inverse);
   bool is_preconditioned() const;
 
   struct Outcome {
@@ -51,7 +54,6 @@ class Krylov {
   // preconditioned residual. Beside a few springs far stiffer than the rest the residual says nothing.
   enum class Measure { residual, error };
   // Collective. K x = right from x = 0. The best x found, also where it did not converge in `most` iterations.
-  using Product = std::function<void(const Field&, Field&)>;
   Outcome solve(const Product& K, const Field& right, Measure measure, double tolerance, int most, Field& x);
 
  private:

@@ -46,7 +46,8 @@ bool is_a_way(const Field& way, const Body& body) {
 Newton::Newton(Equilibrium& equilibrium, const Observer& observer)
     : equilibrium_(equilibrium),
       observer_(observer),
-      krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
+      krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()),
+      factor_(equilibrium.body()) {}
 
 // Of a point alone.
 double Newton::mean_spring(const BlockRows& matrix) const {
@@ -79,6 +80,15 @@ void Newton::tell_once(const std::string& trouble) {
   if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
 }
 
+void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
+  Body& body = equilibrium_.body();
+  if (factor_.is_worthwhile() &&
+      factor_.factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first())) {
+    return krylov_.precondition_by([this](const Field& right, Field& x) { factor_.solve(right, x); });
+  }
+  tell_once(krylov_.precondition(matrix, rigid_motions(body)));
+}
+
 void Newton::renew_preconditioner() {
   static Teuchos::Time& timer = phase("Preconditioner");
   const Timed timed(timer);
@@ -89,7 +99,7 @@ void Newton::renew_preconditioner() {
   }
   const BlockRows matrix =
       preconditioner_matrix(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, krylov_.first());
-  tell_once(krylov_.precondition(matrix, rigid_motions(body)));
+  precondition(matrix, extra);
   spring_ = mean_spring(matrix);
   renew_drag(matrix, extra);
   damping_when_new_ = damping_;

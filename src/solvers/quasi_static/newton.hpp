@@ -6,6 +6,7 @@
 
 #include "solvers/quasi_static/krylov.hpp"
 #include "solvers/quasi_static/search.hpp"
+#include "solvers/quasi_static/tangent_factor.hpp"
 
 namespace strut {
 
@@ -24,6 +25,7 @@ class Newton {
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void tell_once(const std::string& trouble);
   void renew_preconditioner();
+  void precondition(const BlockRows& matrix, const std::vector<Tensor>& extra);
   double mean_spring(const BlockRows& matrix) const;
   void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
   void damp_less(double factor);
@@ -33,6 +35,7 @@ class Newton {
   Equilibrium& equilibrium_;
   const Observer& observer_;
   Krylov krylov_;
+  TangentFactor factor_;
   double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true;

@@ -1,0 +1,39 @@
+// A factorization of the tangent of this rank's points, as a preconditioner: the points of other ranks are taken as
+// held (block Jacobi over the ranks). Struts, bars and shells fill in so little that it takes as long as some ten
+// products; solid bodies fill in too much, and have multigrid instead (krylov.hpp).
+#pragma once
+
+#include <memory>
+
+#include "mechanics/formulation/tangent.hpp"
+#include "solvers/quasi_static/constraints.hpp"
+
+namespace strut {
+
+class TangentFactor {
+ public:
+  // Collective. Orders the points so that they fill in little (approximate minimum degree: Amestoy, Davis & Duff, SIAM
+  // J. Matrix Anal. Appl. 17, 1996).
+  explicit TangentFactor(const Body& body);
+  ~TangentFactor();
+
+  // Whether it is worth its time on all ranks: every block has a stiffness (mechanics/point_stiffness.hpp), and the
+  // factorization takes few enough operations.
+  bool is_worthwhile() const { return worthwhile_; }
+  double operations() const { return operations_; }  // of one factorization, on this rank
+
+  // Collective. The sum of the points' stiffnesses, less what is not symmetric of it, and `extra` stiffness of each
+  // point, N/m; `resembling`: rows that resemble it, which are taken for bonds to other ranks. False where a rank finds
+  // no factors.
+  bool factorize(const Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
+                 const std::vector<Tensor>& extra, const BlockRows& resembling, std::int64_t first);
+  void solve(const Field& right, Field& x) const;
+
+ private:
+  struct Matrix;
+  std::unique_ptr<Matrix> matrix_;
+  bool worthwhile_ = false;
+  double operations_ = 0;
+};
+
+}  // namespace strut
