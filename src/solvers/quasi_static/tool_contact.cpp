@@ -11,10 +11,10 @@ namespace {
 
 // ε in units of M s, the stiffness of a cube of the material as large as a spacing: a round leaves about 1/(1 + 20) of
 // the penetration, and GMRES does not notice, for the preconditioner knows ε.
-constexpr double penalty_factor = 20;
+constexpr double penalty_factor = 1;
 
 // Of ε, along the surface: a stiffer one would let Newton's iterations jump between sticking and sliding.
-constexpr double tangential_share = 0.2;
+constexpr double tangential_share = 0.5;
 
 constexpr double most_penetration = 1e-4;  // spacings
 constexpr double most_lag = 5e-3;          // of the largest pressure, of multipliers behind pressures, for friction
@@ -78,7 +78,7 @@ void ToolContact::press(const Surface& at, const Vector& sliding, ContactPoint& 
   const double e_t = tangential_share * e;
   const Tensor along = Tensor::Identity() - n * n.transpose();
   const Vector trial = along * contact.tangential - e_t * sliding;
-  const double length = trial.norm(), most = friction * contact.multiplier;
+  const double length = trial.norm(), most = friction * pressure;
   if (length <= most) {
     contact.now.drag = trial, contact.sticks = true;
     contact.stiffness += e_t * along;
@@ -86,6 +86,7 @@ void ToolContact::press(const Surface& at, const Vector& sliding, ContactPoint& 
     const Vector direction = trial / length;
     contact.now.drag = most * direction;
     contact.stiffness += most * e_t / length * (along - direction * direction.transpose());
+    contact.stiffness += friction * e * direction * n.transpose();
   }
   contact.now.force += contact.now.drag;
 }
@@ -95,7 +96,9 @@ void ToolContact::add_stiffness(const Field& field, Field& result) const {
 }
 
 void ToolContact::add_springs(std::vector<Tensor>& springs) const {
-  for (const ContactPoint& contact : contact_points_) springs[contact.point] += contact.stiffness;
+  for (const ContactPoint& contact : contact_points_) {
+    springs[contact.point] += 0.5 * (contact.stiffness + contact.stiffness.transpose());
+  }
 }
 
 double ToolContact::largest_pressure() const {
@@ -109,11 +112,10 @@ double ToolContact::violation(double largest_pressure) const {
   for (const ContactPoint& contact : contact_points_) {
     if (contact.now.pressure == 0) continue;
     const double friction = tools_[contact.tool].friction;
-    const double lag = friction > 0 ? std::abs(contact.now.pressure - contact.multiplier) / largest_pressure : 0;
     const double soft =
         contact.sticks ? (contact.now.drag - contact.tangential).norm() / (friction * largest_pressure) : 0;
     largest = std::max(
-        {largest, std::abs(contact.gap) / (most_penetration * contact.spacing), soft / most_softness, lag / most_lag});
+        {largest, std::abs(contact.gap) / (most_penetration * contact.spacing), soft / most_softness});
   }
   return largest;
 }
