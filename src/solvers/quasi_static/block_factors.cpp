@@ -18,11 +18,12 @@ class Symbolic : public Eigen::SimplicialLDLT<Pattern, Eigen::Lower, Eigen::Natu
   const Eigen::VectorXi& filled() const { return m_nonZerosPerCol; }
 };
 
-// A block of the row at work: its columns in registers, of four numbers each.
+// A block at work: its columns in registers, of four numbers each.
 struct Padded {
   Eigen::Array4d column[3] = {Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
 
-  explicit Padded(const Eigen::Matrix3d& block = Eigen::Matrix3d::Zero()) {
+  Padded() = default;
+  explicit Padded(const Eigen::Matrix3d& block) {
     for (int c = 0; c < 3; ++c) column[c].head<3>() = block.col(c).array();
   }
   Eigen::Matrix3d block() const {
@@ -30,10 +31,14 @@ struct Padded {
     for (int c = 0; c < 3; ++c) all.col(c) = column[c].head<3>().matrix();
     return all;
   }
-  // Takes y Lᵀ away.
-  void take_away(const Padded& y, const double* L) {
-    for (int c = 0; c < 3; ++c) column[c] -= y.column[0] * L[c] + y.column[1] * L[3 + c] + y.column[2] * L[6 + c];
+  void take_away(const Padded& a, const Eigen::Matrix3d& b) {  // the product
+    for (int c = 0; c < 3; ++c) column[c] -= a.column[0] * b(0, c) + a.column[1] * b(1, c) + a.column[2] * b(2, c);
   }
+};
+
+// Of the row at work L D, and transposed of the column D U: so both are multiplied from the right.
+struct AtWork {
+  Padded lower, upper;
 };
 
 }  // namespace
@@ -55,11 +60,13 @@ BlockFactors::BlockFactors(const Pattern& pattern) {
   }
 }
 
-void BlockFactors::clear() { std::fill(blocks_.begin(), blocks_.end(), Eigen::Matrix3d::Zero()); }
+void BlockFactors::clear() { std::fill(blocks_.begin(), blocks_.end(), Pair()); }
 
 void BlockFactors::add(int row, int column, const Eigen::Matrix3d& block) {
-  const auto begin = columns_.begin() + start_[row], end = columns_.begin() + start_[row + 1];
-  blocks_[std::lower_bound(begin, end, column) - columns_.begin()] += block;
+  const int low = std::min(row, column), high = std::max(row, column);
+  const auto begin = columns_.begin() + start_[high], end = columns_.begin() + start_[high + 1];
+  Pair& at = blocks_[std::lower_bound(begin, end, low) - columns_.begin()];
+  (row >= column ? at.lower : at.upper) += block;
 }
 
 // The columns of row k of L, each before its parent: the ways of the entries of the matrix up the elimination tree.
@@ -77,27 +84,33 @@ std::vector<int> BlockFactors::row_of(int k, std::vector<int>& seen_by) const {
 
 bool BlockFactors::factorize() {
   const int size = static_cast<int>(parent_.size());
-  below_.resize(first_[size]), rows_.resize(first_[size]);
-  diagonal_.resize(size), inverse_.resize(size);
+  factors_.resize(first_[size]), rows_.resize(first_[size]);
+  inverse_.resize(size);
   filled_.assign(size, 0);
   std::vector<int> seen_by(size, -1);
-  std::vector<Padded> row(size);
+  std::vector<AtWork> row(size);
   for (int k = 0; k < size; ++k) {
-    for (int e = start_[k]; e < start_[k + 1]; ++e) row[columns_[e]] = Padded(blocks_[e]);
-    for (const int j : row_of(k, seen_by)) {
-      const Padded y = row[j];  // L_kj D_j
-      row[j] = Padded();
-      const std::size_t end = first_[j] + filled_[j]++;
-      for (std::size_t p = first_[j]; p < end; ++p) row[rows_[p]].take_away(y, below_[p].data());
-      below_[end] = y.block() * inverse_[j];
-      rows_[end] = k;
-      row[k].take_away(y, below_[end].data());
+    for (int e = start_[k]; e < start_[k + 1]; ++e) {
+      row[columns_[e]] = {Padded(blocks_[e].lower), Padded(blocks_[e].upper.transpose())};
     }
-    diagonal_[k] = row[k].block();
-    row[k] = Padded();
-    const double pivot = diagonal_[k].determinant();
-    if (!std::isfinite(pivot) || pivot == 0) return false;
-    inverse_[k] = diagonal_[k].inverse();
+    for (const int j : row_of(k, seen_by)) {
+      const AtWork y = row[j];
+      row[j] = AtWork();
+      const std::size_t end = first_[j] + filled_[j]++;
+      for (std::size_t p = first_[j]; p < end; ++p) {
+        row[rows_[p]].lower.take_away(y.lower, factors_[p].upper);
+        row[rows_[p]].upper.take_away(y.upper, factors_[p].lower_transposed);
+      }
+      const Eigen::Matrix3d L = y.lower.block() * inverse_[j], U = inverse_[j] * y.upper.block().transpose();
+      factors_[end] = {L.transpose(), U};
+      rows_[end] = k;
+      row[k].lower.take_away(y.lower, U);
+    }
+    const Eigen::Matrix3d pivot = row[k].lower.block();
+    row[k] = AtWork();
+    const double volume = pivot.determinant();
+    if (!std::isfinite(volume) || volume == 0) return false;
+    inverse_[k] = pivot.inverse();
   }
   return true;
 }
@@ -105,11 +118,13 @@ bool BlockFactors::factorize() {
 void BlockFactors::solve(std::vector<Eigen::Vector3d>& x) const {
   const int size = static_cast<int>(parent_.size());
   for (int j = 0; j < size; ++j) {
-    for (std::size_t p = first_[j]; p < first_[j + 1]; ++p) x[rows_[p]] -= below_[p] * x[j];
+    for (std::size_t p = first_[j]; p < first_[j + 1]; ++p) {
+      x[rows_[p]] -= factors_[p].lower_transposed.transpose() * x[j];
+    }
   }
   for (int j = size; j-- > 0;) {
     x[j] = inverse_[j] * x[j];
-    for (std::size_t p = first_[j]; p < first_[j + 1]; ++p) x[j] -= below_[p].transpose() * x[rows_[p]];
+    for (std::size_t p = first_[j]; p < first_[j + 1]; ++p) x[j] -= factors_[p].upper * x[rows_[p]];
   }
 }
 

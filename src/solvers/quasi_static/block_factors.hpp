@@ -1,6 +1,6 @@
-// LDLᵀ of a sparse symmetric matrix of 3×3 blocks, row by row without pivoting, as Eigen::SimplicialLDLT has it of
-// numbers (the algorithm: Davis, Algorithm 849, ACM Trans. Math. Softw. 31, 2005): six times as fast, as each index is
-// read once for nine of them.
+// LDU of a sparse matrix of 3×3 blocks whose pattern is symmetric, while its numbers need not be: row by row without
+// pivoting, as Eigen::SimplicialLDLT does with symmetric matrices of numbers (the algorithm: Davis, Algorithm 849, ACM
+// Trans. Math. Softw. 31, 2005). Each index is read once for eighteen numbers.
 #pragma once
 
 #include <Eigen/Sparse>
@@ -10,12 +10,12 @@ namespace strut {
 
 class BlockFactors {
  public:
-  // `pattern`: of the blocks in the lower triangle, by columns, the diagonal too, in the order of elimination.
+  // `pattern`: the lower triangle of the matrix of blocks, the diagonal too, in the order of elimination.
   explicit BlockFactors(const Eigen::SparseMatrix<double>& pattern);
 
   double operations() const { return operations_; }  // of one factorization
 
-  // The part at or below the diagonal of the matrix: zero, then what is added. A block on the diagonal is symmetric.
+  // The matrix: zero, then what is added.
   void clear();
   void add(int row, int column, const Eigen::Matrix3d& block);
 
@@ -26,12 +26,21 @@ class BlockFactors {
  private:
   std::vector<int> row_of(int k, std::vector<int>& seen_by) const;
 
-  std::vector<int> start_, columns_;  // of the matrix by rows, as its transposed pattern has it; diagonal last
-  std::vector<Eigen::Matrix3d> blocks_;
-  std::vector<int> parent_;                                  // in the elimination tree; -1: a root
-  std::vector<std::size_t> first_;                           // of the columns of L
-  std::vector<int> filled_, rows_;                           // their numbers of entries so far, and rows
-  std::vector<Eigen::Matrix3d> below_, diagonal_, inverse_;  // of L, of D, of D⁻¹
+  // One below the diagonal and the one across from it.
+  struct Pair {
+    Eigen::Matrix3d lower = Eigen::Matrix3d::Zero(), upper = Eigen::Matrix3d::Zero();
+  };
+
+  std::vector<int> start_, columns_;  // of the matrix, by rows to the diagonal
+  std::vector<Pair> blocks_;          // the diagonal's are `lower`
+  std::vector<int> parent_;           // in the elimination tree; -1: a root
+  std::vector<std::size_t> first_;    // of the columns of L and rows of U
+  std::vector<int> filled_, rows_;    // their numbers of entries so far, and rows (of U: columns)
+  struct Factor {
+    Eigen::Matrix3d lower_transposed, upper;  // of L, of U
+  };
+  std::vector<Factor> factors_;
+  std::vector<Eigen::Matrix3d> inverse_;  // D⁻¹
   double operations_ = 0;
 };
 

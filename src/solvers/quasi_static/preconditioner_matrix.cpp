@@ -76,7 +76,8 @@ BlockRows preconditioner_matrix(Body& body, const std::vector<PointTangent>& tan
   const std::vector<End> ends = ends_of(body, tangents, held, first);
   BlockRows rows;
   for (int i = 0; i < body.owned(); ++i) {
-    Tensor diagonal = extra.empty() ? Tensor::Zero() : extra[i];
+    Tensor diagonal = Tensor::Zero();
+    if (!extra.empty()) diagonal = 0.5 * (extra[i] + extra[i].transpose());  // Chebyshev's smoother asks for symmetry
     const std::size_t at = rows.columns.size();
     rows.columns.push_back(first + i), rows.blocks.emplace_back();
     body.domain.families.for_each(i, [&](int j) {

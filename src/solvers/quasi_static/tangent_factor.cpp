@@ -63,10 +63,7 @@ struct TangentFactor::Matrix {
     factors.emplace(Sparse(ordered.triangularView<Eigen::Lower>()));
   }
 
-  // A block at row and column of two points, if it is in the lower triangle.
-  void add(int i, int j, const Tensor& block) {
-    if (place[i] >= place[j]) factors->add(place[i], place[j], block);
-  }
+  void add(int i, int j, const Tensor& block) { factors->add(place[i], place[j], block); }
 };
 
 TangentFactor::TangentFactor(const Body& body) {
@@ -90,11 +87,10 @@ bool TangentFactor::factorize(const Body& body, const std::vector<PointTangent>&
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       take_point_stiffness(body, block, static_cast<int>(k), tangents, stiffness);
-      const Eigen::MatrixXd symmetric = 0.5 * (stiffness.matrix + stiffness.matrix.transpose());
       for (std::size_t a = 0; a < stiffness.points.size(); ++a) {
         for (std::size_t b = 0; b < stiffness.points.size(); ++b) {
           const int i = stiffness.points[a], j = stiffness.points[b];
-          if (std::max(i, j) < body.owned()) add(i, j, symmetric.block<3, 3>(3 * a, 3 * b));
+          if (std::max(i, j) < body.owned()) add(i, j, stiffness.matrix.block<3, 3>(3 * a, 3 * b));
         }
       }
     }

@@ -22,9 +22,8 @@ class TangentFactor {
   bool is_worthwhile() const { return worthwhile_; }
   double operations() const { return operations_; }  // of one factorization, on this rank
 
-  // Collective. The sum of the points' stiffnesses, less what is not symmetric of it, and `extra` stiffness of each
-  // point, N/m; `resembling`: rows that resemble it, which are taken for bonds to other ranks. False where a rank finds
-  // no factors.
+  // Collective. The sum of the points' stiffnesses and `extra` stiffness of each point, N/m; `resembling`: rows that
+  // resemble it, which are taken for bonds to other ranks. False where a rank finds no factors.
   bool factorize(const Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
                  const std::vector<Tensor>& extra, const BlockRows& resembling, std::int64_t first);
   void solve(const Field& right, Field& x) const;

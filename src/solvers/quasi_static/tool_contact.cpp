@@ -9,15 +9,14 @@ namespace strut {
 
 namespace {
 
-// ε in units of M s, the stiffness of a cube of the material as large as a spacing: a round leaves about 1/(1 + 20) of
-// the penetration, and GMRES does not notice, for the preconditioner knows ε.
+// ε in units of M s, the stiffness of a cube of the material as large as a spacing. A stiffer one would leave less
+// penetration in a round, but struts that begin to touch would jump on it: with 20 Newton's method stalled in a foam.
 constexpr double penalty_factor = 1;
 
-// Of ε, along the surface: a stiffer one would let Newton's iterations jump between sticking and sliding.
+// Of ε, along the surface.
 constexpr double tangential_share = 0.5;
 
 constexpr double most_penetration = 1e-4;  // spacings
-constexpr double most_lag = 5e-3;          // of the largest pressure, of multipliers behind pressures, for friction
 constexpr double most_softness = 2e-2;     // of the largest friction, of multipliers behind it where a point sticks
 
 constexpr double just_touching = 1e-9;  // spacings
@@ -96,9 +95,7 @@ void ToolContact::add_stiffness(const Field& field, Field& result) const {
 }
 
 void ToolContact::add_springs(std::vector<Tensor>& springs) const {
-  for (const ContactPoint& contact : contact_points_) {
-    springs[contact.point] += 0.5 * (contact.stiffness + contact.stiffness.transpose());
-  }
+  for (const ContactPoint& contact : contact_points_) springs[contact.point] += contact.stiffness;
 }
 
 double ToolContact::largest_pressure() const {
@@ -114,8 +111,7 @@ double ToolContact::violation(double largest_pressure) const {
     const double friction = tools_[contact.tool].friction;
     const double soft =
         contact.sticks ? (contact.now.drag - contact.tangential).norm() / (friction * largest_pressure) : 0;
-    largest = std::max(
-        {largest, std::abs(contact.gap) / (most_penetration * contact.spacing), soft / most_softness});
+    largest = std::max({largest, std::abs(contact.gap) / (most_penetration * contact.spacing), soft / most_softness});
   }
   return largest;
 }

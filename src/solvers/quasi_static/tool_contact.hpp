@@ -1,9 +1,9 @@
 // What rigid tools do to the points of a body in equilibrium: unilateral contact with Coulomb friction by an augmented
 // Lagrangian (Simo & Laursen 1992). With the gap g, the sliding s over the tool in the step, and the multipliers λ:
-//   t_n = max(0, λ_n − ε g),  t_t = λ_t − ε s, cut to |t_t| ≤ μ λ_n
-// The bound is that of the multiplier, which keeps the tangent symmetric. An equilibrium at given multipliers leaves
-// penetrations of the order t/ε; then λ ← t, and so on until they are below a tolerance. So ε is no constant of the
-// material: it only decides how many rounds there are.
+//   t_n = max(0, λ_n − ε g),  t_t = λ_t − ε s, cut to |t_t| ≤ μ t_n
+// Where a point slides the tangent is not symmetric. An equilibrium at given multipliers leaves penetrations of the
+// order t/ε; then λ ← t, and so on until they are below a tolerance. So ε is no constant of the material: it only
+// decides how many rounds there are.
 #pragma once
 
 #include <vector>
