@@ -251,6 +251,7 @@ class Runs(InFolder):
         columns["Reaction_Z(rear)"] = np.full(len(TIMES), -4e-5 * 1e6)
         self.history(columns)
         found = self.made("block.xml", "--shortening", f"{V}*t")
+        self.assertLessEqual(set(shock.MEASURES), set(found))  # that a study can ask for
         self.assertAlmostEqual(found["shock_stress"] / (RHO * U * V), 1, 2)  # by the speed, to half a row in 400
         self.assertAlmostEqual(found["stress_jump"] / (RHO * U * V), 1, 8)
         self.assertAlmostEqual(found["strain_behind"], V / U, 8)
