@@ -123,6 +123,7 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
 
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
+  forget_signals();
   catch_signals({SIGUSR1});  // a job that ends while the mesh is read goes on in the next; the others end it at once
   const deck::Deck deck = deck::read(deck_file, communicator);
   io::set_trial_reads(deck.discretization.trial_reads);
