@@ -88,12 +88,12 @@ def quasi_elastic_line(strain, stress, scale):
 
 def offset_stress(strain, stress, gradient, foot, offset):
     """Where the curve comes under the line of this gradient from the foot, so much further along; None where it does not."""
-    below = stress - gradient * (strain - foot - offset)
-    rows = np.flatnonzero((below <= 0) & (strain > foot + offset))
-    if len(rows) == 0 or rows[0] == 0:
+    above = stress - gradient * (strain - foot - offset)
+    rows = 1 + np.flatnonzero((above[1:] <= 0) & (above[:-1] > 0))
+    if len(rows) == 0:
         return None
     i = rows[0]
-    part = below[i - 1] / (below[i - 1] - below[i])
+    part = above[i - 1] / (above[i - 1] - above[i])
     return float(stress[i - 1] + part * (stress[i] - stress[i - 1]))
 
 
@@ -163,7 +163,7 @@ def offset_measures(e, s, rise, unloading):
             value = offset_stress(e, s, gradient, rise[1], offset) if known else None
             found.append(Measure(f"{name}{key}", value, "Pa", f"stress at {100 * offset:g} % plastic strain beside the line of "
                                  f"the {of} gradient (ISO)",
-                                 "the curve does not meet that line" if known else f"there is no {of} gradient"))
+                                 "the curve does not cross that line" if known else f"there is no {of} gradient"))
     return found
 
 
