@@ -125,6 +125,8 @@ std::string memory_and_frame(const Scene& scene, const OutputVariables& variable
          "; a frame takes " + as_size(frame_bytes(variables, scene.points)) + "\n";
 }
 
+std::string critical_time_step_line(double limit) { return formatted("critical time step %.4g s\n", limit); }
+
 std::string step_warning(const StepControl& control, double limit, double time) {
   if (!(control.fixed_dt > limit)) return "";
   return formatted(

@@ -36,6 +36,7 @@ void leave_frame(OutputWriters& writers, double time, const Body& body) {
 
 // The time loop: everything after set-up. Returns the ledger at the end.
 Ledger step_through(const RunServices& services, CentralDifference& solver) {
+  say(services.scene.body.domain.communicator, critical_time_step_line(solver.critical_time_step()));
   ExplicitRunControl control(services, solver);
   for (;;) {
     control.save(solver);

@@ -1,6 +1,9 @@
 // What a run says of its scene before it begins: what a slip of units changes, and how many pieces there are.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 #include "regression/bodies.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
@@ -139,6 +142,11 @@ TEST(ClosingReport, TellsOfWhatDidNotHappen) {
   const std::string still = told_by_run(floor),
                     falls = told_by_run(floor + far + along("flight", "Initial Velocity", "all", "z", "-1"));
   if (still.empty()) return;
+  // The run of 2 µs is divided into equal steps, at most 0.8 of it, the deck's safety factor.
+  double limit = 0, dt = 0;
+  std::sscanf(falls.c_str() + falls.find("critical time step"), "critical time step %lf", &limit);
+  std::sscanf(falls.c_str() + falls.find("dt = "), "dt = %lf", &dt);
+  EXPECT_NEAR(dt, 2e-6 / std::ceil(2e-6 / (0.8 * limit)), 1e-9) << falls;  // three digits are told of dt
   EXPECT_NE(still.find("the tool 'floor' touched nothing\nWARNING: nothing moved"), std::string::npos) << still;
   EXPECT_NE(falls.find("the tool 'far' touched nothing"), std::string::npos) << falls;
   EXPECT_EQ(falls.find("'floor' touched"), std::string::npos) << falls;
