@@ -55,6 +55,7 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
       const Surface at = tool.met_by(i, shape, update.body.current(i) - motion.offset());
       const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
       if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
+      *tool.touched = true;
       visit(i, correction(at, tool.friction, relative, dt));
     }
   };
@@ -131,7 +132,7 @@ void RigidTool::change_velocities(VelocityUpdate& update) const {
 }
 
 std::optional<RigidTool> RigidTool::in_substeps(const MovingPoints& moving) const {
-  return RigidTool{moving.among(points), shape, travel, friction, reaction_place, free, false, reaches};
+  return RigidTool{moving.among(points), shape, travel, friction, reaction_place, free, false, reaches, touched};
 }
 
 }  // namespace strut

@@ -29,6 +29,8 @@ struct RigidTool {
   bool in_whole_steps = true;
   // Of all owned points, m. Nothing: it meets the points themselves.
   std::shared_ptr<const std::vector<double>> reaches = {};
+  // Whether it has met a point of this rank; one with its parts for substeps and its copies.
+  std::shared_ptr<bool> touched = std::make_shared<bool>(false);
 
   // How far it has traveled at time t (s), m. Its surface is seen from a place y as `shape` is from y − offset(t).
   Vector offset(double t) const;

@@ -125,6 +125,8 @@ std::string memory_and_frame(const Scene& scene, const OutputVariables& variable
          "; a frame takes " + as_size(frame_bytes(variables, scene.points)) + "\n";
 }
 
+std::string critical_time_step_line(double limit) { return formatted("critical time step %.4g s\n", limit); }
+
 std::string step_warning(const StepControl& control, double limit, double time) {
   if (!(control.fixed_dt > limit)) return "";
   return formatted(
@@ -195,6 +197,22 @@ std::string fragment_table(const Body& body) {
   return text;
 }
 
+// Collective. What a run that came to nothing should be told of.
+std::string what_did_not_happen(const Scene& scene, const Ledger& ledger, int before) {
+  const std::string since = before > 0 ? ", since it went on" : "";
+  std::string text;
+  for (const ToolOfScene& tool : scene.tools) {
+    if (scene.body.domain.communicator.max(*tool.touched ? 1.0 : 0.0) == 0)
+      text += "the tool '" + tool.name + "' touched nothing" + since + "\n";
+  }
+  const double all[] = {ledger.kinetic,  ledger.elastic,  ledger.dissipated, ledger.stabilization,
+                        ledger.fracture, ledger.external, ledger.tools,      ledger.contact};
+  if (std::all_of(std::begin(all), std::end(all), [](double energy) { return energy == 0; }))
+    text +=
+        "WARNING: nothing moved: no velocity, force or tool of Boundary Conditions has reached a point" + since + "\n";
+  return text;
+}
+
 std::string energies(const Ledger& ledger) {
   return formatted("energies at %.6g s (J): kinetic %.5g, elastic %.5g, plastic %.5g%s, stabilization %.5g%s;\n",
                    ledger.time, ledger.kinetic, ledger.elastic, ledger.dissipated,
@@ -220,7 +238,7 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
     text << formatted("the stiffest points were subcycled, up to %d times a step: %.2f updates a point and step\n",
                       solver.most_substeps(), solver.updates() / solver.steps());
   }
-  return text.str() + fragment_table(scene.body) + energies(ledger);
+  return text.str() + fragment_table(scene.body) + energies(ledger) + what_did_not_happen(scene, ledger, before);
 }
 
 std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,
@@ -229,7 +247,7 @@ std::string closing_report(const Scene& scene, const QuasiStatic& solver, const 
   return table_of_phases(scene, seconds) + table_of_ranks(scene.body) + searches(solver.contact()) +
          formatted("%d load steps, %d iterations, %d evaluations of forces or tangent, %.3g points*evaluations/s\n",
                    solver.steps() - before, solver.iterations(), solver.evaluations(), point_evaluations / seconds) +
-         energies(ledger);
+         energies(ledger) + what_did_not_happen(scene, ledger, before);
 }
 
 }  // namespace strut

@@ -42,6 +42,9 @@ double frame_bytes(const OutputVariables& variables, std::int64_t points);
 // included; what a frame takes.
 std::string memory_and_frame(const Scene& scene, const OutputVariables& variables);
 
+// Of a run by explicit steps, s: one of its first lines.
+std::string critical_time_step_line(double limit);
+
 // A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 

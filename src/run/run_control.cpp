@@ -17,6 +17,8 @@ void catch_signals(std::initializer_list<int> signals) {
 
 bool is_signalled() { return signalled != 0; }
 
+void forget_signals() { signalled = 0; }
+
 bool EarlyEnd::wanted() const {
   const auto passed = [this] { return std::chrono::duration<double>(Clock::now() - began_).count(); };
   return is_signalled() || (wall_time_ && passed() > *wall_time_);

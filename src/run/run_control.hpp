@@ -18,6 +18,7 @@ namespace strut {
 // From now on these (of csignal) end the run after the current step, or its first one.
 void catch_signals(std::initializer_list<int> signals);
 bool is_signalled();
+void forget_signals();  // a process may run several decks
 
 // Whether a run is to end before its final time, on this rank: a signal has come, or its wall time is over. Ranks agree
 // on it by themselves.

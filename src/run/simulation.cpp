@@ -36,6 +36,7 @@ void leave_frame(OutputWriters& writers, double time, const Body& body) {
 
 // The time loop: everything after set-up. Returns the ledger at the end.
 Ledger step_through(const RunServices& services, CentralDifference& solver) {
+  say(services.scene.body.domain.communicator, critical_time_step_line(solver.critical_time_step()));
   ExplicitRunControl control(services, solver);
   for (;;) {
     control.save(solver);
@@ -123,6 +124,7 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
 
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
+  forget_signals();
   catch_signals({SIGUSR1});  // a job that ends while the mesh is read goes on in the next; the others end it at once
   const deck::Deck deck = deck::read(deck_file, communicator);
   io::set_trial_reads(deck.discretization.trial_reads);

@@ -35,13 +35,17 @@ void check_values(const std::vector<Function>& values, const std::vector<int>& p
 }
 
 template <ConditionType Type>
-void put(const Type& prototype, std::vector<int> points, int place, double t, Scene& scene) {
+void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, double t, Scene& scene) {
   Type condition = prototype.on(std::move(points), place, scene.body);
-  if constexpr (std::is_same_v<Type, RigidTool>) condition.set_reaches(t, scene.body);
+  if constexpr (std::is_same_v<Type, RigidTool>) {
+    condition.set_reaches(t, scene.body);
+    scene.tools.push_back({name, condition.touched});
+  }
   scene.conditions.add(std::move(condition));
 }
 
-void put(const ActsOnce auto& prototype, const std::vector<int>& points, int, double t, Scene& scene) {
+void put(const ActsOnce auto& prototype, const std::string&, const std::vector<int>& points, int, double t,
+         Scene& scene) {
   prototype.set_initial_state(points, t, scene.body);
 }
 
@@ -50,7 +54,7 @@ void add_condition(const deck::Condition& condition, int place, double t, Scene&
   std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
   const auto add = [&](const auto& prototype) {
     check_values(prototype.values_at_points(), points, t, scene.body.domain);
-    put(prototype, std::move(points), place, t, scene);
+    put(prototype, condition.name, std::move(points), place, t, scene);
   };
   std::visit(add, condition.kind);
 }

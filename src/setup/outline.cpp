@@ -14,11 +14,27 @@ namespace {
 // From foams of a few kg/m³ to osmium; from soft foams to diamond, 18 km/s.
 constexpr double least_density = 10, most_density = 30e3;         // kg/m³
 constexpr double least_wave_speed = 100, most_wave_speed = 20e3;  // m/s
+// Of the yield stress over Young's modulus: soft pure metals have some 1e-5, whiskers and polymers come near 0.1.
+constexpr double least_yield = 1e-7, most_yield = 0.1;
+// What is smaller has few atoms across; what is larger is no specimen. From `long_for_waves` on a wave should come
+// through it in the run: of lengths in mm that are taken for m it is a thousandth of the way.
+constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
 
 // Of longitudinal waves in the undeformed material, m/s.
 double wave_speed(const BlockMaterial& material) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
   return std::sqrt(modulus / material.density);
+}
+
+// Of the undeformed material over Young's modulus; infinite where it never yields.
+double yield_ratio(const BlockMaterial& material) {
+  return std::visit(
+      []<class L>(const L& law) {
+        const materials::Moduli moduli = law.moduli();
+        const double E = 9 * moduli.bulk * moduli.shear / (3 * moduli.bulk + moduli.shear);
+        return law.flow_stress(materials::virgin_state_of(law)) / E;
+      },
+      material.law);
 }
 
 Eigen::AlignedBox3d box_of(const Body& body) {
@@ -78,6 +94,35 @@ std::string improbable_materials(const Body& body) {
       text << "WARNING: block '" << block.name << "' has a wave speed of " << speed
            << " m/s; solids have 100 to 20,000: are moduli in Pa (70 GPa are 70e9) and the density in kg/m³?\n";
     }
+    const double yield = yield_ratio(block.material);
+    if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
+      text << "WARNING: block '" << block.name << "' yields at " << yield
+           << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
+    }
+  }
+  return text.str();
+}
+
+std::string improbable_scales(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,
+                              double duration) {
+  const double size = box_of(scene.body).sizes().maxCoeff();
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const MaterialBlock& block : scene.body.blocks) {
+    least = std::min(least, wave_speed(block.material));
+    most = std::max(most, wave_speed(block.material));
+  }
+  std::ostringstream text;
+  text.precision(4);
+  if (!(size >= least_size && size <= most_size)) {
+    text << "WARNING: the bodies are " << size << " m long: are lengths of the mesh in m?\n";
+  } else if (!scene.quasi_static && size > long_for_waves && most * duration < size) {
+    text << "WARNING: the bodies are " << size << " m long, and in the " << duration << " s of the run a wave goes "
+         << most * duration << " m: are lengths of the mesh in m, not in mm?\n";
+  }
+  const double difference = scene.quasi_static ? 0 : largest_difference(scene, trajectories, start, duration);
+  if (difference > least) {
+    text << "WARNING: speeds are " << difference << " m/s apart, more than the wave speed of " << least
+         << " m/s: are velocities in m/s, travels in m and times in s?\n";
   }
   return text.str();
 }

@@ -13,7 +13,13 @@ namespace strut {
 // largest difference of speeds that the conditions give in the first moment as a part of it. `duration`: of the run, s.
 std::string outline(const Scene& scene, const std::vector<Trajectory>& trajectories, double start, double duration);
 
-// A warning for each block whose density or wave speed no solid has; it names the units.
+// A warning for each block whose density, wave speed, or yield stress over Young's modulus no solid has; it names the
+// units.
 std::string improbable_materials(const Body& body);
+
+// Collective. Warnings of a body that is improbably large or small, by itself or for the duration of the run (s), and
+// of bodies that meet faster than waves run.
+std::string improbable_scales(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,
+                              double duration);
 
 }  // namespace strut

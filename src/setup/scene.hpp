@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "conditions/conditions.hpp"
 #include "contact/contact.hpp"
@@ -14,6 +16,12 @@
 
 namespace strut {
 
+// A rigid tool of the deck, of which the closing report tells whether it was touched.
+struct ToolOfScene {
+  std::string name;
+  std::shared_ptr<const bool> touched;  // on this rank
+};
+
 struct Scene {
   Body body;
   Conditions conditions;
@@ -22,8 +30,9 @@ struct Scene {
   std::optional<QuasiStaticControl> quasi_static;  // in its place
   std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
   Dropped dropped;
-  std::string outline;   // box, mass, wave speeds, speeds: what slips of units change
-  std::string warnings;  // what may be meant otherwise, a line each
+  std::vector<ToolOfScene> tools = {};  // as tools_of(conditions)
+  std::string outline;                  // box, mass, wave speeds, speeds: what slips of units change
+  std::string warnings;                 // what may be meant otherwise, a line each
 };
 
 }  // namespace strut

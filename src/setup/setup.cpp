@@ -11,6 +11,7 @@
 #include "setup/contact.hpp"
 #include "setup/cuts.hpp"
 #include "setup/families.hpp"
+#include "setup/filled_tools.hpp"
 #include "setup/mesh.hpp"
 #include "setup/outline.hpp"
 #include "setup/trajectories.hpp"
@@ -55,7 +56,8 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
       0,
       0,
       0,
-      dropped};
+      dropped,
+      {}};
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
   scene.pieces = count_pieces(scene.body.domain);
@@ -68,6 +70,8 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   const std::vector<Trajectory> ways = trajectories(scene, start, duration);
   scene.outline = outline(scene, ways, start, duration);
   scene.warnings += improbable_materials(scene.body);
+  scene.warnings += improbable_scales(scene, ways, start, duration);
+  scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
   scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);

@@ -21,10 +21,15 @@ struct Side {
   double spacing = 0, horizon = 0;  // m, the means
   double impedance = 0;             // of longitudinal waves, kg/(m² s)
   double points = 0, mass = 0;      // over all ranks; kg
+  double yields = 0;                // Pa, the flow stress at the start; infinite where it never yields
 
   double face() const { return spacing * spacing; }              // m², of a point
   double volume() const { return spacing * spacing * spacing; }  // m³
 };
+
+double flow_stress(const BlockMaterial& material) {
+  return std::visit([](const auto& law) { return law.flow_stress(materials::virgin_state_of(law)); }, material.law);
+}
 
 std::vector<Side> sides_of(const Body& body, const std::vector<double>& spacings) {
   std::vector<double> sums(2 * body.blocks.size(), 0);
@@ -40,7 +45,7 @@ std::vector<Side> sides_of(const Body& body, const std::vector<double>& spacings
     const BlockHorizons& horizons = body.domain.blocks[b];
     const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
     sides.push_back({body.domain.cloud.block_names[b], spacings[b], 0.5 * (horizons.smallest + horizons.largest),
-                     std::sqrt(modulus * material.density), sums[2 * b], sums[2 * b + 1]});
+                     std::sqrt(modulus * material.density), sums[2 * b], sums[2 * b + 1], flow_stress(material)});
   }
   return sides;
 }
@@ -134,6 +139,30 @@ std::string weakness(const contact::Law& law, const Side& a, const Side& b, cons
   return text.str();
 }
 
+// Whether a tool or a third block that either of both may touch could stop them.
+bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>& interactions, int a, int b) {
+  const auto with_another = [a, b](const contact::Interaction& one) {
+    const bool has_first = one.first == a || one.first == b, has_second = one.second == a || one.second == b;
+    return has_first != has_second;
+  };
+  return !scene.tools.empty() || std::any_of(interactions.begin(), interactions.end(), with_another);
+}
+
+// Of parts of one body, which may be pressed on each other at any time: until the softer one yields, they bear its flow
+// stress.
+std::string weakness_when_pressed(const contact::Law& law, const Side& a, const Side& b) {
+  const double bears = std::visit([&](const auto& one) { return strength(one, a, b); }, law).pressure;
+  const double yields = std::min(a.yields, b.yields);
+  if (!std::isfinite(yields) || bears >= yields) return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << of_blocks(a, b) << " bears " << bears << " Pa before points pass each other, less than the " << yields
+       << " Pa at which the material yields: parts that are crushed onto each other pass through each other; its "
+       << (std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant") << " should be "
+       << yields / bears << " times as large";
+  return text.str();
+}
+
 }  // namespace
 
 std::string weak_contacts(const deck::Deck& deck, const Scene& scene,
@@ -150,9 +179,12 @@ std::string weak_contacts(const deck::Deck& deck, const Scene& scene,
     if (a.points == 0 || b.points == 0) continue;
     bool surely = false;
     std::string text;
-    if (domain.blocks[first].body != domain.blocks[second].body && !scene.quasi_static)
+    if (domain.blocks[first].body == domain.blocks[second].body)
+      text = weakness_when_pressed(model.law, a, b);
+    else if (!scene.quasi_static)
       text = weakness(model.law, a, b, approach(ways[first], ways[second], duration), surely);
-    if (surely && deck.watch.stops) problems.add("Contact", text);
+    if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second))
+      problems.add("Contact", text);
     const std::string slips = gap(model.law, a, b);
     if (text.empty() && !slips.empty()) text = of_blocks(a, b) + ": " + slips;
     if (!text.empty()) warnings += "WARNING: " + text + "\n";

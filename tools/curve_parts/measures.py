@@ -14,6 +14,7 @@ END_OF_PLATEAU = 1.3  # times the plateau stress (ISO)
 ENERGY_TO = 0.5       # strain to which energy is given where the plateau has no end before (ISO)
 GRADIENT = (0.2, 0.7)  # parts of the plateau stress between which gradients are taken (ISO: of the loop)
 MOST_UNLOADED = 0.5   # a loop unloads at least this part of the stress
+OFFSETS = {"": 0.002, "_1": 0.01}  # plastic strains of offset stress and proof strength
 
 
 @dataclass
@@ -22,6 +23,11 @@ class Measure:
     value: float | None  # None: the curve does not have it
     unit: str
     meaning: str
+    why: str = ""        # it does not have it
+
+    def said(self):
+        """The definition, and why there is no value."""
+        return self.meaning if self.value is not None or not self.why else f"{self.meaning}; none: {self.why}"
 
 
 def loading(strain, stress):
@@ -63,19 +69,32 @@ def first_crossing(x, y, level):
     return float(x[0]) if i == 0 else float(x[i - 1] + (level - y[i - 1]) / (y[i] - y[i - 1]) * (x[i] - x[i - 1]))
 
 
-def slope(strain, stress, low, high):
-    """Of the straight line through the rows with stresses from low to high; None with fewer than three."""
+def line(strain, stress, low, high):
+    """Slope, and strain where it is zero, of the straight line through the rows with stresses from low to high; None with
+    fewer than three."""
     there = (stress >= low) & (stress <= high)
     if there.sum() < 3 or np.ptp(strain[there]) == 0:
         return None
-    return float(np.polyfit(strain[there], stress[there], 1)[0])
+    slope, at_zero = np.polyfit(strain[there], stress[there], 1)
+    return (float(slope), float(-at_zero / slope)) if slope != 0 else None
 
 
-def quasi_elastic_gradient(strain, stress, scale):
+def quasi_elastic_line(strain, stress, scale):
     """Of the first rise, between the two parts of the scale."""
     end = np.flatnonzero(stress > GRADIENT[1] * scale)
     rows = slice(0, end[0] if len(end) else len(stress))
-    return slope(strain[rows], stress[rows], GRADIENT[0] * scale, GRADIENT[1] * scale)
+    return line(strain[rows], stress[rows], GRADIENT[0] * scale, GRADIENT[1] * scale)
+
+
+def offset_stress(strain, stress, gradient, foot, offset):
+    """Where the curve comes under the line of this gradient from the foot, so much further along; None where it does not."""
+    above = stress - gradient * (strain - foot - offset)
+    rows = 1 + np.flatnonzero((above[1:] <= 0) & (above[:-1] > 0))
+    if len(rows) == 0:
+        return None
+    i = rows[0]
+    part = above[i - 1] / (above[i - 1] - above[i])
+    return float(stress[i - 1] + part * (stress[i] - stress[i - 1]))
 
 
 def elastic_gradient(strain, stress, scale):
@@ -86,9 +105,9 @@ def elastic_gradient(strain, stress, scale):
         if i < len(strain) and strain[i] < strain[i - 1]:
             continue
         if i - start > 2 and stress[i - 1] < MOST_UNLOADED * stress[start]:
-            here = slope(strain[start:i], stress[start:i], GRADIENT[0] * scale, GRADIENT[1] * scale)
+            here = line(strain[start:i], stress[start:i], GRADIENT[0] * scale, GRADIENT[1] * scale)
             if here is not None and (best is None or i - start > best[0]):
-                best = (i - start, here)
+                best = (i - start, here[0])
         start = i
     return best and best[1]
 
@@ -116,19 +135,36 @@ def of_curve(strain, stress):
     if known:
         beyond = e >= PLATEAUS[""][0]
         end = crossing(e[beyond], s[beyond], END_OF_PLATEAU * known)
+    ends = f"the curve ends at a strain of {e[-1]:.3g}"
+    rise, unloading = quasi_elastic_line(e, s, scale), elastic_gradient(strain, stress, scale)
     return [
-        Measure("quasi_elastic_gradient", quasi_elastic_gradient(e, s, scale), "Pa",
-                f"slope of the first rise, 20 to 70 % of the {of} (ISO)"),
-        Measure("elastic_gradient", elastic_gradient(strain, stress, scale), "Pa",
-                f"slope of unloading, 70 to 20 % of the {of} (ISO)"),
-        *[Measure(f"plateau_stress{key}", value, "Pa", f"mean from {100 * low:g} to {100 * high:g} % strain (ISO)")
+        Measure("quasi_elastic_gradient", rise and rise[0], "Pa", f"slope of the first rise, 20 to 70 % of the {of} (ISO)",
+                "fewer than three rows there: a history in shorter intervals has more"),
+        Measure("elastic_gradient", unloading, "Pa", f"slope of unloading, 70 to 20 % of the {of} (ISO)",
+                "the history does not unload so far, in three rows"),
+        *offset_measures(e, s, rise, unloading),
+        *[Measure(f"plateau_stress{key}", value, "Pa", f"mean from {100 * low:g} to {100 * high:g} % strain (ISO)", ends)
           for (key, (low, high)), value in zip(PLATEAUS.items(), plateau.values())],
-        Measure("plateau_end", end, "1", "strain from which on the stress is above 1.3 times the plateau stress (ISO)"),
+        Measure("plateau_end", end, "1", "strain from which on the stress is above 1.3 times the plateau stress (ISO)",
+                "at its end the stress is not" if known else "there is no plateau stress"),
         *energy_measures(e, s, end),
         *densification_measures(e, s),
         Measure("largest_strain", float(e[-1]), "1", "of the curve"),
         Measure("largest_stress", float(s.max()), "Pa", "of the curve"),
     ]
+
+
+def offset_measures(e, s, rise, unloading):
+    """Of both gradients, from where the line of the first rise begins."""
+    found = []
+    for name, of, gradient in (("offset_stress", "quasi-elastic", rise and rise[0]), ("proof_strength", "elastic", unloading)):
+        known = rise is not None and gradient
+        for key, offset in OFFSETS.items():
+            value = offset_stress(e, s, gradient, rise[1], offset) if known else None
+            found.append(Measure(f"{name}{key}", value, "Pa", f"stress at {100 * offset:g} % plastic strain beside the line of "
+                                 f"the {of} gradient (ISO)",
+                                 "the curve does not cross that line" if known else f"there is no {of} gradient"))
+    return found
 
 
 def energy_measures(e, s, end):
@@ -150,7 +186,8 @@ def densification_measures(e, s):
     strain, efficiency = found or (None, None)
     W = None if strain is None else float(np.interp(strain, e, energies(e, s)))
     return [
-        Measure("densification_strain", strain, "1", "where energy over stress is largest (Tan et al. 2005, Li et al. 2006)"),
-        Measure("largest_efficiency", efficiency, "1", "energy over stress there (Li et al. 2006)"),
-        Measure("densification_energy", W, "J/m3", "integral of stress over strain to there"),
+        Measure("densification_strain", strain, "1", "where energy over stress is largest (Tan et al. 2005, Li et al. 2006)",
+                "it still rises at the end of the curve"),
+        Measure("largest_efficiency", efficiency, "1", "energy over stress there (Li et al. 2006)", "as densification_strain"),
+        Measure("densification_energy", W, "J/m3", "integral of stress over strain to there", "as densification_strain"),
     ]

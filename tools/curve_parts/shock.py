@@ -11,6 +11,7 @@ import numpy as np
 
 LEAST_LAYERS = 4
 LEAST_JUMP = 0.5      # of the usual difference of the velocities of both ends
+MEASURES = ("front_speed", "front_scatter", "velocity_jump", "strain_behind", "strain_by_speed", "shock_stress", "stress_jump")
 MIDDLE = (0.15, 0.85)  # of the height: where speed, strain and jump are taken, apart from both ends
 
 

@@ -14,7 +14,7 @@ def say(about, found):
     print()
     for m in found:
         value = "-" if m.value is None else f"{m.value:.5g}"
-        print(f"{m.name:<24} {value:>12} {'' if m.unit == '1' else m.unit:<6} {m.meaning}")
+        print(f"{m.name:<24} {value:>12} {'' if m.unit == '1' else m.unit:<6} {m.said()}")
 
 
 def rows_to(path, header, rows):
@@ -32,7 +32,7 @@ def write_curve(path, times, strain, names, stresses):
 
 def write_measures(path, found):
     rows_to(path, ["Measure", "Value", "Unit", "Definition"],
-            [[m.name, "" if m.value is None else f"{m.value:.9g}", m.unit, m.meaning] for m in found])
+            [[m.name, "" if m.value is None else f"{m.value:.9g}", m.unit, m.said()] for m in found])
 
 
 def write_front(path, front):

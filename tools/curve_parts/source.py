@@ -8,6 +8,8 @@ import numpy as np
 from decks import Recipe, value_at, value_in
 from strut_tools import fail, nearest
 
+from . import extent
+
 FORCES = re.compile(r"(Reaction|Contact_Force)_([XYZ])\((.+)\)")
 LAYERS = re.compile(r"Mean_(Velocity|Coordinate)_([XYZ])\((.+) (\d+)\)")
 
@@ -102,7 +104,7 @@ def shortening(deck, table, axis, words):
         return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)
     moves = motion_of(deck, axis, times) if deck else {}
     ways = list(moves.values())
-    if ways:
+    if any(np.ptp(way) > 0 for way in ways):  # a rim that is held says nothing
         low, high = min(ways, key=lambda w: w[-1]), max(ways, key=lambda w: w[-1])
         other = high if len(ways) > 1 else np.zeros(len(times))
         return signed(low - other), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
@@ -111,7 +113,8 @@ def shortening(deck, table, axis, words):
         apart = np.abs(places[0][:, -1] - places[0][:, 0])
         return (apart[0] - apart) * places[2] / (places[2] - 1), "the distance of the outer layers"
     fail(f"nothing says how far the sample is shortened: add Mean_Displacement_{letter}(top) and "
-         f"Mean_Displacement_{letter}(foot) to History > Variables, or name a column or an expression of t by --shortening")
+         f"Mean_Displacement_{letter}(foot) to History > Variables, of a body that flies onto another one layers "
+         f"(History > Profiles), or name a column or an expression of t by --shortening")
 
 
 def layers(table, axis, wanted=None):
@@ -150,13 +153,19 @@ def size_of(deck, block, words, found):
     if body and body.get("shape") in ("foam", "box"):
         found["size"] = f"from {recipe}"
         return [float(x) for x in body["size"].split()]
+    mesh = deck and deck.file("Discretization", "Input Mesh File")
+    size = mesh and extent.size_of(mesh, block)
+    if size is not None:
+        found["size"] = f"from the elements of {mesh}"
+        return size
     result = result_of(deck, words)
     if result is None:
         fail("nothing says how large the sample is: name --area (m2) and --height (m)")
     nodes, volumes = points_of(result, block)
     places = result.reference[nodes]
-    found["size"] = f"from the points of {result.path} and half a spacing around them"
-    return places.max(axis=0) - places.min(axis=0) + np.cbrt(volumes.max())
+    at_nodes = deck.get("Discretization", "Points") == "Nodes"
+    found["size"] = f"from the points of {result.path}" + ("" if at_nodes else " and half a spacing around them")
+    return np.ptp(places, axis=0) + (0 if at_nodes else np.cbrt(volumes.max()))
 
 
 def result_of(deck, words):

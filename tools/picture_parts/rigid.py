@@ -25,7 +25,7 @@ class Tool:
     def _at(self, key, text, t):
         found = value_at(text, t)
         if found is None:
-            fail(f"{self.deck.path}: Boundary Conditions > {self.name} > {key}: '{text}' is more than this tool reads")
+            fail(f"{self.deck.path}: Boundary Conditions > {self.name} > {key}: '{text}' is no number at t = {t:g} s, or not one of the time alone")
         return found
 
     def vector(self, key):

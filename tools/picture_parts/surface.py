@@ -1,9 +1,12 @@
 """The surface of a cloud of material points: the free faces of their cubes, which move with the points.
 
 On a lattice, cubes that are neighbors share corners, and a corner moves by the mean of the points around it: the surface
-stays closed while the body deforms, and faces between two cubes are not drawn. Elsewhere each point is a cube by itself.
+stays closed while the body deforms, and faces between two cubes are not drawn. Partly filled cells are joined by rods of such
+cubes. Elsewhere each point is a cube by itself.
 """
 import numpy as np
+
+from . import struts
 
 # The six faces of a cube: the step to the neighbor, and the corners, counter-clockwise as seen from outside.
 FACES = [((1, 0, 0), ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1))), ((-1, 0, 0), ((0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0))),
@@ -71,9 +74,18 @@ def lattice_of(places, volumes):
 def surface_of(places, volumes, points):
     """The surface of one block; points are their numbers in the result."""
     found = lattice_of(places, volumes)
+    if found is not None:
+        cells, spacing = found
+        return surface_of_cells(cells, spacing, places.min(axis=0), points)
+    found = struts.voxels_of(places, volumes)
     if found is None:
         return separate_cubes(places, volumes, points)
-    cells, spacing = found
+    cells, edge, origin, owners = found
+    return surface_of_cells(cells, edge, origin + 0.5 * edge, points[owners])
+
+
+def surface_of_cells(cells, spacing, first, points):
+    """Of cubes at whole places; first: the center of that at 0 0 0."""
     size = cells.max(axis=0) + 3
     weights = np.array([size[1] * size[2], size[2], 1])
     key = (cells + 1) @ weights
@@ -82,7 +94,7 @@ def surface_of(places, volumes, points):
     used, quads = np.unique(ids, return_inverse=True)
     lower = np.stack(np.unravel_index(used, size), axis=1) - 1.5
     quads = quads.reshape(-1, 4)
-    return Surface(places.min(axis=0) + smoothed(lower, quads) * spacing, quads, points[np.concatenate(free)])
+    return Surface(first + smoothed(lower, quads) * spacing, quads, points[np.concatenate(free)])
 
 
 def smoothed(corners, quads, rounds=5):

@@ -1,9 +1,11 @@
 """A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and form stay as they are."""
+import functools
 import math
 import os
 import re
 import xml.etree.ElementTree as tree
 
+from expressions import NoExpression, compiled, evaluated
 from strut_tools import fail, nearest
 
 
@@ -165,26 +167,20 @@ class Recipe:
 # Expressions
 
 
-FUNCTIONS = {name: getattr(math, name) for name in
-             ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "log10", "sqrt", "fabs", "pow", "erf", "erfc", "gamma")}
-FUNCTIONS.update(abs=abs, min=min, max=max, pi=math.pi)
-
-
 def value_at(expression, t):
-    """A deck's expression of the time alone; None where it says more than this reads."""
+    """A deck's expression of the time alone; None where it needs a place, or is no number."""
     return value_of(expression, {"t": t})
 
 
 def value_of(expression, names):
     """The number that an expression of these names is; None where it is none."""
-    text = expression.replace("^", "**").replace("&&", " and ").replace("||", " or ").strip().rstrip(";")
-    text = re.sub(r"^value\s*=(?!=)", "", text)
-    if not re.fullmatch(r"[\w\s.+\-*/(),<>=?:]*", text):
-        return None
-    ternary = re.fullmatch(r"(.*?)\?(.*):(.*)", text, re.S)
-    if ternary:
-        text = f"(({ternary[2]}) if ({ternary[1]}) else ({ternary[3]}))"
     try:
-        return float(eval(text, {"__builtins__": {}}, {**FUNCTIONS, **names}))  # letters, digits and signs only
-    except Exception:  # whatever Python makes of words that it does not know
+        found = evaluated(parsed(expression, tuple(names)), names)
+    except NoExpression:
         return None
+    return found if math.isfinite(found) else None
+
+
+@functools.lru_cache
+def parsed(expression, names):
+    return compiled(expression, names)

@@ -132,7 +132,10 @@ void ToolContact::augment() {
 }
 
 void ToolContact::commit() {
-  for (ContactPoint& contact : contact_points_) contact.at_start = contact.now;
+  for (ContactPoint& contact : contact_points_) {
+    contact.at_start = contact.now;
+    if (contact.now.pressure > 0) *tools_[contact.tool].touched = true;
+  }
 }
 
 void ToolContact::go_back() {

@@ -54,7 +54,6 @@ bool signalled_run(const RunFolder& folder, const std::string& final_time,
   return run(deck, folder.world);
 }
 
-// One after the other: a process keeps the memory of a signal.
 TEST(Signal, InTheLastStepLeavesTheRunComplete) {
   const RunFolder folder;
   EXPECT_TRUE(signalled_run(folder, "1e-8"));
@@ -66,6 +65,13 @@ TEST(Signal, InTheLastStepLeavesTheRunComplete) {
 TEST(Signal, DuringSetUpIsKeptForTheFirstStep) {
   const RunFolder folder;
   EXPECT_FALSE(signalled_run(folder, "1e-6", "of memory", SIGUSR1));
+}
+
+// Else the tests above would hold whatever they do: a run is ended by its own signals alone.
+TEST(Signal, OfAnEarlierRunIsForgotten) {
+  const RunFolder folder;
+  EXPECT_FALSE(signalled_run(folder, "1e-6"));
+  EXPECT_TRUE(signalled_run(folder, "1e-6", "a text that no run says"));
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 // What a run says of its scene before it begins: what a slip of units changes, and how many pieces there are.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 #include "regression/bodies.hpp"
 #include "run/report.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
@@ -62,6 +66,91 @@ TEST(Improbable, DensityInGramsPerCubicCentimeterIsWarnedOf) {
   parts.materials = changed(copper(), "8930", "8.93");
   expect_told(told_of(parts), {"WARNING: block 'bar' has a density of 8.93 kg/m³; solids have 10 to 30,000",
                                "2.7 g/cm³ are 2700", "WARNING: block 'bar' has a wave speed of 1.45e+05 m/s"});
+}
+
+// A metal yields at some 1e-3 of its modulus; 400 where 400e6 were meant, and 400e9, do not.
+TEST(Improbable, YieldStressIsComparedWithTheModulus) {
+  Parts parts = flying();
+  for (const auto& [yield, told] : {std::pair("400e9", "yields at 3.419 of its Young's modulus"),
+                                    std::pair("400", "yields at 3.419e-09 of its Young's modulus")}) {
+    parts.materials = copper(key("Yield Stress", yield));
+    expect_told(told_of(parts), {told, "are both in Pa (50 MPa are 50e6)?"});
+  }
+  for (const char* yield : {"400e6", "0.09e11"}) {
+    parts.materials = copper(key("Yield Stress", yield));
+    EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos) << yield;
+  }
+}
+
+std::string told_of_cubes(double spacing, const std::string& final_time) {
+  const RunFolder folder;
+  Parts parts = flying();
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.times = key("Final Time", final_time);
+  parts.blocks.clear();
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "2.01"));
+  folder.write("points.txt", cubes(1, Vector::Zero(), 4, 4, 6, spacing));
+  return describe_scene(set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world));
+}
+
+// 5 spacings between the outermost points; waves go 4586 m/s, in 5 µs 0.0229 m.
+TEST(Improbable, MillimetersThatAreTakenForMetersAreWarnedOf) {
+  expect_told(told_of_cubes(1, "5e-6"), {"WARNING: the bodies are 5 m long, and in the 5e-06 s of the run a wave goes "
+                                         "0.02293 m: are lengths of the mesh in m, not in mm?"});
+  expect_told(told_of_cubes(1e3, "1"), {"WARNING: the bodies are 5000 m long: are lengths of the mesh in m?"});
+  expect_told(told_of_cubes(1e-9, "1e-14"), {"WARNING: the bodies are 5e-09 m long"});
+  for (const auto& [spacing, time] : {std::pair(1e-3, "5e-6"), std::pair(1.0, "5e-3")})
+    EXPECT_EQ(told_of_cubes(spacing, time).find("WARNING"), std::string::npos) << spacing;
+}
+
+TEST(Improbable, SpeedsAboveTheWaveSpeedAreWarnedOf) {
+  Parts parts = flying();
+  for (const auto& [speed, warned] : {std::pair("-4500", false), std::pair("-4700", true)}) {
+    parts.conditions =
+        along("flight", "Initial Velocity", "all", "z", speed) + plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
+    const std::string told = told_of(parts);
+    EXPECT_EQ(told.find("more than the wave speed of 4586 m/s") != std::string::npos, warned) << told;
+  }
+}
+
+// 4 x 4 points of the lowest layer have their centers 0.5 mm above z = 0, of the next 1.5 mm.
+TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
+  Parts parts;
+  parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 1.7e-3", "0 0 1");
+  expect_told(told_of(parts), {"WARNING: 32 points are inside of the tool 'floor' at the start, up to 0.0012 m deep"});
+  parts.conditions =
+      plane("floor", "Rigid Plane", "all", "0 0 0.4e-3", "0 0 1");  // inside of cells alone: they end there
+  EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
+}
+
+// What rank 0 says.
+std::string told_by_run(const std::string& conditions) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = conditions;
+  parts.times = key("Final Time", "2e-6");
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  const std::string told = testing::internal::GetCapturedStdout();
+  return folder.world.rank() == 0 ? told : "";
+}
+
+TEST(ClosingReport, TellsOfWhatDidNotHappen) {
+  const std::string floor = plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1"),
+                    far = plane("far", "Rigid Plane", "all", "0 0 -1", "0 0 1");
+  const std::string still = told_by_run(floor),
+                    falls = told_by_run(floor + far + along("flight", "Initial Velocity", "all", "z", "-1"));
+  if (still.empty()) return;
+  // The run of 2 µs is divided into equal steps, at most 0.8 of it, the deck's safety factor.
+  double limit = 0, dt = 0;
+  std::sscanf(falls.c_str() + falls.find("critical time step"), "critical time step %lf", &limit);
+  std::sscanf(falls.c_str() + falls.find("dt = "), "dt = %lf", &dt);
+  EXPECT_NEAR(dt, 2e-6 / std::ceil(2e-6 / (0.8 * limit)), 1e-9) << falls;  // three digits are told of dt
+  EXPECT_NE(still.find("the tool 'floor' touched nothing\nWARNING: nothing moved"), std::string::npos) << still;
+  EXPECT_NE(falls.find("the tool 'far' touched nothing"), std::string::npos) << falls;
+  EXPECT_EQ(falls.find("'floor' touched"), std::string::npos) << falls;
+  EXPECT_EQ(falls.find("nothing moved"), std::string::npos) << falls;
 }
 
 }  // namespace

@@ -100,6 +100,15 @@ TEST(WeakContact, WhatCannotTakeUpTheEnergyIsAnErrorAndPassesThrough) {
   EXPECT_EQ(error_of(folder, by_penalty(folder, h, 1.01 * hopeless_penalty())), "");
 }
 
+// A tool may be what stops them.
+TEST(WeakContact, BesideAToolWhatCannotTakeUpTheEnergyIsAWarning) {
+  const RunFolder folder;
+  Parts parts = by_penalty(folder, h, 0.99 * hopeless_penalty());
+  parts.conditions += plane("floor", "Rigid Plane", "all", "0 0 -1e-3", "0 0 1");
+  EXPECT_EQ(error_of(folder, parts), "");
+  EXPECT_NE(warnings_of(folder, parts).find("will pass through each other"), std::string::npos);
+}
+
 // h/√2 = 0.7071 h is the distance of the middle of a square from its corners.
 TEST(WeakContact, RadiusBelowTheGapsOfALatticeIsTold) {
   const RunFolder folder;
@@ -121,6 +130,23 @@ TEST(WeakContact, SurfacesHoldUnlessTheyAreMadeSoft) {
   EXPECT_EQ(warnings_of(folder, impact(folder, surface(""))), "");
   const Parts soft = impact(folder, surface(key("Stiffness Factor", "1e-7") + key("Largest Overlap", "0")));
   EXPECT_NE(error_of(folder, soft).find("will pass through each other"), std::string::npos);
+}
+
+// r K_c V²/h² with r = h is what contact bears, as above; a foam of one block that yields at 100 MPa is crushed onto
+// itself.
+TEST(WeakContact, OfABlockWithItselfBearsTheFlowStress) {
+  const RunFolder folder;
+  const auto warned = [&](double part, const std::string& material) {
+    Parts parts = by_penalty(folder, h, penalty_for(part * 100e6, std::pow(h, 5)));
+    parts.contact = contact_of({{"block_1", "block_1"}}, std::to_string(h),
+                               std::to_string(penalty_for(part * 100e6, std::pow(h, 5))));
+    parts.materials = material;
+    return warnings_of(folder, parts);
+  };
+  const std::string yields = copper(key("Yield Stress", "100e6"));
+  EXPECT_NE(warned(0.99, yields).find("less than the 1e+08 Pa at which the material yields"), std::string::npos);
+  EXPECT_EQ(warned(1.01, yields), "");
+  EXPECT_EQ(warned(0.01, copper()), "") << "what never yields sets no bound";
 }
 
 // Who never meets needs no contact; who meets without a gap has no speed to be stopped from.

@@ -9,7 +9,9 @@ import unittest
 
 from tool_test import TOOLS, InFolder
 
-from study_parts import plan
+from decks import Deck
+from strut_tools import history_of
+from study_parts import names, plan
 
 DECK = """<ParameterList>
   <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
@@ -29,7 +31,10 @@ DECK = """<ParameterList>
   <ParameterList name="Solver"><Parameter name="Final Time" type="double" value="1e-6"/></ParameterList>
   <ParameterList name="History"><Parameter name="Filename" type="string" value="bar.csv"/>
     <ParameterList name="Variables"><Parameter name="Mean_Displacement_Z" type="bool" value="true"/>
-      <Parameter name="Mean_Velocity_Z" type="bool" value="true"/></ParameterList></ParameterList>
+      <Parameter name="Mean_Velocity_Z" type="bool" value="true"/>
+      <Parameter name="Mean_Velocity_X(cuts)" type="bool" value="true"/></ParameterList>
+    <ParameterList name="Profiles"><ParameterList name="cuts"><Parameter name="Direction" type="string" value="0 0 1"/>
+      <Parameter name="Layers" type="int" value="2"/></ParameterList></ParameterList></ParameterList>
 </ParameterList>
 """
 RECIPE = "name = bar\nshape = box\nsize = 4e-3 4e-3 8e-3\nspacing = 1e-3  # of a cube\n"
@@ -86,6 +91,8 @@ class Studies(InFolder):
             self.assertAlmostEqual(float(row["Mean_Displacement_Z"]), -1e-5, delta=1e-13)
             self.assertAlmostEqual(float(row["Mean_Velocity_Z"]), -float(row["speed"]), delta=1e-6)
         self.assertGreater((self.folder / "out/study.png").stat().st_size, 10000)
+        header = history_of(self.folder / "out/speed=10,spacing=1e-3/bar.csv")[0]
+        self.assertEqual(list(header), names.columns_of(Deck(str(self.folder / "bar.xml"))))
         logs = [path.stat().st_mtime_ns for path in sorted(self.folder.glob("out/*/log"))]
         again = self.study("bar.study", "out")
         self.assertEqual(again[0], 0)
@@ -132,6 +139,16 @@ class Studies(InFolder):
         self.assertIn("'{sped}' is no number of what varies (did you mean 'speed'?)", error("{speed}", "{sped}"))
         self.assertIn("no line 'spacng' (did you mean 'spacing'?)", error("recipe spacing", "recipe spacng"))
         self.assertIn("expected 'plot = X Y", error("plot = speed", "plot ="))
+        self.assertIn("no 'Mean_Velocity_Y' to collect (did you mean 'Mean_Velocity_Z'?)",
+                      error("collect = Mean_Displacement_Z Mean_Velocity_Z", "collect = Mean_Velocity_Y"))
+        self.assertIn("no 'plateau_stress' to collect", error("collect =", "collect = plateau_stress"))  # without curve
+        self.assertIn("no 'sped' to plot (did you mean 'speed'?)", error("plot = speed", "plot = sped"))
+        self.assertIn("no 'plateau_stres' to plot (did you mean 'plateau_stress'?)",
+                      error("collect = Mean_Displacement_Z Mean_Velocity_Z\nplot = speed Mean_Velocity_Z", "curve =\nplot = speed plateau_stres"))
+        self.assertIn("no 'spacin' to plot (did you mean 'spacing'?)", error("by spacing", "by spacin"))
+        self.assertIn("'beside -sped': 'sped' is not a variable (did you mean 'speed'?)", error("beside -speed", "beside -sped"))
+        self.assertIn("curve: unknown option '--smoth' (did you mean '--smooth'?)", error("collect", "curve = --smoth 3\ncollect"))
+        self.assertIn("curve: --force: there is no column 'Reaction_Z(top)'", error("collect", "curve = --force Reaction_Z(top)\ncollect"))
         self.assertIn("nobar.xml cannot be read", error("bar.xml", "nobar.xml"))
 
     def test_values_go_together_or_in_all_combinations(self):

@@ -1,0 +1,48 @@
+"""How large the body of a mesh (Exodus II) is, by its elements: their points are inside of it, and gathered cells reach
+beyond it."""
+import netCDF4
+import numpy as np
+
+SOLIDS = ("HEX", "TET")
+NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "moment_zz"]
+
+
+def size_of(path, block):
+    """Edges (m) of the box around the elements of a block, or of all; None where the mesh does not say."""
+    try:
+        with netCDF4.Dataset(path) as file:
+            file.set_auto_mask(False)
+            boxes = [box_of(file, n) for n, name in enumerate(names_of(file, "eb_names"), 1) if block in (None, name)]
+    except (OSError, KeyError):
+        return None
+    if not boxes or any(box is None for box in boxes):
+        return None
+    return np.max([high for _, high in boxes], axis=0) - np.min([low for low, _ in boxes], axis=0)
+
+
+def names_of(file, variable):
+    return [row.tobytes().decode(errors="replace").split("\0")[0].strip() for row in file.variables[variable][:]]
+
+
+def box_of(file, number):
+    """Both corners, of the nodes of a block; None where it has points alone."""
+    elements = file.variables[f"connect{number}"]
+    if not elements.elem_type.upper().startswith(SOLIDS):
+        return None
+    places = np.stack([file.variables["coord" + c][:] for c in "xyz"], axis=1)[elements[:] - 1]
+    low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
+    names = names_of(file, f"attrib_name{number}") if f"attrib_name{number}" in file.variables else []
+    if all(name in names for name in NUMBERS):
+        held = file.variables[f"attrib{number}"][:][:, [names.index(name) for name in NUMBERS]]
+        return box_of_cells(places, held[:, :3], np.sqrt(3 * held[:, 3:]), low, high)
+    return low, high
+
+
+def box_of_cells(places, middle, half, low, high):
+    """Of cells that are partly filled: a face of the box is where the material of the cells beside it ends in the middle of
+    them all, each taken for a prism (its half edge is √3 times its radius of gyration)."""
+    box = [low.copy(), high.copy()]
+    for c in range(3):
+        for side, edge, ends in ((0, places[:, :, c].min(axis=1), middle - half), (1, places[:, :, c].max(axis=1), middle + half)):
+            box[side][c] = np.clip(np.median(ends[np.isclose(edge, box[side][c]), c]), low[c], high[c])
+    return box

@@ -1,0 +1,78 @@
+"""What a study asks for, looked at before its runs: columns of the history, measures of tools/curve, its options."""
+import re
+
+import numpy as np
+from curve_parts import measures, options, shock
+from decks import value_in
+from expressions import NoExpression, compiled
+from strut_tools import Parser, fail, nearest
+
+from .collect import FACTS
+
+# Of every history, in front of what the deck asks for (src/output/writers.cpp).
+ALWAYS = ("Time", "Step_Size", "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy", "Fracture_Energy",
+          "Heat", "Tool_Kinetic_Energy", "Tool_Work", "Contact_Work", "External_Work", "Balance_Error", "Momentum_X", "Momentum_Y",
+          "Momentum_Z")
+
+
+def columns_of(deck):
+    """Of the history that the deck writes; none without one."""
+    if deck.section("History") is None:
+        return []
+    layers = {name: int(value_in(keys, "Layers") or 0) for name, keys in deck.sections("History", "Profiles").items()}
+    variables = deck.section("History", "Variables")
+    asked = [] if variables is None else [e.get("name") for e in variables.findall("Parameter") if e.get("value") == "true"]
+    found = list(ALWAYS)
+    for name in asked:
+        match = re.fullmatch(r"(.+)\((.+)\)", name)
+        count = layers.get(match[2], 0) if match else 0
+        found += [f"{match[1]}({match[2]} {n})" for n in range(1, count + 1)] or [name]
+    return found
+
+
+def measures_of(study):
+    if study.curve is None:
+        return []
+    return [m.name for m in measures.of_curve(np.linspace(0, 0.1, 5), np.linspace(0, 1, 5))] + list(shock.MEASURES)
+
+
+def expect(study, name, known, what):
+    if name not in known:
+        fail(f"{study.path}: there is no '{name}' {what}{nearest(name, known)}; there are {', '.join(known)}")
+
+
+def check(study, deck):
+    """Ends the tool where a name of `collect`, `plot` or `curve` is nothing that a run of the deck will have."""
+    columns, read = columns_of(deck), measures_of(study)
+    if study.curve is not None:
+        check_curve(study, columns)
+    for name in study.collect:
+        expect(study, name, columns + read, "to collect")
+    varied = [name for names, _ in study.vary for name in names]
+    known = list(dict.fromkeys(varied + list(FACTS) + (study.collect or read)))
+    for plot in study.plots:
+        for name in (plot.x, plot.y, plot.by):
+            if name:
+                expect(study, name, known, "to plot")
+        check_beside(study, plot, known)
+
+
+def check_beside(study, plot, known):
+    if not plot.beside:
+        return
+    try:
+        compiled(plot.beside, known)
+    except NoExpression as error:
+        word = re.match(r"'(\w+)' is not a variable", str(error))
+        fail(f"{study.path}: 'beside {plot.beside}': {error}{nearest(word[1], known) if word else ''}")
+
+
+def check_curve(study, columns):
+    class OfStudy(Parser):
+        def error(self, message):
+            fail(f"{study.path}, curve: {message}")
+
+    words = options.parsed(options.parser_of("", OfStudy), ["deck.xml", *study.curve.split()])
+    for option, name in (("--force", words.force), ("--other", words.other)):
+        if name and name not in columns:
+            fail(f"{study.path}, curve: {option}: there is no column '{name}'{nearest(name, columns)}; there are {', '.join(columns)}")
