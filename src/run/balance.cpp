@@ -4,6 +4,8 @@
 #include <iostream>
 #include <limits>
 #include <numeric>
+#include <sstream>
+#include <string>
 
 #include "points/partition.hpp"
 
@@ -17,8 +19,8 @@ constexpr double worse = 1.1;
 // What a new partition takes, in steps of evenly spread work (docs/decisions.md, Another partition).
 constexpr double cost_of_change = 100;
 
-// Contact of a point, ns a step, searches included (docs/decisions.md, Another partition).
-constexpr double cost_of_contact = 1000;
+// Contact of a point that touches, ns a step (docs/decisions.md, Another partition).
+constexpr double cost_of_contact = 2000;
 
 // Of the owned points, ns a step, roughly. What moves rigidly counts, for it will not stay so.
 std::vector<double> work_of_points(const Scene& scene, const contact::Contact& contact) {
@@ -30,6 +32,17 @@ std::vector<double> work_of_points(const Scene& scene, const contact::Contact& c
   }
   contact.add_where_touched(cost_of_contact, work);
   return work;
+}
+
+std::string to_text(double ratio) {
+  std::ostringstream text;
+  text.precision(3);
+  text << ratio;
+  return text.str();
+}
+
+void tell(const Communicator& communicator, int step, const std::string& text) {
+  if (communicator.rank() == 0) std::cout << "step " << step << ": " << text << std::endl;
 }
 
 // Collective. The most work of a rank beside the mean, where each point is on the rank named for it.
@@ -46,14 +59,17 @@ double imbalance(const std::vector<double>& work, const std::vector<int>& ranks,
 Balance::Balance(const deck::Deck& deck, const Communicator& communicator)
     : enabled_(!deck.solver.quasi_static),
       most_(communicator.size() > 1 ? deck.solver.rebalance : std::numeric_limits<double>::infinity()),
-      final_time_(deck.solver.final_time) {}
+      final_time_(deck.solver.final_time),
+      verbose_(deck.solver.verbose) {}
 
 std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const CentralDifference& solver) {
-  if (!enabled_ || most_ >= scene.body.domain.communicator.size()) return std::nullopt;  // it cannot be so much
+  if (!enabled_ || (most_ >= scene.body.domain.communicator.size() && !verbose_))
+    return std::nullopt;  // it cannot be so much
   if (solver.steps() == 0 || solver.steps() % steps_between_looks != 0) return std::nullopt;
   const Communicator& communicator = scene.body.domain.communicator;
   const std::vector<double> work = work_of_points(scene, solver.contact());
   const double now = imbalance(work, std::vector<int>(work.size(), communicator.rank()), communicator);
+  if (verbose_) tell(communicator, solver.steps(), "the rank with most work has " + to_text(now) + " times the mean");
   if (!(now > std::max(most_, worse * accepted_))) return std::nullopt;
   const std::vector<int> ranks = bisected(whole_cloud(scene.body.domain), work, scene.cuts.lengths, communicator);
   const double then = imbalance(work, ranks, communicator);
@@ -61,10 +77,9 @@ std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const 
   const bool pays = (now - then) * steps_left > cost_of_change;
   accepted_ = pays ? then : now;
   if (!pays) return std::nullopt;
-  if (communicator.rank() == 0) {
-    std::cout << "step " << solver.steps() << ": points are spread over the ranks anew, as one had " << now
-              << " times the mean work; now " << then << std::endl;
-  }
+  tell(communicator, solver.steps(),
+       "points are spread over the ranks anew, as one had " + to_text(now) + " times the mean work; now " +
+           to_text(then));
   return ranks;
 }
 

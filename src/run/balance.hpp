@@ -27,7 +27,8 @@ class Balance {
  private:
   bool enabled_;
   double most_, final_time_;  // of the work of a rank beside the mean; s
-  double accepted_ = 0;       // the same, at the last look that found too much: no other until it is a tenth worse
+  bool verbose_;
+  double accepted_ = 0;  // the same, at the last look that found too much: no other until it is a tenth worse
   std::optional<std::vector<int>> restored_;
 };
 

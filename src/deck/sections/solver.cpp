@@ -83,9 +83,11 @@ const Section verlet = {.name = "Verlet",
                         .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",
                         .keys = {fixed_dt, safety_factor, subcycling, rebalance}};
 
-const BooleanKey verbose({.name = "Verbose",
-                          .fallback = "false",
-                          .meaning = "With QuasiStatic, each iteration is told."});
+const BooleanKey verbose(
+    {.name = "Verbose",
+     .fallback = "false",
+     .meaning = "With QuasiStatic, each iteration is told; on several ranks with Verlet, how evenly "
+                "they share the work, every 100 steps."});
 
 const RealKey initial_time({.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."});
 
