@@ -210,6 +210,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
 void Contact::serialize(Archive& archive, const Kinematics& kinematics, double dt) {
   archive.number("contact_stiffness", stiffness_);
   archive.number("penetration", penetration_);
+  archive.number("searches", searches_);
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
     if (!pair.surfaces || pair.model.friction == 0) continue;
