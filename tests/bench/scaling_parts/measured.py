@@ -9,6 +9,8 @@ from work_precision_parts.runs import Runner, build, parameter, section
 EDGES = (27, 46, 67)  # points
 RANKS = (1, 2, 4, 8)
 STEPS, FRAMES = 20, 2
+START = ("Mesh in", "Partition", "Families", "Critical time step")
+REPEATS = 3  # where times count: the least of them
 FIXED_DT = 8e-8  # s, stable; so that all make the same steps
 SPACING = 1e-3   # m
 
@@ -16,7 +18,7 @@ SPACING = 1e-3   # m
 WRAPPER = """import os, subprocess, sys
 child = subprocess.Popen(sys.argv[1:])
 _, status, usage = os.wait4(child.pid, 0)
-print("rank", os.environ["OMPI_COMM_WORLD_RANK"], "peak", usage.ru_maxrss, flush=True)
+os.write(1, f"rank {os.environ['OMPI_COMM_WORLD_RANK']} peak {usage.ru_maxrss}\\n".encode())  # in one piece
 sys.exit(os.waitstatus_to_exitcode(status))
 """
 
@@ -90,9 +92,13 @@ class Bench:
         ghosts = re.search(r"^ghosts .* (\d+)$", log, re.M)
         return {"points": edge**3, "ranks": ranks, "root": peaks[0], "others": max([peak for rank, peak in peaks.items() if rank > 0], default=None),
                 "ghosts": int(ghosts.group(1)) if ghosts else 0,
-                "start": sum(seconds[name] for name in ("Mesh in", "Partition", "Families", "Critical time step")),
-                "frame": seconds["Output"] / FRAMES, "checkpoint": seconds["Checkpoint"],
+                **{name: seconds[name] for name in START}, "frame": seconds["Output"] / FRAMES, "checkpoint": seconds["Checkpoint"],
                 "frame bytes": 8 * edge**3 * 8, "checkpoint bytes": (self.work / "run.restart").stat().st_size}
+
+
+def least(rows):
+    """Of the same run: the least time of each."""
+    return rows[0] | {name: min(row[name] for row in rows) for name in (*START, "frame", "checkpoint")}
 
 
 def runs(root):
@@ -103,6 +109,6 @@ def runs(root):
     rows = []
     for edge in EDGES:
         for ranks in RANKS:
-            rows.append(bench.run(edge, ranks))
+            rows.append(least([bench.run(edge, ranks) for _ in range(REPEATS if ranks <= os.cpu_count() else 1)]))
             print({name: value if value is None else float(f"{value:.4g}") for name, value in rows[-1].items()}, flush=True)
     return rows, bench.reductions_a_step()

@@ -2,6 +2,7 @@
 import os
 
 import numpy as np
+from scaling_parts import measured
 
 POINTS, RANKS = 10**8, 1024
 REACH = 2  # spacings, of ghosts around a rank's cube: the horizon, rounded up
@@ -40,15 +41,17 @@ def memory(rows, who):
     return fitted([(1, share(row), row["points"]) for row in here], [row[who] for row in here])
 
 
-def seconds(rows, what):
-    """b n/p + c n: ranks that share cores wait for each other's part of b."""
-    cores = os.cpu_count()
-    return fitted([(row["points"] / row["ranks"] * max(1, row["ranks"] / cores), row["points"]) for row in rows],
-                  [max(row[what], 1e-3) for row in rows])
+def seconds(rows, phases):
+    """b n/p + c n, the sum over some phases; by ranks that have cores of their own."""
+    here = [row for row in rows if row["ranks"] <= os.cpu_count()]
+    columns = [(row["points"] / row["ranks"], row["points"]) for row in here]
+    coefficients = sum(fitted(columns, [max(row[phase], 1e-3) for row in here])[0] for phase in phases)
+    total = [sum(row[phase] for phase in phases) for row in here]
+    return coefficients, np.abs(np.array(columns) @ coefficients / total - 1).max()
 
 
-def page(measured):
-    rows, reductions = measured
+def page(found):
+    rows, reductions = found
     lines = ["| 10⁸ points, 1024 ranks | | of it for all points on one rank | of the limit | by | fits within |", "|---|---|---|---|---|---|"]
     strains = {}
 
@@ -61,8 +64,8 @@ def page(measured):
         total = base + each * far_share() + whole * POINTS
         add(name, f"{total / 1e9:.2f} GB", whole * POINTS / total, total / MEMORY,
             f"{base / 1e6:.0f} MB + {each:.0f} B (n/p + ghosts) + {whole:.1f} B n", error)
-    for name, what, most in (("seconds at the start", "start", START), ("seconds a frame", "frame", FRAME),
-                             ("seconds a checkpoint", "checkpoint", CHECKPOINT)):
+    for name, what, most in (("seconds at the start", measured.START, START), ("seconds a frame", ("frame",), FRAME),
+                             ("seconds a checkpoint", ("checkpoint",), CHECKPOINT)):
         (each, whole), error = seconds(rows, what)
         total = each * POINTS / RANKS + whole * POINTS
         add(name, f"{total:.3g} s", whole * POINTS / total, total / most, f"{1e6 * each:.2f} µs n/p + {1e6 * whole:.3f} µs n", error)
