@@ -210,6 +210,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
 void Contact::serialize(Archive& archive, const Kinematics& kinematics, double dt) {
   archive.number("contact_stiffness", stiffness_);
   archive.number("penetration", penetration_);
+  archive.number("searches", searches_);
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& pair = contact_pairs_[m];
     if (!pair.surfaces || pair.model.friction == 0) continue;
@@ -249,20 +250,32 @@ bool Contact::between(int first, int second) const {
                      [&](const ContactPair& c) { return is_of(c.blocks, first, second); });
 }
 
+void Contact::visit_normal_forces(const ContactPair& contact_pair,
+                                  const std::function<void(std::size_t, Vector)>& visit) {
+  if (contact_pair.surfaces) {
+    contact_pair.surfaces->for_each_normal_force(contact_pair.pairs, visit);
+  } else {
+    for_each_normal_force(std::get<PairLaw>(contact_pair.model.law), contact_pair.pairs, visit);
+  }
+}
+
+void Contact::add_where_touched(double amount, std::span<double> of_points) const {
+  for (const ContactPair& contact_pair : contact_pairs_) {
+    visit_normal_forces(contact_pair, [&](std::size_t k, const Vector& force) {
+      if (!force.isZero(0)) of_points[contact_pair.pairs.owned[k]] += amount;
+    });
+  }
+}
+
 Vector Contact::force(const Domain& domain, int first, int second) const {
   Vector sum = Vector::Zero();
   for (const ContactPair& contact_pair : contact_pairs_) {
     if (!is_of(contact_pair.blocks, first, second)) continue;
     const Pairs& pairs = contact_pair.pairs;
     const auto counts = [&](std::size_t k) { return domain.cloud.blocks[pairs.owned[k]] == first; };
-    const auto add = [&](std::size_t k, const Vector& force) {
+    visit_normal_forces(contact_pair, [&](std::size_t k, const Vector& force) {
       if (counts(k)) sum += force;
-    };
-    if (contact_pair.surfaces) {
-      contact_pair.surfaces->for_each_normal_force(pairs, add);
-    } else {
-      for_each_normal_force(std::get<PairLaw>(contact_pair.model.law), pairs, add);
-    }
+    });
     for (std::size_t k = 0; k < contact_pair.friction.size(); ++k) {
       if (counts(k)) sum += contact_pair.friction[k];
     }

@@ -2,6 +2,7 @@
 // the forces of those that touch, and says what this costs the step and the ledger.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -74,6 +75,10 @@ class Contact {
   // to those `after`.
   FrictionWork friction_work(double impulse_time, std::span<const Vector> before, std::span<const Vector> after) const;
 
+  // Adds `amount` to the number of each of this rank's points that felt a force, of surfaces or points, at the last
+  // one.
+  void add_where_touched(double amount, std::span<double> of_points) const;
+
   int searches() const { return searches_; }  // so far, of all interactions
 
  private:
@@ -98,6 +103,8 @@ class Contact {
     ForceResult result = {};
     std::vector<Vector> friction = {};  // N, on pairs.owned
   };
+  static void visit_normal_forces(const ContactPair& contact_pair,
+                                  const std::function<void(std::size_t, Vector)>& visit);
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);

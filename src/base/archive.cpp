@@ -20,13 +20,11 @@ auto find(Named& all, const std::string& name) {
 }  // namespace
 
 void Archive::points(const std::string& group, const std::vector<std::int64_t>& ids) {
-  if (!restores_) {
-    snapshot_.groups.push_back({group, ids, {}});
-    group_ = snapshot_.groups.size() - 1;
-    return;
+  auto found = find(snapshot_.groups, group);
+  if (found == snapshot_.groups.end()) {
+    if (restores_) missing(group);
+    found = snapshot_.groups.insert(found, {group, ids, {}});
   }
-  const auto found = find(snapshot_.groups, group);
-  if (found == snapshot_.groups.end()) missing(group);
   group_ = static_cast<std::size_t>(found - snapshot_.groups.begin());
 }
 

@@ -36,7 +36,7 @@ class Archive {
 
   bool loading() const { return restores_; }
 
-  // What the next fields are of.
+  // What the next fields are of: a group that is begun, or gone on with.
   void points(const std::string& group, const std::vector<std::int64_t>& ids);
 
   // at(k, c): a reference to component c of the k-th point.

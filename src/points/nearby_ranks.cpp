@@ -1,9 +1,9 @@
 #include "points/nearby_ranks.hpp"
 
-#include <Tpetra_Distributor.hpp>
 #include <algorithm>
 
 #include "points/bounding_box.hpp"
+#include "points/sent_to_ranks.hpp"
 
 namespace strut {
 
@@ -80,14 +80,7 @@ std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, st
     const auto record = records.subspan(static_cast<std::size_t>(k) * width, width);
     outgoing.insert(outgoing.end(), record.begin(), record.end());
   }
-  Tpetra::Distributor distributor(communicator.teuchos());
-  const std::size_t arriving =
-      distributor.createFromSends(Teuchos::ArrayView<const int>(targets.ranks.data(), targets.ranks.size()));
-  std::vector<double> incoming(arriving * width);
-  const Kokkos::View<const double*, Kokkos::HostSpace> from(outgoing.data(), outgoing.size());
-  const Kokkos::View<double*, Kokkos::HostSpace> to(incoming.data(), incoming.size());
-  distributor.doPostsAndWaits(from, width, to);
-  return incoming;
+  return sent_to_ranks(targets.ranks, outgoing, width, communicator);
 }
 
 }  // namespace strut

@@ -70,7 +70,8 @@ void take(const char*& place, T* values, std::size_t count) {
 // What Zoltan's callbacks read and fill.
 struct Migration {
   const PointCloud& from;
-  const Cuts& cuts;
+  const std::vector<double>& costs;
+  Vector lengths;
   PointCloud arrived;
 };
 
@@ -83,11 +84,11 @@ int count(void* data, int* error) {
 
 void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int weights, float* weight, int* error) {
   const PointCloud& cloud = cloud_of(data);
-  const std::vector<double>& costs = static_cast<Migration*>(data)->cuts.costs;
+  const std::vector<double>& costs = static_cast<Migration*>(data)->costs;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     global[i] = static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]);
     local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
-    if (weights == 1) weight[i] = static_cast<float>(costs[cloud.blocks[i]]);
+    if (weights == 1) weight[i] = static_cast<float>(costs[i]);
   }
   *error = ZOLTAN_OK;
 }
@@ -98,8 +99,7 @@ int dimensions(void*, int* error) {
 }
 
 void place(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* position, int* error) {
-  Eigen::Map<Vector>{position} =
-      cloud_of(data).positions[*local].cwiseProduct(static_cast<Migration*>(data)->cuts.lengths);
+  Eigen::Map<Vector>{position} = cloud_of(data).positions[*local].cwiseProduct(static_cast<Migration*>(data)->lengths);
   *error = ZOLTAN_OK;
 }
 
@@ -149,7 +149,7 @@ Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
   zoltan.Set_Param("DEBUG_LEVEL", "0");
   zoltan.Set_Param("LB_METHOD", "RCB");
   zoltan.Set_Param("RETURN_LISTS", "EXPORT");
-  zoltan.Set_Param("OBJ_WEIGHT_DIM", migration.cuts.costs.empty() ? "0" : "1");
+  zoltan.Set_Param("OBJ_WEIGHT_DIM", "1");
   zoltan.Set_Num_Obj_Fn(count, &migration);
   zoltan.Set_Obj_List_Fn(list, &migration);
   zoltan.Set_Num_Geom_Fn(dimensions, &migration);
@@ -170,25 +170,29 @@ PointCloud emptied(const PointCloud& cloud) {
   return result;
 }
 
-PointCloud bisected(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts) {
-  Migration migration{cloud, cuts, emptied(cloud)};
-  Zoltan zoltan = started_zoltan(communicator, migration);
-  int changed, gid_size, lid_size, imports, exports;
-  ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
-  int *import_ranks, *import_parts, *export_ranks, *export_parts;
-  require(zoltan.LB_Partition(changed, gid_size, lid_size, imports, import_gids, import_lids, import_ranks,
-                              import_parts, exports, export_gids, export_lids, export_ranks, export_parts),
-          "partition the points");
-  std::vector<char> leaves(cloud.size(), 0);
-  for (int k = 0; k < exports; ++k) leaves[export_lids[k]] = 1;
+// In the form in which Zoltan takes what leaves a rank.
+struct Exports {
+  std::vector<ZOLTAN_ID_TYPE> ids, places;
+  std::vector<int> ranks;
+};
+
+PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator) {
+  const std::vector<double> no_costs;
+  Migration migration{cloud, no_costs, Vector::Ones(), emptied(cloud)};
+  Exports leaving;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!leaves[i]) append(migration.arrived, cloud, i);
+    if (ranks[i] == communicator.rank()) {
+      append(migration.arrived, cloud, i);
+      continue;
+    }
+    leaving.ids.push_back(static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]));
+    leaving.places.push_back(static_cast<ZOLTAN_ID_TYPE>(i));
+    leaving.ranks.push_back(ranks[i]);
   }
-  require(zoltan.Migrate(-1, nullptr, nullptr, nullptr, nullptr, exports, export_gids, export_lids, export_ranks,
-                         export_parts),
+  Zoltan zoltan = started_zoltan(communicator, migration);
+  require(zoltan.Migrate(-1, nullptr, nullptr, nullptr, nullptr, static_cast<int>(leaving.ids.size()),
+                         leaving.ids.data(), leaving.places.data(), leaving.ranks.data(), leaving.ranks.data()),
           "move the points");
-  Zoltan::LB_Free_Part(&import_gids, &import_lids, &import_ranks, &import_parts);
-  Zoltan::LB_Free_Part(&export_gids, &export_lids, &export_ranks, &export_parts);
   return std::move(migration.arrived);
 }
 
@@ -252,9 +256,33 @@ std::vector<int> along_curve(const PointCloud& cloud) {
 
 }  // namespace
 
-PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts) {
-  const PointCloud mine = communicator.size() == 1 ? cloud : bisected(cloud, communicator, cuts);
+std::vector<int> bisected(const PointCloud& cloud, const std::vector<double>& costs, const Vector& lengths,
+                          const Communicator& communicator) {
+  std::vector<int> ranks(cloud.size(), communicator.rank());
+  if (communicator.size() == 1) return ranks;
+  Migration migration{cloud, costs, lengths, {}};
+  Zoltan zoltan = started_zoltan(communicator, migration);
+  int changed, gid_size, lid_size, imports, exports;
+  ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
+  int *import_ranks, *import_parts, *export_ranks, *export_parts;
+  require(zoltan.LB_Partition(changed, gid_size, lid_size, imports, import_gids, import_lids, import_ranks,
+                              import_parts, exports, export_gids, export_lids, export_ranks, export_parts),
+          "partition the points");
+  for (int k = 0; k < exports; ++k) ranks[export_lids[k]] = export_ranks[k];
+  Zoltan::LB_Free_Part(&import_gids, &import_lids, &import_ranks, &import_parts);
+  Zoltan::LB_Free_Part(&export_gids, &export_lids, &export_ranks, &export_parts);
+  return ranks;
+}
+
+PointCloud moved(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator) {
+  const PointCloud mine = communicator.size() == 1 ? cloud : migrated(cloud, ranks, communicator);
   return reordered(mine, along_curve(mine));
+}
+
+PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts) {
+  std::vector<double> costs(cloud.size(), 1);
+  for (std::size_t i = 0; i < costs.size() && !cuts.costs.empty(); ++i) costs[i] = cuts.costs[cloud.blocks[i]];
+  return moved(cloud, bisected(cloud, costs, cuts.lengths, communicator), communicator);
 }
 
 PointCloud reordered(const PointCloud& cloud, const std::vector<int>& order) {

@@ -47,7 +47,7 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   warn_of_fixed_step(solver);
   services_.monitor.check_step(solver);
   services_.monitor.check_passing(solver.time(), solver.contact());
-  const bool last = is_over(solver) || ending_;
+  const bool last = ends_here(solver);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
   if (ledger) services_.monitor.check_energy(*ledger);

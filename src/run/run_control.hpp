@@ -61,6 +61,9 @@ class ExplicitRunControl {
   // Before advance_position(): tells what this rank wants of the next times, and whether diagnostics are wanted there.
   bool prepare_next(CentralDifference& solver);
 
+  // Whether no step follows.
+  bool ends_here(const CentralDifference& solver) const { return is_over(solver) || ending_; }
+
   void finish() { progress_.finish(); }
 
  private:

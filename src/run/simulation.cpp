@@ -7,6 +7,8 @@
 #include "deck/deck.hpp"
 #include "io/netcdf/trial_read.hpp"
 #include "output/variables.hpp"
+#include "run/balance.hpp"
+#include "run/repartition.hpp"
 #include "run/run_control.hpp"
 #include "setup/setup.hpp"
 
@@ -35,11 +37,16 @@ void leave_frame(OutputWriters& writers, double time, const Body& body) {
 }
 
 // The time loop: everything after set-up. Returns the ledger at the end.
-Ledger step_through(const RunServices& services, CentralDifference& solver) {
+Ledger step_through(const RunServices& services, const ExplicitRun& run, Balance& balance) {
+  if (const auto ranks = balance.restored_ranks()) repartition(run, *ranks);
+  CentralDifference& solver = *run.solver;  // it stays there
   say(services.scene.body.domain.communicator, critical_time_step_line(solver.critical_time_step()));
   ExplicitRunControl control(services, solver);
   for (;;) {
     control.save(solver);
+    if (!control.ends_here(solver)) {
+      if (const auto ranks = balance.better_ranks(*run.scene, solver)) repartition(run, *ranks);
+    }
     solver.advance_velocity(services.deck.solver.final_time);
     if (control.observe(solver)) break;
     const bool with_diagnostics = control.prepare_next(solver);
@@ -87,13 +94,14 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
 
 // From set-up to the end, by a solver of either kind.
 template <class Solver, class Through>
-bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Solver& solver, Start start,
-               Clock::time_point began, const EarlyEnd& early_end, const Through& through) {
-  const Communicator& communicator = scene.body.domain.communicator;
+bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Solver& solver, Balance& balance,
+               Start start, Clock::time_point began, const EarlyEnd& early_end, const Through& through) {
+  const Communicator communicator = scene.body.domain.communicator;
   Monitor monitor(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene.body, tell);
   Checkpoint checkpoint(deck, communicator, [&](Archive& archive) {
     solver.serialize(archive);
     monitor.serialize(archive);
+    balance.serialize(archive, scene.body);
     writers.serialize(archive, solver.time());
   });
   if (start == Start::continued && checkpoint_exists(deck, communicator)) {
@@ -133,22 +141,26 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
     say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
     return true;
   }
-  Scene scene = set_up(deck, communicator);
+  std::optional<Scene> parts = set_up(deck, communicator);
+  Scene& scene = *parts;  // which stays there, also where another takes its place
   say(communicator, describe_scene(scene));
-  const OutputVariables variables =
-      output_variables_of(deck, scene.body, scene.contact);  // all names are checked before a file is replaced
-  OutputWriters writers(deck, variables);
+  std::optional<OutputWriters> writers;
+  writers.emplace(
+      deck, output_variables_of(deck, scene.body, scene.contact));  // all names are checked before a file is replaced
+  Balance balance(deck, communicator);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                        deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end));
-    return carry_out(deck, scene, writers, solver, start, began, early_end,
+    return carry_out(deck, scene, *writers, solver, balance, start, began, early_end,
                      [&](const RunServices& services) { return load_through(services, solver); });
   }
-  CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                           deck.solver.initial_time);
-  if (writers.history.has_reactions()) solver.gather_reactions(static_cast<int>(deck.conditions.size()));
-  return carry_out(deck, scene, writers, solver, start, began, early_end,
-                   [&](const RunServices& services) { return step_through(services, solver); });
+  std::optional<CentralDifference> solver;
+  solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
+                 deck.solver.initial_time);
+  if (writers->history.has_reactions()) solver->gather_reactions(static_cast<int>(deck.conditions.size()));
+  const ExplicitRun whole{deck, parts, solver, writers};
+  return carry_out(deck, scene, *writers, *solver, balance, start, began, early_end,
+                   [&](const RunServices& services) { return step_through(services, whole, balance); });
 }
 
 }  // namespace strut

@@ -10,6 +10,7 @@
 #include "conditions/conditions.hpp"
 #include "contact/contact.hpp"
 #include "mechanics/body.hpp"
+#include "points/partition.hpp"
 #include "setup/dropped.hpp"
 #include "solvers/explicit/central_difference.hpp"
 #include "solvers/quasi_static/quasi_static.hpp"
@@ -19,7 +20,7 @@ namespace strut {
 // A rigid tool of the deck, of which the closing report tells whether it was touched.
 struct ToolOfScene {
   std::string name;
-  std::shared_ptr<const bool> touched;  // on this rank
+  std::shared_ptr<bool> touched;  // on this rank
 };
 
 struct Scene {
@@ -28,6 +29,7 @@ struct Scene {
   contact::Contact contact;
   StepControl control;
   std::optional<QuasiStaticControl> quasi_static;  // in its place
+  Cuts cuts;                                       // what the partition was made by
   std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
   Dropped dropped;
   std::vector<ToolOfScene> tools = {};  // as tools_of(conditions)

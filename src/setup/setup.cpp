@@ -28,7 +28,43 @@ std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
   return QuasiStaticControl{with_tangent, load_steps, {tolerance, most_iterations}};
 }
 
+// From the partitioned cloud on.
+Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Communicator& communicator) {
+  Dropped dropped;
+  const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
+  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
+  Scene scene{
+      make_body(std::move(domain), deck.discretization.influence, materials),
+      {},
+      {},
+      {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
+      quasi_static_of(deck.solver),
+      std::move(cuts),
+      0,
+      0,
+      0,
+      dropped,
+      {}};
+  add_conditions(deck, scene, communicator);
+  return scene;
+}
+
+std::vector<contact::Interaction> add_contact(const deck::Deck& deck, Scene& scene) {
+  std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
+  set_surface_laws(scene.body, interactions);
+  scene.contact = contact::Contact(interactions, scene.body.domain);
+  return interactions;
+}
+
 }  // namespace
+
+Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& communicator) {
+  Scene scene = assembled(deck, std::move(kept.cloud), std::move(kept.cuts), communicator);
+  scene.points = kept.points, scene.bonds = kept.bonds, scene.pieces = kept.pieces, scene.dropped = kept.dropped;
+  for (std::size_t t = 0; t < scene.tools.size(); ++t) *scene.tools[t].touched = *kept.tools[t].touched;
+  add_contact(deck, scene);
+  return scene;
+}
 
 Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   PointCloud cloud = read_mesh(deck, communicator);
@@ -40,31 +76,17 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
   raise_together(communicator, problems.text(deck.file.string()));
+  Cuts by;
   {
     const Timed timed(phase("Partition"));
-    cloud = partitioned(cloud, communicator, cuts(deck, cloud, spacing, communicator));
+    by = cuts(deck, cloud, spacing, communicator);
+    cloud = partitioned(cloud, communicator, by);
   }
-  Dropped dropped;
-  const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
-  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
-  Scene scene{
-      make_body(std::move(domain), deck.discretization.influence, materials),
-      {},
-      {},
-      {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
-      quasi_static_of(deck.solver),
-      0,
-      0,
-      0,
-      dropped,
-      {}};
+  Scene scene = assembled(deck, std::move(cloud), std::move(by), communicator);
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
   scene.pieces = count_pieces(scene.body.domain);
-  add_conditions(deck, scene, communicator);
-  std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
-  set_surface_laws(scene.body, interactions);
-  scene.contact = contact::Contact(interactions, scene.body.domain);
+  const std::vector<contact::Interaction> interactions = add_contact(deck, scene);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
   const std::vector<Trajectory> ways = trajectories(scene, start, duration);

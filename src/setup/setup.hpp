@@ -11,4 +11,16 @@ namespace strut {
 // hold no point, horizons that do not fit the spacing; then one for points with too few neighbors.
 Scene set_up(const deck::Deck& deck, const Communicator& communicator);
 
+// What is made anew when a partition is, of a scene that has to be gone by then.
+struct Kept {
+  PointCloud cloud;  // as it is to be on this rank
+  Cuts cuts;
+  Dropped dropped;
+  std::int64_t points = 0, bonds = 0, pieces = 0;
+  std::vector<ToolOfScene> tools;
+};
+
+// Collective. The same scene on another partition, at its initial time; what it tells is not told again.
+Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& communicator);
+
 }  // namespace strut

@@ -22,11 +22,21 @@ void in_pieces(std::size_t size, Piece&& piece) {
   }
 }
 
+// With one thread, whatever Kokkos was built with and the environment says: a rank is a core, and laws add what they
+// find to one report. Without the words of the command line: Kokkos would answer --help with a page of its own.
+void start_kokkos() {
+#if KOKKOS_VERSION >= 30700
+  Kokkos::initialize(Kokkos::InitializationSettings().set_num_threads(1));
+#else
+  Kokkos::initialize(Kokkos::InitArguments(1));
+#endif
+}
+
 }  // namespace
 
 Runtime::Runtime(int& argc, char**& argv) {
   MPI_Init(&argc, &argv);
-  Kokkos::initialize();  // without the words: Kokkos would answer --help with a page of its own
+  start_kokkos();
 }
 
 Runtime::~Runtime() {

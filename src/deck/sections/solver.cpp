@@ -72,13 +72,22 @@ const BooleanKey subcycling(
      .meaning = "Points that limit the time step are subcycled: they take smaller steps of their own. "
                 "None do with a fixed step."});
 
+const RealKey rebalance(
+    {.name = "Rebalance",
+     .range = {.low = 1, .with_low = false},
+     .fallback = "1.3",
+     .meaning = "On several ranks: where the one with most work has more than so many times the mean, and the rest of "
+                "the run is worth it, points are spread over the ranks anew. Fields keep their bits. 1e9: never."});
+
 const Section verlet = {.name = "Verlet",
                         .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",
-                        .keys = {fixed_dt, safety_factor, subcycling}};
+                        .keys = {fixed_dt, safety_factor, subcycling, rebalance}};
 
-const BooleanKey verbose({.name = "Verbose",
-                          .fallback = "false",
-                          .meaning = "With QuasiStatic, each iteration is told."});
+const BooleanKey verbose(
+    {.name = "Verbose",
+     .fallback = "false",
+     .meaning = "With QuasiStatic, each iteration is told; on several ranks with Verlet, how evenly "
+                "they share the work, every 100 steps."});
 
 const RealKey initial_time({.name = "Initial Time", .unit = "s", .fallback = "0", .meaning = "When the run begins."});
 
@@ -121,7 +130,8 @@ Solver read_solver(const Values& deck, Problems& problems) {
                 .verbose = values[verbose],
                 .fixed_dt = steps[fixed_dt],
                 .safety_factor = steps[safety_factor],
-                .subcycling = steps[subcycling]};
+                .subcycling = steps[subcycling],
+                .rebalance = steps[rebalance]};
   if (values.has_section(quasi_static.name)) {
     solver.quasi_static = read_quasi_static(values.section(quasi_static.name));
     if (values.has_section(verlet.name)) {

@@ -18,11 +18,12 @@ struct QuasiStatic {
 struct Solver {
   double initial_time{}, final_time = 0;    // s
   std::optional<double> wall_time;          // s, of the computer, before the run ends itself; else it does not
-  bool verbose{};                           // each iteration of an equilibrium is told
+  bool verbose{};                           // each iteration of an equilibrium is told, or how ranks share the work
   std::optional<QuasiStatic> quasi_static;  // else explicit steps:
   std::optional<double> fixed_dt;           // s; else from the critical time step
   double safety_factor{};
   bool subcycling{};
+  double rebalance{};  // of the rank with most work beside the mean: above it the partition is made anew
 
   double duration() const { return final_time - initial_time; }
 };

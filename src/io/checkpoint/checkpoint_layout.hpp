@@ -12,7 +12,7 @@
 namespace strut::io::checkpoint_layout {
 
 // Of the layout below: raise it with every change of what the file holds.
-constexpr int version = 3;
+constexpr int version = 4;
 constexpr const char* mark = "strut_restart";
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }

@@ -28,13 +28,15 @@ constexpr double round_off = 1e-6;  // of a step: times are sums of up to millio
 }  // namespace
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
-                                     double initial_time)
-    : body_(body),
-      conditions_(std::move(conditions)),
-      contact_(std::move(contact)),
-      control_(control),
-      time_(initial_time) {
+                                     ToBeRestored)
+    : body_(body), conditions_(std::move(conditions)), contact_(std::move(contact)), control_(control), time_(0) {
   body_.time_levels.clear();
+}
+
+CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
+                                     double initial_time)
+    : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored()) {
+  time_ = initial_time;
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
   StepReport report = advance_stress(body_, 0, true);

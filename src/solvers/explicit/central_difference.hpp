@@ -13,7 +13,7 @@ namespace strut {
 struct StepControl {
   double fixed_dt = 0;  // s; 0: from the critical time step
   double safety_factor = 0.8;
-  bool subcycling = true;      // of the points that limit the step; none with a fixed one
+  bool subcycling = true;               // of the points that limit the step; none with a fixed one
   bool continue_with_inverted = false;  // inverted points carry no stress but keep their mass while det F ≤ 0
 };
 
@@ -22,6 +22,9 @@ class CentralDifference {
   // Collective. Computes the initial forces and step. Throws Error when the initial state already fails.
   CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
                     double initial_time);
+  // One that serialize() is to restore before anything else is asked of it: nothing is computed.
+  struct ToBeRestored {};
+  CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control, ToBeRestored);
 
   double time() const { return time_; }
   int steps() const { return steps_; }

@@ -462,5 +462,25 @@ TEST(Partition, IsEven) {
   EXPECT_NEAR(domain.owned, mean, 0.1 * mean);  // Zoltan's own tolerance
 }
 
+// Wherever points were before, a rank has them in the same order: sums over them keep their bits.
+TEST(Partition, PointsThatAreMovedLieAsIfTheyHadAlwaysBeenThere) {
+  const Communicator world;
+  const PointCloud once = partitioned(slice(whole_cloud(Case{500, {0.2, 0.3}, 7}), world), world);
+  std::vector<int> anywhere, home;
+  for (const Id id : once.ids) anywhere.push_back(static_cast<int>(id * 7919 % world.size()));
+  const PointCloud scattered = moved(once, anywhere, world);
+  for (const Id id : scattered.ids) EXPECT_EQ(id * 7919 % world.size(), world.rank());
+  std::vector<double> owners(500, 0);
+  for (const Id id : once.ids) owners[id] = world.rank();
+  world.sum(owners);
+  for (const Id id : scattered.ids) home.push_back(static_cast<int>(owners[id]));
+  const PointCloud again = moved(scattered, home, world);
+  EXPECT_EQ(again.ids, once.ids);
+  EXPECT_EQ(again.element_ids, once.element_ids);
+  EXPECT_EQ(again.positions, once.positions);
+  EXPECT_EQ(again.volumes, once.volumes);
+  EXPECT_EQ(again.sets, once.sets);
+}
+
 }  // namespace
 }  // namespace strut

@@ -189,6 +189,7 @@ $blocks
   </ParameterList>
   <ParameterList name="Solver">
     <Parameter name="Final Time" type="double" value="3.2e-4"/>
+    <ParameterList name="Verlet"> <Parameter name="Rebalance" type="double" value="1.001"/> </ParameterList>
   </ParameterList>
   <ParameterList name="Output">
     <Parameter name="Output Filename" type="string" value="$1.e"/>
@@ -219,10 +220,10 @@ $blocks
 END
 }
 
-# Families are in the order of ids and the step's estimate sums reproducibly, so that fields should not depend on the ranks at all; totals
-# are sums over ranks and differ by round-off, 1e-15 of their terms. 1e-9 of the largest value leaves room for both, and
-# for a mistake in one point (a family, a ghost, a sum) it is far too small. All columns of the history have such a
-# measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
+# Families are in the order of ids and the step's estimate sums reproducibly, so fields have the same bits on any ranks, also where points
+# are spread over them anew on the way, as nearly each problem makes them be. Totals are sums over ranks and differ by round-off, 1e-15 of
+# their terms. 1e-9 of the largest value leaves room for that, and for a mistake in one point (a family, a ghost, a sum) it is far too small.
+# All columns of the history have such a measure: Balance_Error is about 1e-3, the lateral momenta count with the axial one.
 failures=0
 for name in bar fast nodes cells mixed mixed-cells meeting touching breaking cracking tearing rending snapping; do
   problem $name
@@ -244,10 +245,15 @@ for name in bar fast nodes cells mixed mixed-cells meeting touching breaking cra
         exit 1
       fi ;;
     esac
-    for kind in e csv; do
-      echo "$name, $ranks ranks, .$kind:"
-      "$compare" ${name}1.$kind $name$ranks.$kind --relative 1e-9 || failures=$((failures + 1))
-    done
+    case $name$ranks in fast[34] | cells[234] | touching4 | tearing[234] | rending[34] | snapping4)
+      if ! grep -q 'spread over the ranks anew' log; then
+        echo "FAILED: the partition of $name stays as it is"
+        exit 1
+      fi ;;
+    esac
+    echo "$name, $ranks ranks:"
+    "$compare" ${name}1.e $name$ranks.e --relative 0 || failures=$((failures + 1))
+    "$compare" ${name}1.csv $name$ranks.csv --relative 1e-9 || failures=$((failures + 1))
   done
 done
 [ $failures -eq 0 ] && echo "passed"

@@ -348,6 +348,29 @@ class Test:
         self.run(folder, "--continue", ranks=2)
         self.same(whole, folder, scene)
 
+    def rebalanced(self, scene, whole):
+        """Ended after the partition has been made anew: on as many ranks it goes on with that partition, and any is as good."""
+        def folder(name):
+            path = self.folder(f"{scene}-{name}", scene, 10**6)
+            deck = path / "deck.xml"
+            verlet = section("Verlet", keys(Rebalance=1.0001))
+            deck.write_text(deck.read_text().replace('name="Solver">', 'name="Solver">' + verlet))
+            return path
+
+        told = "spread over the ranks anew"
+        balanced, ended = folder("rebalanced"), folder("rebalanced-ended")
+        if told not in self.run(balanced, ranks=2):
+            self.fail(f"{balanced}: the partition stays as it is", balanced / "log")
+        self.same(whole, balanced, scene, 0, 1e-9)  # totals are sums over ranks
+        process = self.start(ended, ranks=2)
+        while process.poll() is None and told not in (ended / "log").read_text():
+            time.sleep(0.001)
+        process.send_signal(signal.SIGUSR1)
+        if process.wait(timeout=30) != 3:
+            self.fail(f"{ended}: SIGUSR1: exit status {process.returncode}", ended / "log")
+        self.run(ended, "--continue", ranks=2)
+        self.same(balanced, ended, scene)
+
     @staticmethod
     def is_rank_in(process, folder):
         try:
@@ -461,6 +484,8 @@ class Test:
         self.terminated(name, whole)
         self.out_of_time(name, whole)
         self.killed(name, whole, kills)
+        if name == "cells":  # where levels of time steps make the work uneven
+            self.rebalanced(name, whole)
         if name in ("impact", "cells"):
             self.rank_lost(name)
             self.disk_full(name, whole)

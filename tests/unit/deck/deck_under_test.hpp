@@ -111,6 +111,7 @@ inline const std::string full_deck = R"xml(<?xml version="1.0"?>
     <Parameter name="Wall Time" type="double" value="3600"/>
     <ParameterList name="Verlet">
       <Parameter name="Fixed dt" type="double" value="1e-8"/>
+      <Parameter name="Rebalance" type="double" value="1.5"/>
     </ParameterList>
   </ParameterList>
   <ParameterList name="Output">

@@ -290,6 +290,7 @@ TEST(Deck, ReadsSolverOutputAndHistory) {
   EXPECT_EQ(deck.solver.final_time, 3e-4);
   EXPECT_EQ(deck.solver.wall_time, 3600);
   EXPECT_EQ(deck.solver.fixed_dt, 1e-8);
+  EXPECT_EQ(deck.solver.rebalance, 1.5);
   EXPECT_TRUE(deck.output.enabled);
   EXPECT_EQ(deck.output.file, "bar.e");
   EXPECT_EQ(deck.output.frequency, 100);
@@ -318,6 +319,7 @@ TEST(Deck, HasDefaults) {
   EXPECT_FALSE(deck.solver.wall_time);
   EXPECT_FALSE(deck.solver.fixed_dt);
   EXPECT_EQ(deck.solver.safety_factor, 0.8);
+  EXPECT_EQ(deck.solver.rebalance, 1.3);
   EXPECT_FALSE(deck.solver.quasi_static);
   EXPECT_FALSE(deck.solver.verbose);
   EXPECT_FALSE(deck.output.enabled);

@@ -140,6 +140,7 @@ const std::vector<Case> names = {
      "Blocks > plate > Horizon: is a section; expected a <Parameter>"},
     {"KeyForSection", R"(<ParameterList name="Verlet">
       <Parameter name="Fixed dt" type="double" value="1e-8"/>
+      <Parameter name="Rebalance" type="double" value="1.5"/>
     </ParameterList>)",
      R"(<Parameter name="Verlet" type="double" value="1e-8"/>)",
      "Solver > Verlet: is a <Parameter>; expected a section (<ParameterList>)"},

@@ -1,0 +1,101 @@
+#include "run/balance.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <string>
+
+#include "points/partition.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr int steps_between_looks = 100;
+constexpr double worse = 1.1;
+
+// What a new partition takes, in steps of evenly spread work (docs/decisions.md, Another partition).
+constexpr double cost_of_change = 100;
+
+// Contact of a point that touches, ns a step (docs/decisions.md, Another partition).
+constexpr double cost_of_contact = 2000;
+
+// Of the owned points, ns a step, roughly. What moves rigidly counts, for it will not stay so.
+std::vector<double> work_of_points(const Scene& scene, const contact::Contact& contact) {
+  const Body& body = scene.body;
+  std::vector<double> work(body.owned());
+  for (int i = 0; i < body.owned(); ++i) {
+    const int updates = body.time_levels.empty() ? 1 : 1 << body.time_levels[i];
+    work[i] = updates * scene.cuts.costs[body.domain.cloud.blocks[i]];
+  }
+  contact.add_where_touched(cost_of_contact, work);
+  return work;
+}
+
+std::string to_text(double ratio) {
+  std::ostringstream text;
+  text.precision(3);
+  text << ratio;
+  return text.str();
+}
+
+void tell(const Communicator& communicator, int step, const std::string& text) {
+  if (communicator.rank() == 0) std::cout << "step " << step << ": " << text << std::endl;
+}
+
+// Collective. The most work of a rank beside the mean, where each point is on the rank named for it.
+double imbalance(const std::vector<double>& work, const std::vector<int>& ranks, const Communicator& communicator) {
+  std::vector<double> of_ranks(communicator.size(), 0);
+  for (std::size_t i = 0; i < work.size(); ++i) of_ranks[ranks[i]] += work[i];
+  communicator.sum(of_ranks);
+  const double sum = std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0);
+  return *std::max_element(of_ranks.begin(), of_ranks.end()) * communicator.size() / sum;
+}
+
+}  // namespace
+
+Balance::Balance(const deck::Deck& deck, const Communicator& communicator)
+    : enabled_(!deck.solver.quasi_static),
+      most_(communicator.size() > 1 ? deck.solver.rebalance : std::numeric_limits<double>::infinity()),
+      final_time_(deck.solver.final_time),
+      verbose_(deck.solver.verbose) {}
+
+std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const CentralDifference& solver) {
+  if (!enabled_ || (most_ >= scene.body.domain.communicator.size() && !verbose_))
+    return std::nullopt;  // it cannot be so much
+  if (solver.steps() == 0 || solver.steps() % steps_between_looks != 0) return std::nullopt;
+  const Communicator& communicator = scene.body.domain.communicator;
+  const std::vector<double> work = work_of_points(scene, solver.contact());
+  const double now = imbalance(work, std::vector<int>(work.size(), communicator.rank()), communicator);
+  if (verbose_) tell(communicator, solver.steps(), "the rank with most work has " + to_text(now) + " times the mean");
+  if (!(now > std::max(most_, worse * accepted_))) return std::nullopt;
+  const std::vector<int> ranks = bisected(whole_cloud(scene.body.domain), work, scene.cuts.lengths, communicator);
+  const double then = imbalance(work, ranks, communicator);
+  const double steps_left = (final_time_ - solver.time()) / solver.dt();
+  const bool pays = (now - then) * steps_left > cost_of_change;
+  accepted_ = pays ? then : now;
+  if (!pays) return std::nullopt;
+  tell(communicator, solver.steps(),
+       "points are spread over the ranks anew, as one had " + to_text(now) + " times the mean work; now " +
+           to_text(then));
+  return ranks;
+}
+
+void Balance::serialize(Archive& archive, const Body& body) {
+  if (!enabled_) return;
+  const Communicator& communicator = body.domain.communicator;
+  int size = communicator.size();
+  std::vector<int> ranks(body.owned(), communicator.rank());
+  archive.number("ranks", size);
+  archive.number("accepted_imbalance", accepted_);
+  archive.points("all points", body.domain.cloud.ids);
+  archive.field("rank", 1, [&](std::size_t i, int) -> int& { return ranks[i]; });
+  if (!archive.loading() || size != communicator.size()) return;
+  const auto stays = [&](int rank) { return rank == communicator.rank(); };
+  const bool all = std::all_of(ranks.begin(), ranks.end(), stays);
+  if (communicator.max(all ? 0.0 : 1.0) > 0) restored_ = std::move(ranks);
+}
+
+}  // namespace strut

@@ -1,0 +1,69 @@
+#include "run/repartition.hpp"
+
+#include <algorithm>
+
+#include "base/timing.hpp"
+#include "checkpoint/moved_snapshot.hpp"
+#include "setup/setup.hpp"
+
+namespace strut {
+
+namespace {
+
+RanksOfPoints by_ids(const Domain& domain, const std::vector<int>& ranks) {
+  RanksOfPoints all;
+  for (int i = 0; i < domain.owned; ++i) all.emplace_back(domain.id(i), ranks[i]);
+  std::ranges::sort(all);
+  return all;
+}
+
+Snapshot saved(const ExplicitRun& run, double time) {
+  Snapshot snapshot;
+  Archive archive = Archive::saving_to(snapshot);
+  run.solver->serialize(archive);
+  run.writers->serialize(archive, time);
+  return snapshot;
+}
+
+// All that has a place in memory, in the order in which one needs the other.
+void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
+  const Communicator communicator = run.scene->body.domain.communicator;
+  Scene& old = *run.scene;
+  Kept kept{moved(whole_cloud(old.body.domain), ranks, communicator),
+            old.cuts,
+            old.dropped,
+            old.points,
+            old.bonds,
+            old.pieces,
+            old.tools};
+  run.writers.reset();
+  run.solver.reset();
+  run.scene.reset();
+  Scene& scene = run.scene.emplace(set_up_again(run.deck, std::move(kept), communicator));
+  run.writers.emplace(run.deck, output_variables_of(run.deck, scene.body, scene.contact));
+  run.solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
+                     CentralDifference::ToBeRestored());
+  if (run.writers->history.has_reactions()) {
+    run.solver->gather_reactions(static_cast<int>(run.deck.conditions.size()));
+  }
+}
+
+}  // namespace
+
+void repartition(const ExplicitRun& run, const std::vector<int>& ranks) {
+  static Teuchos::Time& timer = phase("Another partition");
+  const Timed timed(timer);
+  const double time = run.solver->time();
+  Snapshot kept = saved(run, time);
+  const RanksOfPoints where = by_ids(run.scene->body.domain, ranks);
+  make_anew(run, ranks);
+  Snapshot here = saved(run, time);
+  move_snapshot(kept, where, here, run.scene->body.domain.communicator);
+  kept = {};
+  Archive archive = Archive::loading_from(here);
+  run.solver->serialize(archive);
+  run.writers->serialize(archive, time);
+  run.writers->open(run.scene->body);
+}
+
+}  // namespace strut

@@ -1,0 +1,25 @@
+// An explicit run on another partition, in memory.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "deck/deck.hpp"
+#include "output/writers.hpp"
+#include "setup/scene.hpp"
+
+namespace strut {
+
+// What depends on where points are.
+struct ExplicitRun {
+  const deck::Deck& deck;
+  std::optional<Scene>& scene;
+  std::optional<CentralDifference>& solver;
+  std::optional<OutputWriters>& writers;
+};
+
+// Collective; between advance_position() and advance_velocity(). Makes all of it anew where it stands, with each owned
+// point on the rank that is named for it, and gives it back what it held, as from a checkpoint.
+void repartition(const ExplicitRun& run, const std::vector<int>& ranks);
+
+}  // namespace strut
