@@ -12,6 +12,7 @@
 #include "io/checkpoint/checkpoint_layout.hpp"
 #include "io/netcdf/netcdf_lists.hpp"
 #include "io/on_root.hpp"
+#include "io/slices.hpp"
 #include "io/to_disk.hpp"
 
 namespace strut::io {
@@ -32,7 +33,7 @@ void replace(const fs::path& path, const fs::path& part) {
 }
 
 // The layout, on rank 0: of the groups, how many points all ranks have of each.
-void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
+void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<Slices>& slices, int ranks,
             const std::string& deck) {
   file.put(mark, double{version});
   file.put("written_by", build_facts());
@@ -40,56 +41,41 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
   for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
   for (const auto& [name, value] : snapshot.shares) file.define(name_of_share(name), NetcdfLists::Of::reals, ranks);
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    file.define(name_of_ids(g), NetcdfLists::Of::integers, sizes[g]);
+    const auto size = static_cast<std::size_t>(slices[g].size());
+    file.define(name_of_ids(g), NetcdfLists::Of::integers, size);
     for (const Snapshot::Column& column : snapshot.groups[g].columns) {
-      file.define(name_of(g, column.name), NetcdfLists::Of::reals, sizes[g] * static_cast<std::size_t>(column.width));
+      file.define(name_of(g, column.name), NetcdfLists::Of::reals, size * static_cast<std::size_t>(column.width));
     }
   }
   file.define("sum", NetcdfLists::Of::reals, 1);
   file.end_definitions();
 }
 
-std::vector<double> arranged(const std::vector<double>& values, const std::vector<std::size_t>& order, int width) {
-  std::vector<double> result;
-  result.reserve(values.size());
-  for (const std::size_t place : order) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(place * static_cast<std::size_t>(width));
-    result.insert(result.end(), begin, begin + width);
-  }
-  return result;
-}
-
-// Collective. Everything into `file`, which only rank 0 has.
+// Collective. Everything into `file`, which only rank 0 has: no rank has more than its slice of a column.
 void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, const Snapshot& snapshot,
           const std::string& deck, const fs::path& part, OnRoot& on_root) {
-  std::vector<std::vector<std::int64_t>> ids;
-  std::vector<std::size_t> sizes;
-  for (const Snapshot::Group& group : snapshot.groups) {
-    ids.push_back(communicator.gather(std::span(group.ids)));
-    sizes.push_back(ids.back().size());
-  }
+  std::vector<Slices> slices;
+  for (const Snapshot::Group& group : snapshot.groups) slices.emplace_back(communicator, group.ids);
   Sum sum;
   on_root([&] {
     file.emplace(NetcdfLists::create(part));
-    define(*file, snapshot, sizes, communicator.size(), deck);
+    define(*file, snapshot, slices, communicator.size(), deck);
   });
-  const auto put = [&](const std::string& name, const auto& values) {
-    file->put(name, values);
-    sum.add(values);
+  const auto put = [&]<class T>(const std::string& name, std::span<const T> mine) {
+    std::int64_t begin = 0;
+    collect(communicator, mine, [&](std::span<const T> portion) {
+      on_root([&] { file->put(name, portion, begin); });
+      sum.add(portion);
+      begin += std::ssize(portion);
+    });
   };
-  for (const auto& [name, value] : snapshot.numbers) sum.add(std::vector<double>{value});
-  for (const auto& [name, value] : snapshot.shares) {
-    const std::vector<double> of_ranks = communicator.gather(std::span(&value, 1));
-    on_root([&] { put(name_of_share(name), of_ranks); });
-  }
+  for (const auto& [name, value] : snapshot.numbers) sum.add(value);
+  for (const auto& [name, value] : snapshot.shares) put(name_of_share(name), std::span(&value, 1));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    const std::vector<std::size_t> order = order_by_id(ids[g]);
-    std::vector<std::int64_t> sorted;
-    for (const std::size_t place : order) sorted.push_back(ids[g][place]);
-    on_root([&] { put(name_of_ids(g), sorted); });
+    put(name_of_ids(g), std::span(slices[g].ids()));
     for (const Snapshot::Column& column : snapshot.groups[g].columns) {
-      const std::vector<double> values = communicator.gather(std::span(column.values));
-      on_root([&] { put(name_of(g, column.name), arranged(values, order, column.width)); });
+      const std::vector<double> rows = slices[g].to_slices(std::span(column.values), column.width);
+      put(name_of(g, column.name), std::span(rows));
     }
   }
   on_root([&] {

@@ -22,9 +22,11 @@ PointCloud read_cloud(const std::filesystem::path& path, PointsAt at, bool with_
                 " are supported");
   }
   const Mesh mesh = mesh_of(file);
-  if (at == PointsAt::nodes) return points_at_nodes(mesh, file.node_numbers(), path.string(), with_cells);
+  if (at == PointsAt::nodes)
+    return points_at_nodes(mesh, file.numbers(ExodusFile::On::nodes, 0, std::ssize(mesh.nodes)), path.string(),
+                           with_cells);
   PointCloud cloud = points_at_elements(mesh, path.string(), with_cells);
-  cloud.element_ids = file.element_numbers();
+  cloud.element_ids = file.numbers(ExodusFile::On::elements, 0, std::ssize(cloud.volumes));
   return cloud;
 }
 

@@ -54,7 +54,7 @@ class Reader {
   }
 
   void read_nodes() {
-    const auto x = file_.coordinates();
+    const auto x = file_.coordinates(0, file_.sizes().nodes);
     mesh_.nodes.reserve(x[0].size());
     for (std::size_t n = 0; n < x[0].size(); ++n) {
       mesh_.nodes.emplace_back(x[0][n], x[1][n], x[2][n]);
@@ -80,7 +80,7 @@ class Reader {
   void read_sets() {
     for (const ExodusFile::NodeSet& set : file_.node_sets()) {
       const std::string name = set.name.empty() ? "nodelist_" + std::to_string(set.id) : set.name;
-      mesh_.node_sets.push_back({name, indices(file_.nodes_of(set), "node set '" + name + "'")});
+      mesh_.node_sets.push_back({name, indices(file_.nodes_of(set, 0, set.nodes), "node set '" + name + "'")});
     }
   }
 
@@ -93,7 +93,7 @@ class Reader {
     }
     mesh_.blocks.push_back({name, type.empty() ? "SPHERE" : type, {}, {}, {}});
     if (block.elements == 0) return;
-    mesh_.blocks.back().nodes = indices(file_.connectivity(block), "block '" + name + "'");
+    mesh_.blocks.back().nodes = indices(file_.connectivity(block, 0, block.elements), "block '" + name + "'");
     if (type == "SPHERE") mesh_.blocks.back().volumes = sphere_volumes(block);
     if (type == "HEX8") mesh_.blocks.back().cells = partial_cells(block);
     elements_ += block.elements;
@@ -109,7 +109,7 @@ class Reader {
     }
     std::vector<PartialCell> cells(block.elements);
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      const std::vector<double> values = file_.attribute(block, columns[k]);
+      const std::vector<double> values = file_.attribute(block, columns[k], 0, block.elements);
       for (std::size_t e = 0; e < cells.size(); ++e) member(cells[e], k) = values[e];
     }
     return cells;
@@ -117,9 +117,9 @@ class Reader {
 
   // Attributes radius and volume, or the radius alone; results of other codes hold an element variable instead.
   std::vector<double> sphere_volumes(const ExodusFile::Block& block) const {
-    if (block.attributes.size() >= 2) return file_.attribute(block, 1);
+    if (block.attributes.size() >= 2) return file_.attribute(block, 1, 0, block.elements);
     if (block.attributes.size() == 1) {
-      std::vector<double> values = file_.attribute(block, 0);
+      std::vector<double> values = file_.attribute(block, 0, 0, block.elements);
       std::transform(values.begin(), values.end(), values.begin(), sphere_volume);
       return values;
     }
