@@ -34,7 +34,7 @@ Slices::Slices(const Communicator& communicator, std::span<const std::int64_t> i
   }
   from_ranks_ = counts_from_ranks(communicator, to_ranks_);
   const std::vector<std::int64_t> arrived =
-      exchange<std::int64_t>(communicator, picked(ids, leaving_, 1), to_ranks_, from_ranks_);
+      exchange<std::int64_t>(communicator, picked(ids, leaving_, 1, 0), to_ranks_, from_ranks_);
   ids_ = arrived;
   std::sort(ids_.begin(), ids_.end());
   ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
@@ -50,10 +50,5 @@ std::int64_t Slices::first() const {
 }
 
 std::int64_t Slices::size() const { return std::accumulate(counts_.begin(), counts_.end(), std::int64_t{0}); }
-
-std::vector<std::int64_t> Slices::times(int width, std::vector<std::int64_t> counts) {
-  for (std::int64_t& count : counts) count *= width;
-  return counts;
-}
 
 }  // namespace strut::io

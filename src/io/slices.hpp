@@ -31,46 +31,50 @@ class Slices {
   std::int64_t first() const;                                          // how many are in the slices before
   std::int64_t size() const;                                           // on all ranks
 
-  // Collective. `width` values for each of this rank's things, in the order of the ids given; those of the slice. Where
-  // several ranks have the same thing they must give the same.
+  // Collective. Of `width` values for each of this rank's things, in the order of the ids given, the one of number
+  // `component`; those of the slice. Where several ranks have the same thing they must give the same.
   template <class T>
-  std::vector<T> to_slices(std::span<const T> values, int width = 1) const {
-    const std::vector<T> arrived =
-        exchange<T>(communicator_, picked(values, leaving_, width), times(width, to_ranks_), times(width, from_ranks_));
-    return placed(std::span<const T>(arrived), places_, ids_.size(), width);
+  std::vector<T> to_slices(std::span<const T> values, int width = 1, int component = 0) const {
+    std::vector<T> result(ids_.size());
+    place<T>(arriving(values, width, component), places_, result, 1, 0);
+    return result;
   }
-  // Collective. The way back.
+  // Collective. All of them, one component at a time: so what travels is small beside them.
   template <class T>
-  std::vector<T> from_slices(std::span<const T> values, int width = 1) const {
-    const std::vector<T> arrived =
-        exchange<T>(communicator_, picked(values, places_, width), times(width, from_ranks_), times(width, to_ranks_));
-    return placed(std::span<const T>(arrived), leaving_, leaving_.size(), width);
+  std::vector<T> rows_to_slices(std::span<const T> values, int width) const {
+    std::vector<T> result(ids_.size() * static_cast<std::size_t>(width));
+    for (int c = 0; c < width; ++c) place<T>(arriving(values, width, c), places_, result, width, c);
+    return result;
+  }
+  // Collective. The way back; `result` has room for `width` values for each of this rank's things.
+  template <class T>
+  void rows_from_slices(std::span<const T> values, int width, std::span<T> result) const {
+    for (int c = 0; c < width; ++c) {
+      place<T>(exchange<T>(communicator_, picked(values, places_, width, c), from_ranks_, to_ranks_), leaving_, result,
+               width, c);
+    }
   }
 
  private:
   template <class T>
-  static std::vector<T> picked(std::span<const T> values, const std::vector<int>& places, int width) {
+  std::vector<T> arriving(std::span<const T> values, int width, int component) const {
+    return exchange<T>(communicator_, picked(values, leaving_, width, component), to_ranks_, from_ranks_);
+  }
+  static std::size_t place_of(int row, int width, int component) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(component);
+  }
+  template <class T>
+  static std::vector<T> picked(std::span<const T> values, const std::vector<int>& rows, int width, int component) {
     std::vector<T> result;
-    const auto w = static_cast<std::size_t>(width);
-    result.reserve(places.size() * w);
-    for (const int place : places) {
-      const auto row = values.subspan(static_cast<std::size_t>(place) * w, w);
-      result.insert(result.end(), row.begin(), row.end());
-    }
+    result.reserve(rows.size());
+    for (const int row : rows) result.push_back(values[place_of(row, width, component)]);
     return result;
   }
   template <class T>
-  static std::vector<T> placed(std::span<const T> values, const std::vector<int>& places, std::size_t count,
-                               int width) {
-    const auto w = static_cast<std::size_t>(width);
-    std::vector<T> result(count * w);
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(k * w), w,
-                  result.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(places[k]) * w));
-    }
-    return result;
+  static void place(const std::vector<T>& values, const std::vector<int>& rows, std::span<T> result, int width,
+                    int component) {
+    for (std::size_t k = 0; k < rows.size(); ++k) result[place_of(rows[k], width, component)] = values[k];
   }
-  static std::vector<std::int64_t> times(int width, std::vector<std::int64_t> counts);
 
   Communicator communicator_;
   std::vector<int> leaving_;                         // this rank's things, as they leave

@@ -117,7 +117,7 @@ bool restore(const Communicator& communicator, const std::optional<NetcdfLists>&
   for (Snapshot::Column& column : group.columns) {
     const auto rows =
         dealt<double>(communicator, file, name_of(g, column.name), slices.counts(), column.width, on_root);
-    column.values = slices.from_slices(std::span(rows), column.width);
+    slices.rows_from_slices<double>(rows, column.width, column.values);
   }
   on_root.raise();
   return ids == slices.ids();

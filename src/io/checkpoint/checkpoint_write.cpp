@@ -33,7 +33,7 @@ void replace(const fs::path& path, const fs::path& part) {
 }
 
 // The layout, on rank 0: of the groups, how many points all ranks have of each.
-void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<Slices>& slices, int ranks,
+void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
             const std::string& deck) {
   file.put(mark, double{version});
   file.put("written_by", build_facts());
@@ -41,10 +41,9 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
   for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
   for (const auto& [name, value] : snapshot.shares) file.define(name_of_share(name), NetcdfLists::Of::reals, ranks);
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    const auto size = static_cast<std::size_t>(slices[g].size());
-    file.define(name_of_ids(g), NetcdfLists::Of::integers, size);
+    file.define(name_of_ids(g), NetcdfLists::Of::integers, sizes[g]);
     for (const Snapshot::Column& column : snapshot.groups[g].columns) {
-      file.define(name_of(g, column.name), NetcdfLists::Of::reals, size * static_cast<std::size_t>(column.width));
+      file.define(name_of(g, column.name), NetcdfLists::Of::reals, sizes[g] * static_cast<std::size_t>(column.width));
     }
   }
   file.define("sum", NetcdfLists::Of::reals, 1);
@@ -54,12 +53,14 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
 // Collective. Everything into `file`, which only rank 0 has: no rank has more than its slice of a column.
 void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, const Snapshot& snapshot,
           const std::string& deck, const fs::path& part, OnRoot& on_root) {
-  std::vector<Slices> slices;
-  for (const Snapshot::Group& group : snapshot.groups) slices.emplace_back(communicator, group.ids);
+  std::vector<std::size_t> sizes;
+  for (const Snapshot::Group& group : snapshot.groups) {
+    sizes.push_back(static_cast<std::size_t>(communicator.sum(std::ssize(group.ids))));
+  }
   Sum sum;
   on_root([&] {
     file.emplace(NetcdfLists::create(part));
-    define(*file, snapshot, slices, communicator.size(), deck);
+    define(*file, snapshot, sizes, communicator.size(), deck);
   });
   const auto put = [&]<class T>(const std::string& name, std::span<const T> mine) {
     std::int64_t begin = 0;
@@ -72,9 +73,10 @@ void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, co
   for (const auto& [name, value] : snapshot.numbers) sum.add(value);
   for (const auto& [name, value] : snapshot.shares) put(name_of_share(name), std::span(&value, 1));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    put(name_of_ids(g), std::span(slices[g].ids()));
+    const Slices slices(communicator, snapshot.groups[g].ids);
+    put(name_of_ids(g), std::span(slices.ids()));
     for (const Snapshot::Column& column : snapshot.groups[g].columns) {
-      const std::vector<double> rows = slices[g].to_slices(std::span(column.values), column.width);
+      const std::vector<double> rows = slices.rows_to_slices(std::span(column.values), column.width);
       put(name_of(g, column.name), std::span(rows));
     }
   }

@@ -42,16 +42,6 @@ std::vector<std::string> component_names(const OutputField& field) {
   return suffixes;
 }
 
-// Component `component` of rows of so many.
-std::vector<double> component_of(const std::vector<double>& rows, int components, int component) {
-  std::vector<double> values;
-  values.reserve(rows.size() / static_cast<std::size_t>(components));
-  for (auto n = static_cast<std::size_t>(component); n < rows.size(); n += static_cast<std::size_t>(components)) {
-    values.push_back(rows[n]);
-  }
-  return values;
-}
-
 }  // namespace
 
 struct ExodusWriter::File {
@@ -275,10 +265,9 @@ void ExodusWriter::write(double time, std::span<const std::vector<double>> colum
   std::array<int, 2> variable = {0, 0};  // element, nodal
   for (std::size_t k = 0; k < file_->fields.size(); ++k) {
     const OutputField& field = file_->fields[k];
-    const std::vector<double> rows = file_->slices.to_slices(std::span(columns[k]), field.components);
     for (int c = 0; c < field.components; ++c) {
       const int v = variable[field.nodal]++;
-      const std::vector<double> values = component_of(rows, field.components, c);
+      const auto values = file_->slices.to_slices(std::span(columns[k]), field.components, c);
       field.nodal ? file_->write_nodal(v, values, on_root) : file_->write_element(v, values, on_root);
     }
   }

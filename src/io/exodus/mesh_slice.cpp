@@ -168,15 +168,14 @@ class SliceReader {
   void take_nodes(const std::vector<MeshFile::Place>& places, const std::vector<std::uint64_t>& sets) {
     const Slices owners(communicator_, slice_.nodes, slice_.layout.nodes);
     const std::int64_t first = slice_begin(slice_.layout.nodes, ranks_, communicator_.rank());
-    const auto asked_for = [&]<class T>(const std::vector<T>& own) {
-      std::vector<T> values;
-      for (const std::int64_t node : owners.ids()) values.push_back(own[static_cast<std::size_t>(node - first)]);
+    const auto fetched = [&]<class T>(const std::vector<T>& own) {
+      std::vector<T> asked_for, values(slice_.nodes.size());
+      for (const std::int64_t node : owners.ids()) asked_for.push_back(own[static_cast<std::size_t>(node - first)]);
+      owners.rows_from_slices<T>(asked_for, 1, values);
       return values;
     };
-    for (const MeshFile::Place& place : owners.from_slices<MeshFile::Place>(asked_for(places))) {
-      slice_.mesh.nodes.emplace_back(place.data());
-    }
-    slice_.sets = owners.from_slices<std::uint64_t>(asked_for(sets));
+    for (const MeshFile::Place& place : fetched(places)) slice_.mesh.nodes.emplace_back(place.data());
+    slice_.sets = fetched(sets);
   }
 
   // To each rank its part of a list of the file; throws what goes wrong on all ranks.
