@@ -38,6 +38,7 @@ Slices::Slices(const Communicator& communicator, std::span<const std::int64_t> i
   ids_ = arrived;
   std::sort(ids_.begin(), ids_.end());
   ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+  places_.reserve(arrived.size());
   for (const std::int64_t id : arrived) {
     places_.push_back(static_cast<int>(std::lower_bound(ids_.begin(), ids_.end(), id) - ids_.begin()));
   }
