@@ -150,7 +150,7 @@ std::vector<Face> surface_of(const Mesh& mesh) {
 std::vector<Face> surface_of(const MeshSlice& slice, const Communicator& communicator) {
   std::vector<Side> sides = sides_of(slice.mesh);
   std::vector<Group> groups = groups_of(sides);
-  add_up(slice, communicator, sides, groups);
+  if (communicator.size() > 1) add_up(slice, communicator, sides, groups);
   return faces_of(slice.mesh, sides, groups);
 }
 
