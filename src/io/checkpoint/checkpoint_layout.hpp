@@ -1,13 +1,11 @@
 // How a snapshot stands in its file: what the writer and the reader agree on.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <numeric>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace strut::io::checkpoint_layout {
 
@@ -26,7 +24,7 @@ inline std::string name_of_number(const std::string& name) { return "number_" + 
 class Sum {
  public:
   template <class T>
-  void add(const std::vector<T>& values) {
+  void add(std::span<const T> values) {
     static_assert(sizeof(T) == 8);
     for (const T& value : values) {
       std::uint64_t word;
@@ -34,18 +32,12 @@ class Sum {
       sum_ = (sum_ ^ word) * 0x100000001b3u;
     }
   }
+  void add(double value) { add(std::span<const double>(&value, 1)); }
   double value() const { return static_cast<double>(sum_ >> 12); }
 
  private:
   std::uint64_t sum_ = 0xcbf29ce484222325u;
 };
-
-inline std::vector<std::size_t> order_by_id(const std::vector<std::int64_t>& ids) {
-  std::vector<std::size_t> order(ids.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&ids](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
-  return order;
-}
 
 // What is written, until it is whole and takes the place of the file.
 inline std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }

@@ -10,6 +10,8 @@
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/netcdf/netcdf_lists.hpp"
 #include "io/netcdf/trial_read.hpp"
+#include "io/on_root.hpp"
+#include "io/slices.hpp"
 
 namespace strut::io {
 
@@ -17,8 +19,6 @@ namespace fs = std::filesystem;
 using namespace checkpoint_layout;
 
 namespace {
-
-constexpr std::size_t portion = std::size_t{1} << 20;  // values that are sent to the ranks at a time
 
 NetcdfLists opened(const fs::path& path) {
   std::error_code failure;
@@ -71,63 +71,56 @@ void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snap
   }
 }
 
+// The values of a list in portions, in their order.
+template <class T>
+void add_list(const NetcdfLists& file, const std::string& name, Sum& sum) {
+  const std::size_t size = file.size(name);
+  std::vector<T> values;
+  for (std::size_t begin = 0; begin < size; begin += values.size()) {
+    values.resize(std::min(largest_portion, size - begin));
+    file.get(name, values, static_cast<std::int64_t>(begin));
+    sum.add(std::span<const T>(values));
+  }
+}
+
 void check_sum(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot) {
   Sum sum;
-  for (const auto& [name, value] : snapshot.numbers) sum.add(std::vector<double>{file.number(name_of_number(name))});
-  for (const auto& [name, value] : snapshot.shares) sum.add(file.reals(name_of_share(name)));
+  for (const auto& [name, value] : snapshot.numbers) sum.add(file.number(name_of_number(name)));
+  for (const auto& [name, value] : snapshot.shares) add_list<double>(file, name_of_share(name), sum);
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    sum.add(file.integers(name_of_ids(g)));
-    for (const Snapshot::Column& column : snapshot.groups[g].columns) sum.add(file.reals(name_of(g, column.name)));
+    add_list<std::int64_t>(file, name_of_ids(g), sum);
+    for (const Snapshot::Column& column : snapshot.groups[g].columns) {
+      add_list<double>(file, name_of(g, column.name), sum);
+    }
   }
   if (file.reals("sum") != std::vector<double>{sum.value()}) {
     throw Error(path.string() + ": is damaged: its check sum is not that of its contents");
   }
 }
 
-// Collective. All values of rank 0, in portions of whole rows of `width` values; take(first row, values) everywhere.
-template <class T, class Take>
-void deal(const Communicator& communicator, const std::vector<T>& all, int width, const Take& take) {
-  const std::size_t step = portion / static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
-  std::vector<std::int64_t> size{static_cast<std::int64_t>(all.size())};
-  communicator.broadcast(size);
-  for (std::size_t begin = 0; begin < static_cast<std::size_t>(size[0]); begin += step) {
-    std::vector<T> values;
-    if (communicator.rank() == 0) {
-      const std::size_t end = std::min(all.size(), begin + step);
-      values.assign(all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end));
-    }
-    communicator.broadcast(values);
-    take(begin / static_cast<std::size_t>(width), values);
-  }
+// Collective. To each rank its slice of a list, of which a point has `width` values.
+template <class T>
+std::vector<T> dealt(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name,
+                     std::vector<std::int64_t> counts, int width, OnRoot& on_root) {
+  for (std::int64_t& count : counts) count *= width;
+  return deal<T>(communicator, counts,
+                 [&](std::int64_t begin, std::span<T> values) { on_root([&] { file->get(name, values, begin); }); });
 }
 
-// Of a group's points on this rank, in the order of their ids: the place here, and the row in the file.
-struct Row {
-  std::size_t place, row;
-};
-
-// Collective. `known`: whether every point of this rank is in the file.
-std::vector<Row> rows_of(const Communicator& communicator, const std::vector<std::int64_t>& ids,
-                         const std::vector<std::int64_t>& in_file, bool& known) {
-  const std::vector<std::size_t> order = order_by_id(ids);
-  std::vector<Row> rows;
-  std::size_t next = 0;
-  deal(communicator, in_file, 1, [&](std::size_t first, const std::vector<std::int64_t>& sorted) {
-    for (std::size_t n = 0; n < sorted.size() && next < order.size(); ++n) {
-      if (sorted[n] == ids[order[next]]) rows.push_back({order[next++], first + n});
-    }
-  });
-  known = known && rows.size() == ids.size();
-  return rows;
-}
-
-void take_rows(const std::vector<Row>& rows, std::size_t first, const std::vector<double>& values,
-               Snapshot::Column& column, std::size_t& next) {
-  const auto width = static_cast<std::size_t>(column.width);
-  for (; next < rows.size() && (rows[next].row - first + 1) * width <= values.size(); ++next) {
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>((rows[next].row - first) * width), width,
-                column.values.begin() + static_cast<std::ptrdiff_t>(rows[next].place * width));
+// Collective. The columns of a group, a slice to each rank and from there to the points: a rank receives its slice and
+// its points. False where the file has other points.
+bool restore(const Communicator& communicator, const std::optional<NetcdfLists>& file, std::size_t g,
+             Snapshot::Group& group) {
+  const Slices slices(communicator, group.ids);
+  OnRoot on_root(communicator);
+  const auto ids = dealt<std::int64_t>(communicator, file, name_of_ids(g), slices.counts(), 1, on_root);
+  for (Snapshot::Column& column : group.columns) {
+    const auto rows =
+        dealt<double>(communicator, file, name_of(g, column.name), slices.counts(), column.width, on_root);
+    slices.rows_from_slices<double>(rows, column.width, column.values);
   }
+  on_root.raise();
+  return ids == slices.ids();
 }
 
 }  // namespace
@@ -145,18 +138,16 @@ std::string read_checkpoint(const fs::path& path, const Communicator& communicat
   });
   communicator.broadcast(deck);
   const auto from_root = [&](const auto& get) {
-    auto values = decltype(get()){};
+    std::vector<double> values;
     run_on_root(communicator, [&] { values = get(); });
+    communicator.broadcast(values);
     return values;
   };
   for (auto& [name, value] : snapshot.numbers) {
-    std::vector<double> one = from_root([&] { return std::vector<double>{file->number(name_of_number(name))}; });
-    communicator.broadcast(one);
-    value = one[0];
+    value = from_root([&] { return std::vector<double>{file->number(name_of_number(name))}; })[0];
   }
   for (auto& [name, value] : snapshot.shares) {
-    std::vector<double> of_ranks = from_root([&] { return file->reals(name_of_share(name)); });
-    communicator.broadcast(of_ranks);
+    const std::vector<double> of_ranks = from_root([&] { return file->reals(name_of_share(name)); });
     const auto rank = static_cast<std::size_t>(communicator.rank());
     if (of_ranks.size() == static_cast<std::size_t>(communicator.size())) {
       value = of_ranks[rank];
@@ -166,16 +157,7 @@ std::string read_checkpoint(const fs::path& path, const Communicator& communicat
   }
   bool known = true;
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    Snapshot::Group& group = snapshot.groups[g];
-    const auto ids = from_root([&] { return file->integers(name_of_ids(g)); });
-    const std::vector<Row> rows = rows_of(communicator, group.ids, ids, known);
-    for (Snapshot::Column& column : group.columns) {
-      const auto values = from_root([&] { return file->reals(name_of(g, column.name)); });
-      std::size_t next = 0;
-      deal(communicator, values, column.width, [&](std::size_t first, const std::vector<double>& portion) {
-        take_rows(rows, first, portion, column, next);
-      });
-    }
+    known = restore(communicator, file, g, snapshot.groups[g]) && known;
   }
   raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
   return deck;

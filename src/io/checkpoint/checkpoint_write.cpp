@@ -12,6 +12,7 @@
 #include "io/checkpoint/checkpoint_layout.hpp"
 #include "io/netcdf/netcdf_lists.hpp"
 #include "io/on_root.hpp"
+#include "io/slices.hpp"
 #include "io/to_disk.hpp"
 
 namespace strut::io {
@@ -49,47 +50,34 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
   file.end_definitions();
 }
 
-std::vector<double> arranged(const std::vector<double>& values, const std::vector<std::size_t>& order, int width) {
-  std::vector<double> result;
-  result.reserve(values.size());
-  for (const std::size_t place : order) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(place * static_cast<std::size_t>(width));
-    result.insert(result.end(), begin, begin + width);
-  }
-  return result;
-}
-
-// Collective. Everything into `file`, which only rank 0 has.
+// Collective. Everything into `file`, which only rank 0 has: no rank has more than its slice of a column.
 void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, const Snapshot& snapshot,
           const std::string& deck, const fs::path& part, OnRoot& on_root) {
-  std::vector<std::vector<std::int64_t>> ids;
   std::vector<std::size_t> sizes;
   for (const Snapshot::Group& group : snapshot.groups) {
-    ids.push_back(communicator.gather(std::span(group.ids)));
-    sizes.push_back(ids.back().size());
+    sizes.push_back(static_cast<std::size_t>(communicator.sum(std::ssize(group.ids))));
   }
   Sum sum;
   on_root([&] {
     file.emplace(NetcdfLists::create(part));
     define(*file, snapshot, sizes, communicator.size(), deck);
   });
-  const auto put = [&](const std::string& name, const auto& values) {
-    file->put(name, values);
-    sum.add(values);
+  const auto put = [&]<class T>(const std::string& name, std::span<const T> mine) {
+    std::int64_t begin = 0;
+    collect(communicator, mine, [&](std::span<const T> portion) {
+      on_root([&] { file->put(name, portion, begin); });
+      sum.add(portion);
+      begin += std::ssize(portion);
+    });
   };
-  for (const auto& [name, value] : snapshot.numbers) sum.add(std::vector<double>{value});
-  for (const auto& [name, value] : snapshot.shares) {
-    const std::vector<double> of_ranks = communicator.gather(std::span(&value, 1));
-    on_root([&] { put(name_of_share(name), of_ranks); });
-  }
+  for (const auto& [name, value] : snapshot.numbers) sum.add(value);
+  for (const auto& [name, value] : snapshot.shares) put(name_of_share(name), std::span(&value, 1));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    const std::vector<std::size_t> order = order_by_id(ids[g]);
-    std::vector<std::int64_t> sorted;
-    for (const std::size_t place : order) sorted.push_back(ids[g][place]);
-    on_root([&] { put(name_of_ids(g), sorted); });
+    const Slices slices(communicator, snapshot.groups[g].ids);
+    put(name_of_ids(g), std::span(slices.ids()));
     for (const Snapshot::Column& column : snapshot.groups[g].columns) {
-      const std::vector<double> values = communicator.gather(std::span(column.values));
-      on_root([&] { put(name_of(g, column.name), arranged(values, order, column.width)); });
+      const std::vector<double> rows = slices.rows_to_slices(std::span(column.values), column.width);
+      put(name_of(g, column.name), std::span(rows));
     }
   }
   on_root([&] {

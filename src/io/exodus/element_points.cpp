@@ -1,7 +1,6 @@
 // The elements of a mesh become material points.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 #include "base/errors.hpp"
@@ -25,11 +24,11 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-std::vector<std::int64_t> joints_of(const Mesh::Block& block, std::size_t element) {
+std::vector<std::int64_t> joints_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element) {
   if (block.type == "SPHERE") return {};
   const std::size_t size = block.nodes.size() / block.elements();
-  const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(element * size);
-  std::vector<std::int64_t> joints(first, first + static_cast<std::ptrdiff_t>(size));
+  std::vector<std::int64_t> joints;
+  for (std::size_t n = element * size; n < (element + 1) * size; ++n) joints.push_back(slice.nodes[block.nodes[n]]);
   std::sort(joints.begin(), joints.end());
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());  // an element that is collapsed to a wedge
   return joints;
@@ -44,7 +43,7 @@ bool is_of_a_body(const Symmetric& moments) {
   return true;
 }
 
-void check_cell(const PartialCell& cell, const Mesh::Block& block, std::size_t number, const std::string& file) {
+void check_cell(const PartialCell& cell, const Mesh::Block& block, std::int64_t element, const std::string& file) {
   std::ostringstream problem;
   if (!(cell.volume > 0) || !std::isfinite(cell.volume)) {
     problem << "volume " << cell.volume << " m³, expected a positive one";
@@ -57,22 +56,19 @@ void check_cell(const PartialCell& cell, const Mesh::Block& block, std::size_t n
   } else {
     return;
   }
-  throw Error(file + ": block '" + block.name + "', element " + std::to_string(number) +
+  throw Error(file + ": block '" + block.name + "', element " + std::to_string(element + 1) +
               ", attributes of its cell: " + problem.str());
 }
 
-// The whole mesh as one cloud.
 class Converter {
  public:
-  Converter(const Mesh& mesh, const std::string& file, bool with_cells)
-      : mesh_(mesh), file_(file), with_cells_(with_cells), node_sets_(sets_of_nodes(mesh)) {}
+  Converter(const MeshSlice& slice, const std::string& file, bool with_cells)
+      : slice_(slice), mesh_(slice.mesh), file_(file), with_cells_(with_cells) {}
 
   PointCloud convert() {
-    for (const Mesh::NodeSet& set : mesh_.node_sets) cloud_.set_names.push_back(set.name);
+    for (const MeshLayout::NodeSet& set : slice_.layout.node_sets) cloud_.set_names.push_back(set.name);
     for (const Mesh::Block& block : mesh_.blocks) add_block(block);
-    cloud_.ids.resize(cloud_.volumes.size());
-    std::iota(cloud_.ids.begin(), cloud_.ids.end(), 0);
-    if (with_cells_) add_surface();
+    cloud_.ids = slice_.elements;
     return std::move(cloud_);
   }
 
@@ -83,12 +79,12 @@ class Converter {
     for (std::size_t e = 0; e < elements; ++e) {
       std::uint64_t sets = 0;
       const std::size_t size = block.nodes.size() / elements;
-      for (std::size_t n = e * size; n < (e + 1) * size; ++n) sets |= node_sets_[block.nodes[n]];
+      for (std::size_t n = e * size; n < (e + 1) * size; ++n) sets |= slice_.sets[block.nodes[n]];
       ElementPoint point = point_of(mesh_, block, e);
-      check_volume(point.volume, block, cloud_.volumes.size() + 1, file_);
+      check_volume(point.volume, block, slice_.elements[cloud_.volumes.size()], file_);
       cloud_.spacings.push_back(std::cbrt(point.volume));
       if (!block.cells.empty()) {
-        check_cell(block.cells[e], block, cloud_.volumes.size() + 1, file_);
+        check_cell(block.cells[e], block, slice_.elements[cloud_.volumes.size()], file_);
         point = {block.cells[e].centroid, block.cells[e].volume};
       }
       add_point(point, sets);
@@ -112,44 +108,35 @@ class Converter {
       shape.surface = block.cells[element].surface;
       shape.surface_moments = block.cells[element].surface_moments;
     }
-    cloud_.joints.push_back(joints_of(block, element));
+    cloud_.joints.push_back(joints_of(slice_, block, element));
   }
 
-  // Of whole elements: a cell brings its own.
-  void add_surface() {
-    for (const Face& face : surface_of(mesh_)) {
-      const std::size_t point = static_cast<std::size_t>(face.element);
-      if (!mesh_.blocks[cloud_.blocks[point]].cells.empty()) continue;
-      CellShape& shape = cloud_.shapes[point];
-      shape.surface += face.area;
-      shape.surface_moments += face.area * (face.middle(mesh_) - cloud_.positions[point]).transpose();
-    }
-  }
-
+  const MeshSlice& slice_;
   const Mesh& mesh_;
   const std::string& file_;
   const bool with_cells_;
   PointCloud cloud_;
-  std::vector<std::uint64_t> node_sets_;
 };
 
 }  // namespace
 
-PointCloud points_at_elements(const Mesh& mesh, const std::string& file, bool with_cells) {
-  return Converter(mesh, file, with_cells).convert();
+PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells) {
+  return Converter(slice, file, with_cells).convert();
 }
 
-std::vector<std::uint64_t> sets_of_nodes(const Mesh& mesh) {
-  std::vector<std::uint64_t> sets(mesh.nodes.size(), 0);
-  for (std::size_t k = 0; k < mesh.node_sets.size(); ++k) {
-    for (const int node : mesh.node_sets[k].nodes) sets[node] |= std::uint64_t{1} << k;
+void add_surfaces(const MeshSlice& slice, const Communicator& communicator, PointCloud& cloud) {
+  for (const Face& face : surface_of(slice, communicator)) {
+    const std::size_t point = static_cast<std::size_t>(face.element);
+    if (!slice.mesh.blocks[cloud.blocks[point]].cells.empty()) continue;
+    CellShape& shape = cloud.shapes[point];
+    shape.surface += face.area;
+    shape.surface_moments += face.area * (face.middle(slice.mesh) - cloud.positions[point]).transpose();
   }
-  return sets;
 }
 
-void check_volume(double volume, const Mesh::Block& block, std::size_t number, const std::string& file) {
+void check_volume(double volume, const Mesh::Block& block, std::int64_t element, const std::string& file) {
   if (volume > 0 && std::isfinite(volume)) return;
-  throw Error(file + ": block '" + block.name + "', element " + std::to_string(number) + ": volume " +
+  throw Error(file + ": block '" + block.name + "', element " + std::to_string(element + 1) + ": volume " +
               std::to_string(volume) + " m³, expected a positive one (inside out, flat or damaged?)");
 }
 

@@ -231,50 +231,48 @@ std::vector<ExodusFile::NodeSet> ExodusFile::node_sets() const {
   return sets;
 }
 
-std::array<std::vector<double>, 3> ExodusFile::coordinates() const {
-  const std::int64_t nodes = sizes().nodes;
+std::array<std::vector<double>, 3> ExodusFile::coordinates(std::int64_t begin, std::int64_t count) const {
   std::array<std::vector<double>, 3> x;
-  for (auto& column : x) column.resize(nodes);
-  check(ex_get_coord(handle_, x[0].data(), x[1].data(), x[2].data()), "read the coordinates");
+  for (auto& column : x) column.resize(count);
+  if (count == 0) return x;
+  check(ex_get_partial_coord(handle_, begin + 1, count, x[0].data(), x[1].data(), x[2].data()), "read the coordinates");
   return x;
 }
 
-std::vector<std::int64_t> ExodusFile::connectivity(const Block& block) const {
+std::vector<std::int64_t> ExodusFile::connectivity(const Block& block, std::int64_t begin, std::int64_t count) const {
   // Neither of the two is negative or more than the file has bytes.
   const double entries = static_cast<double>(block.elements) * static_cast<double>(block.nodes_per_element);
   plausible(static_cast<std::int64_t>(std::min(entries, 1e18)), 4,
             "nodes of elements in block " + quoted(block.name, block.id));
-  std::vector<std::int64_t> nodes(block.elements * block.nodes_per_element);
+  std::vector<std::int64_t> nodes(count * block.nodes_per_element);
   if (nodes.empty()) return nodes;
-  check(ex_get_conn(handle_, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+  check(ex_get_partial_conn(handle_, EX_ELEM_BLOCK, block.id, begin + 1, count, nodes.data(), nullptr, nullptr),
         "read the elements of block " + quoted(block.name, block.id));
   return nodes;
 }
 
-std::vector<double> ExodusFile::attribute(const Block& block, int index) const {
-  std::vector<double> values(block.elements);
-  check(ex_get_one_attr(handle_, EX_ELEM_BLOCK, block.id, index + 1, values.data()),
+std::vector<double> ExodusFile::attribute(const Block& block, int index, std::int64_t begin, std::int64_t count) const {
+  std::vector<double> values(count);
+  if (values.empty()) return values;
+  check(ex_get_partial_one_attr(handle_, EX_ELEM_BLOCK, block.id, begin + 1, count, index + 1, values.data()),
         "read the attributes of block " + quoted(block.name, block.id));
   return values;
 }
 
-std::vector<std::int64_t> ExodusFile::nodes_of(const NodeSet& set) const {
-  std::vector<std::int64_t> nodes(set.nodes);
+std::vector<std::int64_t> ExodusFile::nodes_of(const NodeSet& set, std::int64_t begin, std::int64_t count) const {
+  std::vector<std::int64_t> nodes(count);
   if (nodes.empty()) return nodes;
-  check(ex_get_set(handle_, EX_NODE_SET, set.id, nodes.data(), nullptr),
+  check(ex_get_partial_node_set(handle_, set.id, begin + 1, count, nodes.data()),
         "read the nodes of node set " + quoted(set.name, set.id));
   return nodes;
 }
 
-std::vector<std::int64_t> ExodusFile::element_numbers() const {
-  std::vector<std::int64_t> numbers(sizes().elements);
-  check(ex_get_id_map(handle_, EX_ELEM_MAP, numbers.data()), "read the numbers of its elements");
-  return numbers;
-}
-
-std::vector<std::int64_t> ExodusFile::node_numbers() const {
-  std::vector<std::int64_t> numbers(sizes().nodes);
-  check(ex_get_id_map(handle_, EX_NODE_MAP, numbers.data()), "read the numbers of its nodes");
+std::vector<std::int64_t> ExodusFile::numbers(On on, std::int64_t begin, std::int64_t count) const {
+  std::vector<std::int64_t> numbers(count);
+  if (numbers.empty()) return numbers;
+  const bool nodes = on == On::nodes;
+  check(ex_get_partial_id_map(handle_, nodes ? EX_NODE_MAP : EX_ELEM_MAP, begin + 1, count, numbers.data()),
+        std::string("read the numbers of its ") + (nodes ? "nodes" : "elements"));
   return numbers;
 }
 
@@ -301,20 +299,24 @@ std::vector<double> ExodusFile::nodal_values(int step, int variable) const {
   return values;
 }
 
-std::vector<double> ExodusFile::element_values(int step, int variable) const {
-  const std::vector<Block> all = blocks();
+std::vector<double> ExodusFile::element_values(int step, int variable, const Block& block, std::int64_t begin,
+                                               std::int64_t count) const {
   const int variables = static_cast<int>(variable_names(On::elements).size());
-  std::vector<int> defined(plausible(std::ssize(all) * variables, 4, "variables of blocks"));
-  check(ex_get_truth_table(handle_, EX_ELEM_BLOCK, static_cast<int>(all.size()), variables, defined.data()),
-        "read which blocks its variables are defined on");
-  std::vector<double> values(sizes().elements, std::numeric_limits<double>::quiet_NaN());
-  std::int64_t begin = 0;
-  for (std::size_t b = 0; b < all.size(); ++b) {
-    if (all[b].elements > 0 && defined[b * variables + variable] != 0) {
-      check(ex_get_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, all[b].id, all[b].elements, &values[begin]),
-            "read element variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
-    }
-    begin += all[b].elements;
+  std::vector<int> defined(plausible(variables, 4, "variables of a block"));
+  check(ex_get_object_truth_vector(handle_, EX_ELEM_BLOCK, block.id, variables, defined.data()),
+        "read which variables block " + quoted(block.name, block.id) + " has");
+  std::vector<double> values(count, std::numeric_limits<double>::quiet_NaN());
+  if (count == 0 || defined[variable] == 0) return values;
+  check(ex_get_partial_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, block.id, begin + 1, count, values.data()),
+        "read element variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
+  return values;
+}
+
+std::vector<double> ExodusFile::element_values(int step, int variable) const {
+  std::vector<double> values;
+  for (const Block& block : blocks()) {
+    const std::vector<double> of_block = element_values(step, variable, block, 0, block.elements);
+    values.insert(values.end(), of_block.begin(), of_block.end());
   }
   return values;
 }
@@ -396,47 +398,53 @@ void ExodusFile::put_variables(const std::vector<Block>& blocks, const std::vect
         "write which blocks variables are defined on");
 }
 
-void ExodusFile::put_coordinates(const std::array<std::vector<double>, 3>& x) const {
-  check(ex_put_coord(handle_, x[0].data(), x[1].data(), x[2].data()), "write the coordinates");
+void ExodusFile::put_coordinates(const std::array<std::vector<double>, 3>& x, std::int64_t begin) const {
+  const auto count = static_cast<std::int64_t>(x[0].size());
+  check(ex_put_partial_coord(handle_, begin + 1, count, x[0].data(), x[1].data(), x[2].data()),
+        "write the coordinates");
 }
 
-void ExodusFile::put_connectivity(const Block& block, const std::vector<std::int64_t>& nodes) const {
+void ExodusFile::put_connectivity(const Block& block, std::span<const std::int64_t> nodes, std::int64_t begin) const {
   if (nodes.empty()) return;
-  check(ex_put_conn(handle_, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+  const std::int64_t count = std::ssize(nodes) / block.nodes_per_element;
+  check(ex_put_partial_elem_conn(handle_, block.id, begin + 1, count, nodes.data()),
         "write the elements of block " + quoted(block.name, block.id));
 }
 
-void ExodusFile::put_attribute(const Block& block, int index, std::span<const double> values) const {
+void ExodusFile::put_attribute(const Block& block, int index, std::span<const double> values,
+                               std::int64_t begin) const {
   if (values.empty()) return;
-  check(ex_put_one_attr(handle_, EX_ELEM_BLOCK, block.id, index + 1, values.data()),
+  check(ex_put_partial_one_attr(handle_, EX_ELEM_BLOCK, block.id, begin + 1, std::ssize(values), index + 1,
+                                values.data()),
         "write the attributes of block " + quoted(block.name, block.id));
 }
 
-void ExodusFile::put_nodes_of(const NodeSet& set, const std::vector<std::int64_t>& nodes) const {
+void ExodusFile::put_nodes_of(const NodeSet& set, std::span<const std::int64_t> nodes, std::int64_t begin) const {
   if (nodes.empty()) return;
-  check(ex_put_set(handle_, EX_NODE_SET, set.id, nodes.data(), nullptr),
+  check(ex_put_partial_set(handle_, EX_NODE_SET, set.id, begin + 1, std::ssize(nodes), nodes.data(), nullptr),
         "write the nodes of node set " + quoted(set.name, set.id));
 }
 
-void ExodusFile::put_element_numbers(const std::vector<std::int64_t>& numbers) const {
+void ExodusFile::put_element_numbers(std::span<const std::int64_t> numbers, std::int64_t begin) const {
   if (numbers.empty()) return;
-  check(ex_put_id_map(handle_, EX_ELEM_MAP, numbers.data()), "write the numbers of elements");
+  check(ex_put_partial_id_map(handle_, EX_ELEM_MAP, begin + 1, std::ssize(numbers), numbers.data()),
+        "write the numbers of elements");
 }
 
 void ExodusFile::put_time(int step, double time) const {
   check(ex_put_time(handle_, step + 1, &time), "write the time of step " + std::to_string(step + 1));
 }
 
-void ExodusFile::put_nodal_values(int step, int variable, std::span<const double> values) const {
-  check(
-      ex_put_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()), values.data()),
-      "write step " + std::to_string(step + 1));
+void ExodusFile::put_nodal_values(int step, int variable, std::span<const double> values, std::int64_t begin) const {
+  check(ex_put_partial_var(handle_, step + 1, EX_NODAL, variable + 1, 1, begin + 1, std::ssize(values), values.data()),
+        "write step " + std::to_string(step + 1));
 }
 
-void ExodusFile::put_element_values(int step, int variable, const Block& block, std::span<const double> values) const {
+void ExodusFile::put_element_values(int step, int variable, const Block& block, std::span<const double> values,
+                                    std::int64_t begin) const {
   if (values.empty()) return;
-  check(ex_put_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, block.id, static_cast<std::int64_t>(values.size()),
-                   values.data()),
+  check(ex_put_partial_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, block.id, begin + 1, std::ssize(values),
+                           values.data()),
         "write step " + std::to_string(step + 1));
 }
 

@@ -52,33 +52,39 @@ class ExodusFile {
   Sizes sizes() const;
   std::vector<Block> blocks() const;
   std::vector<NodeSet> node_sets() const;
-  std::array<std::vector<double>, 3> coordinates() const;
-  std::vector<std::int64_t> connectivity(const Block& block) const;  // node numbers from 1, element by element
-  std::vector<double> attribute(const Block& block, int index) const;
-  std::vector<std::int64_t> nodes_of(const NodeSet& set) const;  // node numbers from 1
-  std::vector<std::int64_t> element_numbers() const;             // the file's map, else 1, 2, …
-  std::vector<std::int64_t> node_numbers() const;                // the same for nodes
+  // Parts of what may be large: `count` entries from number `begin` on.
+  std::array<std::vector<double>, 3> coordinates(std::int64_t begin, std::int64_t count) const;
+  // Node numbers from 1, element by element.
+  std::vector<std::int64_t> connectivity(const Block& block, std::int64_t begin, std::int64_t count) const;
+  std::vector<double> attribute(const Block& block, int index, std::int64_t begin, std::int64_t count) const;
+  std::vector<std::int64_t> nodes_of(const NodeSet& set, std::int64_t begin, std::int64_t count) const;  // from 1
+  // The file's map of elements or nodes, else 1, 2, …
+  std::vector<std::int64_t> numbers(On on, std::int64_t begin, std::int64_t count) const;
   std::vector<double> times() const;
   std::vector<std::string> variable_names(On on) const;
   std::vector<double> nodal_values(int step, int variable) const;
-  // NaN for elements of blocks on which the variable is not defined.
+  // NaN for elements of blocks on which the variable is not defined. Of one block, or of all.
+  std::vector<double> element_values(int step, int variable, const Block& block, std::int64_t begin,
+                                     std::int64_t count) const;
   std::vector<double> element_values(int step, int variable) const;
 
-  // Writing, in the order of these lines: what defines the layout before what fills it.
+  // Writing, in the order of these lines: what defines the layout before what fills it, entry by entry from number
+  // `begin` on.
   void put_sizes(const std::string& title, const Sizes& sizes) const;
   void put_provenance() const;  // program, version, date
   void put_blocks(const std::vector<Block>& blocks) const;
   void put_node_sets(const std::vector<NodeSet>& sets) const;
   void put_variables(const std::vector<Block>& blocks, const std::vector<std::string>& nodal,
                      const std::vector<std::string>& element) const;
-  void put_coordinates(const std::array<std::vector<double>, 3>& coordinates) const;
-  void put_connectivity(const Block& block, const std::vector<std::int64_t>& nodes) const;
-  void put_attribute(const Block& block, int index, std::span<const double> values) const;
-  void put_nodes_of(const NodeSet& set, const std::vector<std::int64_t>& nodes) const;
-  void put_element_numbers(const std::vector<std::int64_t>& numbers) const;
+  void put_coordinates(const std::array<std::vector<double>, 3>& coordinates, std::int64_t begin = 0) const;
+  void put_connectivity(const Block& block, std::span<const std::int64_t> nodes, std::int64_t begin = 0) const;
+  void put_attribute(const Block& block, int index, std::span<const double> values, std::int64_t begin = 0) const;
+  void put_nodes_of(const NodeSet& set, std::span<const std::int64_t> nodes, std::int64_t begin = 0) const;
+  void put_element_numbers(std::span<const std::int64_t> numbers, std::int64_t begin = 0) const;
   void put_time(int step, double time) const;
-  void put_nodal_values(int step, int variable, std::span<const double> values) const;
-  void put_element_values(int step, int variable, const Block& block, std::span<const double> values) const;
+  void put_nodal_values(int step, int variable, std::span<const double> values, std::int64_t begin = 0) const;
+  void put_element_values(int step, int variable, const Block& block, std::span<const double> values,
+                          std::int64_t begin = 0) const;
   void flush() const;
 
  private:

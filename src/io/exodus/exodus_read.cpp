@@ -1,12 +1,12 @@
-// A file's mesh to the material points of all ranks.
+// A file's mesh to the material points of all ranks: no rank has more of it than a slice.
+#include <algorithm>
+#include <optional>
+
 #include "base/errors.hpp"
-#include "base/parallel/communicator.hpp"
-#include "io/distribute.hpp"
-#include "io/exodus/exodus.hpp"
-#include "io/exodus/exodus_file.hpp"
 #include "io/exodus/mesh_points.hpp"
-#include "io/exodus/mesh_read.hpp"
 #include "io/netcdf/trial_read.hpp"
+#include "io/on_root.hpp"
+#include "io/slices.hpp"
 
 namespace strut::io {
 
@@ -14,17 +14,90 @@ namespace {
 
 constexpr std::size_t most_sets = 64;  // one bit each
 
-PointCloud read_cloud(const std::filesystem::path& path, PointsAt at, bool with_cells) {
-  const ExodusFile file = ExodusFile::open(path);
+MeshFile opened(const std::filesystem::path& path) {
+  try_in_child_process(path, [&path] { read_through(MeshFile(ExodusFile::open(path))); });
+  ExodusFile file = ExodusFile::open(path);
   const std::size_t sets = file.node_sets().size();
   if (sets > most_sets) {
     throw Error(path.string() + ": " + std::to_string(sets) + " node sets, at most " + std::to_string(most_sets) +
                 " are supported");
   }
-  const Mesh mesh = mesh_of(file);
-  if (at == PointsAt::nodes) return points_at_nodes(mesh, file.node_numbers(), path.string(), with_cells);
-  PointCloud cloud = points_at_elements(mesh, path.string(), with_cells);
-  cloud.element_ids = file.element_numbers();
+  return MeshFile(std::move(file));
+}
+
+// The error of the first rank that has one, on all ranks.
+template <class Action>
+PointCloud on_all_ranks(const Communicator& communicator, const Action& action) {
+  PointCloud cloud;
+  std::string problem;
+  try {
+    cloud = action();
+  } catch (const Error& error) {
+    problem = error.what();
+  }
+  const double first = communicator.min(problem.empty() ? communicator.size() : communicator.rank());
+  raise_together(communicator, communicator.rank() == first ? problem : "");
+  return cloud;
+}
+
+// Collective. Of this rank's slice of what the file has.
+std::vector<std::int64_t> numbers_of(const std::optional<MeshFile>& file, ExodusFile::On on, std::int64_t total,
+                                     const Communicator& communicator) {
+  OnRoot on_root(communicator);
+  auto mine = deal<std::int64_t>(
+      communicator, slice_counts(total, communicator.size()),
+      [&](std::int64_t begin, std::span<std::int64_t> values) { on_root([&] { file->numbers(on, begin, values); }); });
+  on_root.raise();
+  return mine;
+}
+
+void check_elements_have_nodes(const MeshLayout& layout, const std::string& file) {
+  for (const MeshLayout::Block& block : layout.blocks) {
+    if (block.partly_filled) {
+      throw Error(file + ": block '" + block.name + "' has elements that are partly filled (attribute " +
+                  partial_cell_attributes[0] + " and others); its points can only be at elements");
+    }
+    if (block.type == "SPHERE" && block.elements > 0) {
+      throw Error(file + ": block '" + block.name +
+                  "' has spheres; points at nodes need hexahedra (HEX8) or tetrahedra (TET4), points at elements "
+                  "may be any of the three");
+    }
+  }
+}
+
+// Collective. A block all of whose nodes belong to blocks before it would be gone without a word.
+void check_blocks_have_points(const PointCloud& cloud, const std::string& file, const Communicator& communicator) {
+  std::vector<double> found(cloud.block_names.size(), 0);
+  for (const int block : cloud.blocks) found[block] = 1;
+  communicator.max(found);
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b] > 0) continue;
+    throw Error(
+        file + ": block '" + cloud.block_names[b] +
+        "' would have no point: all its nodes belong to blocks before it. Put it first in the file, refine it, or "
+        "use Points \"Elements\"");
+  }
+}
+
+PointCloud at_nodes(const std::optional<MeshFile>& file, const MeshLayout& layout, const std::string& name,
+                    bool with_cells, const Communicator& communicator) {
+  check_elements_have_nodes(layout, name);
+  const MeshSlice slice = elements_around_slice(file ? &*file : nullptr, layout, communicator);
+  const auto numbers = numbers_of(file, ExodusFile::On::nodes, layout.nodes, communicator);
+  const std::int64_t begin = slice_begin(layout.nodes, communicator.size(), communicator.rank());
+  PointCloud cloud = on_all_ranks(communicator, [&] {
+    return points_at_nodes(slice, {begin, begin + std::ssize(numbers)}, numbers, name, with_cells);
+  });
+  check_blocks_have_points(cloud, name, communicator);
+  return cloud;
+}
+
+PointCloud at_elements(const std::optional<MeshFile>& file, const MeshLayout& layout, const std::string& name,
+                       bool with_cells, const Communicator& communicator) {
+  const MeshSlice slice = slice_of_elements(file ? &*file : nullptr, layout, communicator);
+  PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells); });
+  if (with_cells) add_surfaces(slice, communicator, cloud);
+  cloud.element_ids = numbers_of(file, ExodusFile::On::elements, layout.elements, communicator);
   return cloud;
 }
 
@@ -32,9 +105,15 @@ PointCloud read_cloud(const std::filesystem::path& path, PointsAt at, bool with_
 
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator, PointsAt at,
                        bool with_cells) {
-  PointCloud whole;
-  run_on_root(communicator, [&] { whole = read_after_trial(file, [&] { return read_cloud(file, at, with_cells); }); });
-  return distribute(whole, communicator);
+  std::optional<MeshFile> mesh;
+  run_on_root(communicator, [&] { mesh.emplace(opened(file)); });
+  const MeshLayout layout = broadcast_layout(mesh ? mesh->layout() : MeshLayout(), communicator);
+  PointCloud cloud =
+      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, file.string(), with_cells, communicator);
+  const auto alone = [](const std::vector<std::int64_t>& joints) { return joints.empty(); };
+  const bool any_alone = std::any_of(cloud.joints.begin(), cloud.joints.end(), alone);
+  cloud.joined = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
+  return cloud;
 }
 
 }  // namespace strut::io

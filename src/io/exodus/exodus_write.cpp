@@ -1,8 +1,7 @@
-// Results: one file, whatever the number of ranks. Columns come to rank 0 in rank order and are put in the file's order
-// there, so the file does not depend on the partition.
+// Results: one file, whatever the number of ranks. Columns go into the file's order in slices, a slice on each rank,
+// and from there to rank 0 in portions: the file does not depend on the partition, and no rank has all of a column.
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <optional>
 
 #include "base/errors.hpp"
@@ -14,6 +13,7 @@
 #include "io/file_lock.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/on_root.hpp"
+#include "io/slices.hpp"
 #include "io/to_disk.hpp"
 
 namespace strut::io {
@@ -42,70 +42,62 @@ std::vector<std::string> component_names(const OutputField& field) {
   return suffixes;
 }
 
-// All points, on rank 0: what the layout of the file needs.
-struct Gathered {
-  std::vector<std::int64_t> ids, element_ids;
-  std::vector<double> positions, volumes;
-  std::vector<int> blocks;
-  std::vector<std::uint64_t> sets;
-
-  Gathered(const PointCloud& cloud, const Communicator& communicator) {
-    const auto column = [&]<class T>(const std::vector<T>& values) {
-      return communicator.gather(std::span<const T>(values));
-    };
-    ids = column(cloud.ids);
-    element_ids = column(cloud.element_ids);
-    volumes = column(cloud.volumes);
-    blocks = column(cloud.blocks);
-    sets = column(cloud.sets);
-    std::vector<double> xyz;
-    for (const Vector& x : cloud.positions) xyz.insert(xyz.end(), x.data(), x.data() + 3);
-    positions = column(xyz);
-  }
-};
-
 }  // namespace
 
 struct ExodusWriter::File {
   const Communicator communicator;
   const std::vector<OutputField> fields;
   const std::size_t points;  // of this rank
+  const Slices slices;       // nodes are in their order; elements too, block by block
 
   std::optional<FileLock> lock;  // until the file is closed
 
-  // On rank 0 only. The orders hold places in the gathered columns.
-  std::optional<ExodusFile> exodus;
-  std::vector<std::size_t> node_order;     // by id
-  std::vector<std::size_t> element_order;  // by block, then by id
-  std::vector<std::int64_t> node_of;       // gathered place -> number of its node, from 1
-  std::vector<ExodusFile::Block> blocks;
-  std::vector<double> buffer;
+  std::optional<ExodusFile> exodus;       // on rank 0 only
+  std::vector<ExodusFile::Block> blocks;  // the same on all ranks
+  std::vector<std::vector<int>> places;   // in this rank's slice, of the elements of each block
   int steps = 0;
 
   File(const Communicator& comm, const PointCloud& cloud, std::vector<OutputField> output)
-      : communicator(comm), fields(std::move(output)), points(cloud.size()) {}
+      : communicator(comm), fields(std::move(output)), points(cloud.size()), slices(comm, cloud.ids) {}
 
-  void begin(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all);
-  void create(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all);
+  void begin(const std::filesystem::path& path, const PointCloud& cloud);
+  void create(const std::filesystem::path& path, const PointCloud& cloud);
   void go_on(const std::filesystem::path& path);
   std::array<std::vector<std::string>, 2> names() const;  // of variables: element, nodal
-  void order(const Gathered& all);
-  void define_blocks(const PointCloud& cloud, const Gathered& all);
-  void write_elements(const Gathered& all);
-  void write_node_sets(const std::vector<ExodusFile::NodeSet>& sets, const Gathered& all);
-  std::vector<ExodusFile::NodeSet> node_sets(const PointCloud& cloud, const Gathered& all) const;
+  void define_blocks(const PointCloud& cloud);
+  void define(const std::filesystem::path& path, const std::vector<ExodusFile::NodeSet>& sets);
+  void write_nodes(const PointCloud& cloud, OnRoot& on_root);
+  void write_elements(const PointCloud& cloud, OnRoot& on_root);
+  std::vector<std::int64_t> nodes_of_set(const std::vector<std::uint64_t>& sets, std::size_t set) const;
 
   std::string size_problem(std::span<const std::vector<double>> columns) const;
-  void write_nodal(int variable, std::span<const double> column, int components, int component);
-  void write_element(int variable, std::span<const double> column, int components, int component);
+  void write_nodal(int variable, const std::vector<double>& values, OnRoot& on_root);
+  void write_element(int variable, const std::vector<double>& values, OnRoot& on_root);
+
+  // Collective. put(portion, number of its first value) on rank 0, for the values of all ranks in their order.
+  template <class T, class Put>
+  void in_portions(const std::vector<T>& mine, OnRoot& on_root, const Put& put) const {
+    std::int64_t begin = 0;
+    collect<T>(communicator, mine, [&](std::span<const T> portion) {
+      on_root([&] { put(portion, begin); });
+      begin += std::ssize(portion);
+    });
+  }
+  template <class T>
+  std::vector<T> of_block(std::size_t block, const std::vector<T>& of_slice) const {
+    std::vector<T> values;
+    values.reserve(places[block].size());
+    for (const int place : places[block]) values.push_back(of_slice[place]);
+    return values;
+  }
 };
 
-void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all) {
-  if (all.ids.empty()) throw Error(path.string() + ": there are no points to write");
-  order(all);
-  define_blocks(cloud, all);
-  lock.emplace(path, steps > 0 ? FileLock::File::there : FileLock::File::made);
-  steps > 0 ? go_on(path) : create(path, cloud, all);
+void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud) {
+  if (slices.size() == 0) throw Error(path.string() + ": there are no points to write");
+  define_blocks(cloud);
+  run_on_root(communicator, [&] { lock.emplace(path, steps > 0 ? FileLock::File::there : FileLock::File::made); });
+  if (steps == 0) return create(path, cloud);
+  run_on_root(communicator, [&] { go_on(path); });
 }
 
 std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
@@ -121,7 +113,7 @@ void ExodusWriter::File::go_on(const std::filesystem::path& path) {
   const auto [element, nodal] = names();
   const bool fits = [&] {
     const ExodusFile found = ExodusFile::open(path);
-    return found.sizes().nodes == std::ssize(node_order) && std::ssize(found.times()) >= steps &&
+    return found.sizes().nodes == slices.size() && std::ssize(found.times()) >= steps &&
            found.variable_names(ExodusFile::On::elements) == element &&
            found.variable_names(ExodusFile::On::nodes) == nodal;
   }();
@@ -134,84 +126,92 @@ void ExodusWriter::File::go_on(const std::filesystem::path& path) {
 }
 
 // The layout first, then what fills it: the library would move what is there if the layout grew.
-void ExodusWriter::File::create(const std::filesystem::path& path, const PointCloud& cloud, const Gathered& all) {
-  const auto [element, nodal] = names();
-  const std::vector<ExodusFile::NodeSet> sets = node_sets(cloud, all);
-  const auto count = static_cast<std::int64_t>(all.ids.size());
+void ExodusWriter::File::create(const std::filesystem::path& path, const PointCloud& cloud) {
+  const std::vector<std::uint64_t> bits = slices.to_slices(std::span(cloud.sets));
+  const std::vector<std::int64_t> numbers = numbers_of(cloud.set_names, "nodelist_");
+  std::vector<ExodusFile::NodeSet> sets;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto has = [k](std::uint64_t of_point) { return (of_point >> k & 1) != 0; };
+    const auto size = static_cast<std::int64_t>(std::count_if(bits.begin(), bits.end(), has));
+    sets.push_back({numbers[k], cloud.set_names[k], communicator.sum(size)});
+  }
+  run_on_root(communicator, [&] { define(path, sets); });
+  OnRoot on_root(communicator);
+  write_nodes(cloud, on_root);
+  write_elements(cloud, on_root);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    in_portions(nodes_of_set(bits, k), on_root,
+                [&](const auto& nodes, std::int64_t first) { exodus->put_nodes_of(sets[k], nodes, first); });
+  }
+  on_root([&] { exodus->flush(); });
+  on_root.raise();
+}
 
+void ExodusWriter::File::define(const std::filesystem::path& path, const std::vector<ExodusFile::NodeSet>& sets) {
+  const auto [element, nodal] = names();
   exodus.emplace(ExodusFile::create(path));
-  exodus->put_sizes("strut", {3, count, count, std::ssize(blocks), std::ssize(sets)});
+  exodus->put_sizes("strut", {3, slices.size(), slices.size(), std::ssize(blocks), std::ssize(sets)});
   exodus->put_provenance();
   exodus->put_blocks(blocks);
   exodus->put_node_sets(sets);
   exodus->put_variables(blocks, nodal, element);
-  write_elements(all);
-  write_node_sets(sets, all);
-  exodus->flush();
 }
 
-void ExodusWriter::File::order(const Gathered& all) {
-  node_order.resize(all.ids.size());
-  std::iota(node_order.begin(), node_order.end(), 0);
-  std::sort(node_order.begin(), node_order.end(), [&](auto a, auto b) { return all.ids[a] < all.ids[b]; });
-  element_order = node_order;
-  std::stable_sort(element_order.begin(), element_order.end(),
-                   [&](auto a, auto b) { return all.blocks[a] < all.blocks[b]; });
-  node_of.resize(all.ids.size());
-  for (std::size_t n = 0; n < node_order.size(); ++n) node_of[node_order[n]] = static_cast<std::int64_t>(n + 1);
-}
-
-void ExodusWriter::File::define_blocks(const PointCloud& cloud, const Gathered& all) {
+void ExodusWriter::File::define_blocks(const PointCloud& cloud) {
+  const std::vector<int> of_slice = slices.to_slices(std::span(cloud.blocks));
+  places.resize(cloud.block_names.size());
+  for (std::size_t n = 0; n < of_slice.size(); ++n) places.at(of_slice[n]).push_back(static_cast<int>(n));
   const std::vector<std::int64_t> numbers = numbers_of(cloud.block_names, "block_");
   for (std::size_t b = 0; b < numbers.size(); ++b) {
-    blocks.push_back({numbers[b], cloud.block_names[b], "SPHERE", 0, 1, {"radius", "volume"}});
+    const std::int64_t elements = communicator.sum(std::ssize(places[b]));
+    blocks.push_back({numbers[b], cloud.block_names[b], "SPHERE", elements, 1, {"radius", "volume"}});
   }
-  for (const int block : all.blocks) ++blocks.at(block).elements;
 }
 
-void ExodusWriter::File::write_elements(const Gathered& all) {
-  std::array<std::vector<double>, 3> x;
-  for (int k = 0; k < 3; ++k) {
-    for (const std::size_t place : node_order) x[k].push_back(all.positions[3 * place + k]);
-  }
-  exodus->put_coordinates(x);
-  std::vector<std::int64_t> numbers;
-  for (const std::size_t place : element_order) numbers.push_back(all.element_ids[place]);
-  exodus->put_element_numbers(numbers);
+void ExodusWriter::File::write_nodes(const PointCloud& cloud, OnRoot& on_root) {
+  using Place = std::array<double, 3>;  // as it travels
+  std::vector<Place> mine;
+  for (const Vector& X : cloud.positions) mine.push_back({X[0], X[1], X[2]});
+  in_portions(slices.to_slices(std::span<const Place>(mine)), on_root,
+              [this](std::span<const Place> portion, std::int64_t first) {
+                std::array<std::vector<double>, 3> x;
+                for (const Place& place : portion) {
+                  for (int k = 0; k < 3; ++k) x[k].push_back(place[k]);
+                }
+                exodus->put_coordinates(x, first);
+              });
+}
 
-  auto place = element_order.begin();
-  for (const ExodusFile::Block& block : blocks) {
+void ExodusWriter::File::write_elements(const PointCloud& cloud, OnRoot& on_root) {
+  const std::vector<std::int64_t> numbers = slices.to_slices(std::span(cloud.element_ids));
+  const std::vector<double> volumes = slices.to_slices(std::span(cloud.volumes));
+  std::int64_t before = 0;  // elements of the blocks before
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    in_portions(of_block(b, numbers), on_root,
+                [&](const auto& portion, std::int64_t first) { exodus->put_element_numbers(portion, before + first); });
+    before += blocks[b].elements;
     std::vector<std::int64_t> nodes;
-    std::vector<double> radii, volumes;
-    for (std::int64_t e = 0; e < block.elements; ++e, ++place) {
-      nodes.push_back(node_of[*place]);
-      volumes.push_back(all.volumes[*place]);
-      radii.push_back(sphere_radius(volumes.back()));
-    }
-    exodus->put_connectivity(block, nodes);
-    exodus->put_attribute(block, 0, radii);
-    exodus->put_attribute(block, 1, volumes);
+    for (const int place : places[b]) nodes.push_back(slices.first() + place + 1);
+    in_portions(nodes, on_root,
+                [&](const auto& portion, std::int64_t first) { exodus->put_connectivity(blocks[b], portion, first); });
+    in_portions(of_block(b, volumes), on_root, [&](const auto& portion, std::int64_t first) {
+      std::vector<double> radii(portion.begin(), portion.end());
+      std::transform(radii.begin(), radii.end(), radii.begin(), sphere_radius);
+      exodus->put_attribute(blocks[b], 0, radii, first);
+      exodus->put_attribute(blocks[b], 1, portion, first);
+    });
   }
 }
 
-std::vector<ExodusFile::NodeSet> ExodusWriter::File::node_sets(const PointCloud& cloud, const Gathered& all) const {
-  const std::vector<std::int64_t> numbers = numbers_of(cloud.set_names, "nodelist_");
-  std::vector<ExodusFile::NodeSet> sets;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const auto size = std::count_if(all.sets.begin(), all.sets.end(), [&](auto bits) { return bits >> k & 1; });
-    sets.push_back({numbers[k], cloud.set_names[k], size});
+std::vector<std::int64_t> ExodusWriter::File::nodes_of_set(const std::vector<std::uint64_t>& sets,
+                                                           std::size_t set) const {
+  std::vector<std::int64_t> nodes;
+  std::int64_t node = slices.first();
+  for (const std::uint64_t bits : sets) {
+    ++node;
+    if (bits >> set & 1) nodes.push_back(node);
   }
-  return sets;
-}
-
-void ExodusWriter::File::write_node_sets(const std::vector<ExodusFile::NodeSet>& sets, const Gathered& all) {
-  for (std::size_t k = 0; k < sets.size(); ++k) {
-    std::vector<std::int64_t> nodes;
-    for (const std::size_t place : node_order) {
-      if (all.sets[place] >> k & 1) nodes.push_back(node_of[place]);
-    }
-    exodus->put_nodes_of(sets[k], nodes);
-  }
+  return nodes;
 }
 
 std::string ExodusWriter::File::size_problem(std::span<const std::vector<double>> columns) const {
@@ -227,17 +227,17 @@ std::string ExodusWriter::File::size_problem(std::span<const std::vector<double>
   return "";
 }
 
-void ExodusWriter::File::write_nodal(int variable, std::span<const double> column, int components, int component) {
-  for (std::size_t n = 0; n < buffer.size(); ++n) buffer[n] = column[node_order[n] * components + component];
-  exodus->put_nodal_values(steps, variable, buffer);
+void ExodusWriter::File::write_nodal(int variable, const std::vector<double>& values, OnRoot& on_root) {
+  in_portions(values, on_root, [&](const auto& portion, std::int64_t first) {
+    exodus->put_nodal_values(steps, variable, portion, first);
+  });
 }
 
-void ExodusWriter::File::write_element(int variable, std::span<const double> column, int components, int component) {
-  for (std::size_t e = 0; e < buffer.size(); ++e) buffer[e] = column[element_order[e] * components + component];
-  std::size_t begin = 0;
-  for (const ExodusFile::Block& block : blocks) {
-    exodus->put_element_values(steps, variable, block, std::span<const double>(buffer).subspan(begin, block.elements));
-    begin += block.elements;
+void ExodusWriter::File::write_element(int variable, const std::vector<double>& values, OnRoot& on_root) {
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    in_portions(of_block(b, values), on_root, [&](const auto& portion, std::int64_t first) {
+      exodus->put_element_values(steps, variable, blocks[b], portion, first);
+    });
   }
 }
 
@@ -245,9 +245,7 @@ ExodusWriter::ExodusWriter(const std::filesystem::path& file, const Communicator
                            std::vector<OutputField> fields, int frames)
     : file_(std::make_unique<File>(communicator, cloud, std::move(fields))) {
   file_->steps = frames;
-  const Gathered all(cloud, communicator);
-  run_on_root(communicator, [&] { file_->begin(file, cloud, all); });
-  file_->buffer.resize(all.ids.size());
+  file_->begin(file, cloud);
 }
 
 ExodusWriter::~ExodusWriter() = default;
@@ -267,13 +265,10 @@ void ExodusWriter::write(double time, std::span<const std::vector<double>> colum
   std::array<int, 2> variable = {0, 0};  // element, nodal
   for (std::size_t k = 0; k < file_->fields.size(); ++k) {
     const OutputField& field = file_->fields[k];
-    const std::vector<double> column = communicator.gather(std::span<const double>(columns[k]));
     for (int c = 0; c < field.components; ++c) {
       const int v = variable[field.nodal]++;
-      on_root([&] {
-        field.nodal ? file_->write_nodal(v, column, field.components, c)
-                    : file_->write_element(v, column, field.components, c);
-      });
+      const auto values = file_->slices.to_slices(std::span(columns[k]), field.components, c);
+      field.nodal ? file_->write_nodal(v, values, on_root) : file_->write_element(v, values, on_root);
     }
   }
   on_root([&] { file_->exodus->flush(); });

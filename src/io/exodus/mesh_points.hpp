@@ -1,23 +1,27 @@
-// A mesh in memory to material points, all of them on one rank.
+// The part of a mesh that a rank has, to material points.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "io/exodus/exodus.hpp"
+#include "io/exodus/mesh_slice.hpp"
 
 namespace strut::io {
 
-// A point for each element, at its centroid. `file`: the mesh's name, for errors. Throws Error: see read_exodus.
-PointCloud points_at_elements(const Mesh& mesh, const std::string& file, bool with_cells);
+// A point for each element, at its centroid; their surfaces are missing yet. `file`: the mesh's name, for errors.
+// Throws Error on this rank: see read_exodus.
+PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells);
+// Collective. The surfaces of the shapes of those points, but of cells, which bring their own.
+void add_surfaces(const MeshSlice& slice, const Communicator& communicator, PointCloud& cloud);
 
-// A point for each node that an element uses; `numbers`: the mesh's own, of all nodes. Throws Error: see read_exodus.
-PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file,
-                           bool with_cells);
-
-// Bit k of a node: it is in set k.
-std::vector<std::uint64_t> sets_of_nodes(const Mesh& mesh);
+// A point for each node of `own` that an element uses: nodes around which the slice has all elements. `numbers`: the
+// mesh's own, of these. Throws Error on this rank: see read_exodus.
+struct NodeRange {
+  std::int64_t begin, end;  // places in the file
+};
+PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
+                           const std::string& file, bool with_cells);
 
 // The nodes of an element of `size` nodes.
 template <std::size_t size>
@@ -27,7 +31,7 @@ std::array<Vector, size> corners(const Mesh& mesh, const Mesh::Block& block, std
   return nodes;
 }
 
-// Throws Error where the volume (m³) is not positive. `number`: the element's place in the file, from 1.
-void check_volume(double volume, const Mesh::Block& block, std::size_t number, const std::string& file);
+// Throws Error where the volume (m³) is not positive. `element`: its place in the file.
+void check_volume(double volume, const Mesh::Block& block, std::int64_t element, const std::string& file);
 
 }  // namespace strut::io

@@ -1,11 +1,12 @@
-// A file's mesh to memory: all indices within range, coordinates finite.
 #include "io/exodus/mesh_read.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 
 #include "base/errors.hpp"
+#include "base/parallel/portions.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/netcdf/trial_read.hpp"
 
@@ -27,118 +28,160 @@ std::string type_of(const ExodusFile::Block& block) {
   return "";
 }
 
-class Reader {
- public:
-  explicit Reader(const ExodusFile& file) : file_(file) {}
-
-  Mesh read() {
-    check_sizes();
-    read_nodes();
-    read_sets();
-    const std::vector<ExodusFile::Block> blocks = file_.blocks();
-    std::int64_t elements = 0;
-    for (const ExodusFile::Block& block : blocks) elements += block.elements;
-    if (elements != file_.sizes().elements) fail("its blocks do not hold the number of elements that it states");
-    for (const ExodusFile::Block& block : blocks) read_block(block);
-    return std::move(mesh_);
+// Where the attributes of cells are. None where not all of them are there: other codes have attributes of their own.
+std::vector<int> cell_columns(const ExodusFile::Block& block) {
+  std::vector<int> columns;
+  for (const char* name : partial_cell_attributes) {
+    const auto found = std::find(block.attributes.begin(), block.attributes.end(), name);
+    if (found == block.attributes.end()) return {};
+    columns.push_back(static_cast<int>(found - block.attributes.begin()));
   }
+  return columns;
+}
 
- private:
-  [[noreturn]] void fail(const std::string& what) const { throw Error(file_.path().string() + ": " + what); }
+}  // namespace
 
-  void check_sizes() const {
-    const ExodusFile::Sizes sizes = file_.sizes();
-    if (sizes.dimensions != 3) fail("the mesh has " + std::to_string(sizes.dimensions) + " dimensions, expected 3");
-    if (sizes.elements < 1 || sizes.blocks < 1) fail("the mesh has no elements");
-    if (sizes.nodes > std::numeric_limits<int>::max()) fail("more than 2·10⁹ nodes are not supported");
+MeshFile::MeshFile(ExodusFile file) : file_(std::move(file)) {
+  check_sizes();
+  layout_.nodes = file_.sizes().nodes;
+  layout_.elements = file_.sizes().elements;
+  sets_ = file_.node_sets();
+  for (const ExodusFile::NodeSet& set : sets_) {
+    layout_.node_sets.push_back({set.name.empty() ? "nodelist_" + std::to_string(set.id) : set.name, set.nodes});
   }
+  take_blocks();
+}
 
-  void read_nodes() {
-    const auto x = file_.coordinates();
-    mesh_.nodes.reserve(x[0].size());
-    for (std::size_t n = 0; n < x[0].size(); ++n) {
-      mesh_.nodes.emplace_back(x[0][n], x[1][n], x[2][n]);
-      if (!mesh_.nodes.back().allFinite()) {
-        fail("node " + std::to_string(n + 1) + ": a coordinate is not a finite number");
-      }
-    }
-  }
+void MeshFile::fail(const std::string& what) const { throw Error(file_.path().string() + ": " + what); }
 
-  std::vector<int> indices(const std::vector<std::int64_t>& numbers, const std::string& user) const {
-    std::vector<int> nodes;
-    nodes.reserve(numbers.size());
-    for (const std::int64_t number : numbers) {
-      if (number < 1 || number > std::ssize(mesh_.nodes)) {
-        fail(user + " refers to node " + std::to_string(number) + " of " + std::to_string(mesh_.nodes.size()) +
-             " (damaged file?)");
-      }
-      nodes.push_back(static_cast<int>(number - 1));
-    }
-    return nodes;
-  }
+void MeshFile::check_sizes() const {
+  const ExodusFile::Sizes sizes = file_.sizes();
+  if (sizes.dimensions != 3) fail("the mesh has " + std::to_string(sizes.dimensions) + " dimensions, expected 3");
+  if (sizes.elements < 1 || sizes.blocks < 1) fail("the mesh has no elements");
+  if (sizes.nodes > std::numeric_limits<int>::max()) fail("more than 2·10⁹ nodes are not supported");
+}
 
-  void read_sets() {
-    for (const ExodusFile::NodeSet& set : file_.node_sets()) {
-      const std::string name = set.name.empty() ? "nodelist_" + std::to_string(set.id) : set.name;
-      mesh_.node_sets.push_back({name, indices(file_.nodes_of(set), "node set '" + name + "'")});
-    }
-  }
-
-  void read_block(const ExodusFile::Block& block) {
+void MeshFile::take_blocks() {
+  blocks_ = file_.blocks();
+  std::int64_t elements = 0;
+  for (const ExodusFile::Block& block : blocks_) elements += block.elements;
+  if (elements != layout_.elements) fail("its blocks do not hold the number of elements that it states");
+  for (const ExodusFile::Block& block : blocks_) {
     const std::string name = block.name.empty() ? "block_" + std::to_string(block.id) : block.name;
     const std::string type = type_of(block);
     if (type.empty() && block.elements > 0) {
       fail("block '" + name + "': element type " + block.type + " with " + std::to_string(block.nodes_per_element) +
            " nodes is not supported, expected HEX8, TET4 or SPHERE");
     }
-    mesh_.blocks.push_back({name, type.empty() ? "SPHERE" : type, {}, {}, {}});
-    if (block.elements == 0) return;
-    mesh_.blocks.back().nodes = indices(file_.connectivity(block), "block '" + name + "'");
-    if (type == "SPHERE") mesh_.blocks.back().volumes = sphere_volumes(block);
-    if (type == "HEX8") mesh_.blocks.back().cells = partial_cells(block);
-    elements_ += block.elements;
+    cell_columns_.push_back(type == "HEX8" ? cell_columns(block) : std::vector<int>());
+    layout_.blocks.push_back({name, type.empty() ? "SPHERE" : type, block.elements, !cell_columns_.back().empty()});
   }
+}
 
-  // None where not all of their attributes are there: other codes have attributes of their own.
-  std::vector<PartialCell> partial_cells(const ExodusFile::Block& block) const {
-    std::vector<int> columns;
-    for (const char* name : partial_cell_attributes) {
-      const auto found = std::find(block.attributes.begin(), block.attributes.end(), name);
-      if (found == block.attributes.end()) return {};
-      columns.push_back(static_cast<int>(found - block.attributes.begin()));
+void MeshFile::places(std::int64_t begin, std::span<Place> values) const {
+  const auto x = file_.coordinates(begin, std::ssize(values));
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    values[n] = {x[0][n], x[1][n], x[2][n]};
+    if (!std::all_of(values[n].begin(), values[n].end(), [](double c) { return std::isfinite(c); })) {
+      fail("node " + std::to_string(begin + static_cast<std::int64_t>(n) + 1) +
+           ": a coordinate is not a finite number");
     }
-    std::vector<PartialCell> cells(block.elements);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const std::vector<double> values = file_.attribute(block, columns[k]);
-      for (std::size_t e = 0; e < cells.size(); ++e) member(cells[e], k) = values[e];
-    }
-    return cells;
   }
+}
 
-  // Attributes radius and volume, or the radius alone; results of other codes hold an element variable instead.
-  std::vector<double> sphere_volumes(const ExodusFile::Block& block) const {
-    if (block.attributes.size() >= 2) return file_.attribute(block, 1);
-    if (block.attributes.size() == 1) {
-      std::vector<double> values = file_.attribute(block, 0);
-      std::transform(values.begin(), values.end(), values.begin(), sphere_volume);
-      return values;
+void MeshFile::take_indices(const std::vector<std::int64_t>& numbers, const std::string& user,
+                            std::span<int> nodes) const {
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (numbers[n] < 1 || numbers[n] > layout_.nodes) {
+      fail(user + " refers to node " + std::to_string(numbers[n]) + " of " + std::to_string(layout_.nodes) +
+           " (damaged file?)");
     }
-    const std::vector<std::string> names = file_.variable_names(ExodusFile::On::elements);
-    const auto variable = std::find(names.begin(), names.end(), "Volume");
-    if (variable == names.end() || file_.times().empty()) {
-      fail("block '" + mesh_.blocks.back().name +
-           "': its spheres have no volume, expected the attributes radius and volume (or an element variable Volume)");
-    }
-    const std::vector<double> all = file_.element_values(0, static_cast<int>(variable - names.begin()));
-    return {all.begin() + elements_, all.begin() + elements_ + block.elements};
+    nodes[n] = static_cast<int>(numbers[n] - 1);
   }
+}
 
-  const ExodusFile& file_;
-  Mesh mesh_;
-  std::int64_t elements_ = 0;  // of the blocks before
-};
+void MeshFile::nodes_of_set(std::size_t set, std::int64_t begin, std::span<int> nodes) const {
+  take_indices(file_.nodes_of(sets_[set], begin, std::ssize(nodes)), "node set '" + layout_.node_sets[set].name + "'",
+               nodes);
+}
+
+void MeshFile::nodes_of_block(std::size_t block, std::int64_t begin, std::span<int> nodes) const {
+  const int size = nodes_per_element(layout_.blocks[block].type);
+  take_indices(file_.connectivity(blocks_[block], begin / size, std::ssize(nodes) / size),
+               "block '" + layout_.blocks[block].name + "'", nodes);
+}
+
+// The element variable that results of other codes hold instead of attributes.
+int MeshFile::variable_volume(std::size_t block) const {
+  const std::vector<std::string> names = file_.variable_names(ExodusFile::On::elements);
+  const auto variable = std::find(names.begin(), names.end(), "Volume");
+  if (variable == names.end() || file_.times().empty()) {
+    fail("block '" + layout_.blocks[block].name +
+         "': its spheres have no volume, expected the attributes radius and volume (or an element variable Volume)");
+  }
+  return static_cast<int>(variable - names.begin());
+}
+
+// Attributes radius and volume, or the radius alone.
+void MeshFile::sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const {
+  const std::size_t attributes = blocks_[block].attributes.size();
+  const std::int64_t count = std::ssize(values);
+  const std::vector<double> read = attributes == 0
+                                       ? file_.element_values(0, variable_volume(block), blocks_[block], begin, count)
+                                       : file_.attribute(blocks_[block], attributes == 1 ? 0 : 1, begin, count);
+  std::copy(read.begin(), read.end(), values.begin());
+  if (attributes == 1) std::transform(values.begin(), values.end(), values.begin(), sphere_volume);
+}
+
+void MeshFile::cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin,
+                              std::span<double> values) const {
+  const std::vector<double> read =
+      file_.attribute(blocks_[block], cell_columns_[block][attribute], begin, std::ssize(values));
+  std::copy(read.begin(), read.end(), values.begin());
+}
+
+void MeshFile::numbers(ExodusFile::On on, std::int64_t begin, std::span<std::int64_t> values) const {
+  const std::vector<std::int64_t> read = file_.numbers(on, begin, std::ssize(values));
+  std::copy(read.begin(), read.end(), values.begin());
+}
+
+namespace {
+
+// read(begin, values) for all of `count` values, in portions.
+template <class T, class Read>
+void look_at(std::int64_t count, const Read& read) {
+  std::vector<T> values;
+  for (std::int64_t begin = 0; begin < count; begin += std::ssize(values)) {
+    values.resize(static_cast<std::size_t>(std::min<std::int64_t>(largest_portion, count - begin)));
+    read(begin, std::span<T>(values));
+  }
+}
 
 }  // namespace
+
+void read_through(const MeshFile& mesh) {
+  const MeshLayout& layout = mesh.layout();
+  look_at<MeshFile::Place>(layout.nodes, [&](std::int64_t begin, auto values) { mesh.places(begin, values); });
+  for (std::size_t k = 0; k < layout.node_sets.size(); ++k) {
+    look_at<int>(layout.node_sets[k].nodes,
+                 [&](std::int64_t begin, auto nodes) { mesh.nodes_of_set(k, begin, nodes); });
+  }
+  for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
+    const MeshLayout::Block& block = layout.blocks[b];
+    look_at<int>(block.elements * nodes_per_element(block.type),
+                 [&](std::int64_t begin, auto nodes) { mesh.nodes_of_block(b, begin, nodes); });
+    for (std::size_t k = 0; block.partly_filled && k < partial_cell_attributes.size(); ++k) {
+      look_at<double>(block.elements,
+                      [&](std::int64_t begin, auto values) { mesh.cell_attribute(b, k, begin, values); });
+    }
+    if (block.type != "SPHERE") continue;
+    look_at<double>(block.elements, [&](std::int64_t begin, auto values) { mesh.sphere_volumes(b, begin, values); });
+  }
+  for (const auto on : {ExodusFile::On::nodes, ExodusFile::On::elements}) {
+    look_at<std::int64_t>(on == ExodusFile::On::nodes ? layout.nodes : layout.elements,
+                          [&](std::int64_t begin, auto values) { mesh.numbers(on, begin, values); });
+  }
+}
 
 double& member(PartialCell& cell, std::size_t attribute) {
   if (attribute == 0) return cell.volume;
@@ -149,10 +192,39 @@ double& member(PartialCell& cell, std::size_t attribute) {
   return cell.surface_moments((number - 3) / 3, (number - 3) % 3);
 }
 
-Mesh mesh_of(const ExodusFile& file) { return Reader(file).read(); }
+namespace {
+
+Mesh whole_mesh(const std::filesystem::path& path) {
+  const MeshFile file(ExodusFile::open(path));
+  const MeshLayout& layout = file.layout();
+  Mesh mesh;
+  std::vector<MeshFile::Place> places(static_cast<std::size_t>(layout.nodes));
+  file.places(0, places);
+  for (const MeshFile::Place& place : places) mesh.nodes.emplace_back(place.data());
+  for (std::size_t k = 0; k < layout.node_sets.size(); ++k) {
+    mesh.node_sets.push_back({layout.node_sets[k].name, std::vector<int>(layout.node_sets[k].nodes)});
+    file.nodes_of_set(k, 0, mesh.node_sets.back().nodes);
+  }
+  for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
+    const auto& [name, type, elements, partly_filled] = layout.blocks[b];
+    Mesh::Block& block = mesh.blocks.emplace_back(Mesh::Block{name, type, {}, {}, {}});
+    block.nodes.resize(elements * nodes_per_element(type));
+    file.nodes_of_block(b, 0, block.nodes);
+    std::vector<double> values(elements);
+    block.cells.resize(partly_filled ? elements : 0);
+    for (std::size_t k = 0; partly_filled && k < partial_cell_attributes.size(); ++k) {
+      file.cell_attribute(b, k, 0, values);
+      for (std::size_t e = 0; e < values.size(); ++e) member(block.cells[e], k) = values[e];
+    }
+    if (type == "SPHERE" && elements > 0) file.sphere_volumes(b, 0, values), block.volumes = values;
+  }
+  return mesh;
+}
+
+}  // namespace
 
 Mesh read_mesh(const std::filesystem::path& file) {
-  return read_after_trial(file, [&] { return mesh_of(ExodusFile::open(file)); });
+  return read_after_trial(file, [&] { return whole_mesh(file); });
 }
 
 }  // namespace strut::io

@@ -21,22 +21,14 @@ struct Share {
 
 class Shares {
  public:
-  Shares(const Mesh& mesh, const std::string& file) : mesh_(mesh), file_(file), shares_(mesh.nodes.size()) {}
+  Shares(const MeshSlice& slice, const std::string& file)
+      : slice_(slice), mesh_(slice.mesh), file_(file), shares_(slice.nodes.size()) {}
 
   std::vector<Share> collect() {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
       const Mesh::Block& block = mesh_.blocks[b];
-      if (!block.cells.empty()) {
-        throw Error(file_ + ": block '" + block.name + "' has elements that are partly filled (attribute " +
-                    partial_cell_attributes[0] + " and others); its points can only be at elements");
-      }
       if (block.type == "HEX8") add_block<8>(static_cast<int>(b), hexahedron_parts);
       if (block.type == "TET4") add_block<4>(static_cast<int>(b), tetrahedron_parts);
-      if (block.type == "SPHERE" && block.elements() > 0) {
-        throw Error(file_ + ": block '" + block.name +
-                    "' has spheres; points at nodes need hexahedra (HEX8) or tetrahedra (TET4), points at elements "
-                    "may be any of the three");
-      }
     }
     return std::move(shares_);
   }
@@ -51,7 +43,7 @@ class Shares {
       const std::array<double, size> parts = parts_of(corners<size>(mesh_, block, e));
       double volume = 0;
       for (const double part : parts) volume += part;
-      check_volume(volume, block, ++elements_, file_);
+      check_volume(volume, block, slice_.elements[elements_++], file_);
       for (std::size_t n = 0; n < size; ++n) {
         Share& share = shares_[block.nodes[e * size + n]];
         share.volume += parts[n];
@@ -62,6 +54,7 @@ class Shares {
     }
   }
 
+  const MeshSlice& slice_;
   const Mesh& mesh_;
   const std::string& file_;
   std::vector<Share> shares_;
@@ -71,12 +64,13 @@ class Shares {
 // What of the elements around each node belongs to it, and which elements these are.
 class Cells {
  public:
-  explicit Cells(const Mesh& mesh)
-      : mesh_(mesh),
-        integrals_(mesh.nodes.size()),
-        surface_(mesh.nodes.size(), Vector::Zero()),
-        surface_moments_(mesh.nodes.size(), Tensor::Zero()),
-        joints_(mesh.nodes.size()) {
+  explicit Cells(const MeshSlice& slice)
+      : slice_(slice),
+        mesh_(slice.mesh),
+        integrals_(slice.nodes.size()),
+        surface_(slice.nodes.size(), Vector::Zero()),
+        surface_moments_(slice.nodes.size(), Tensor::Zero()),
+        joints_(slice.nodes.size()) {
     for (const Mesh::Block& block : mesh_.blocks) {
       if (block.type == "HEX8") add_block<8>(block, hexahedron_pieces);
       if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
@@ -86,7 +80,7 @@ class Cells {
       for (std::size_t c = 0; c < face.corners().size(); ++c) {
         const int node = face.nodes[c];
         surface_[node] += share * face.area;
-        surface_moments_[node] += share * face.area * (face.middle_at(mesh, c) - mesh.nodes[node]).transpose();
+        surface_moments_[node] += share * face.area * (face.middle_at(mesh_, c) - mesh_.nodes[node]).transpose();
       }
     }
   }
@@ -110,17 +104,19 @@ class Cells {
         const int node = block.nodes[e * size + n];
         integrals_[node] += pieces[n];
         std::vector<std::int64_t>& joints = joints_[node];
-        if (joints.empty() || joints.back() != elements_) joints.push_back(elements_);
+        const std::int64_t element = slice_.elements[elements_];
+        if (joints.empty() || joints.back() != element) joints.push_back(element);
       }
     }
   }
 
+  const MeshSlice& slice_;
   const Mesh& mesh_;
   std::vector<Integrals> integrals_;
   std::vector<Vector> surface_;
   std::vector<Tensor> surface_moments_;
   std::vector<std::vector<std::int64_t>> joints_;
-  std::int64_t elements_ = 0;  // so far
+  std::size_t elements_ = 0;  // so far
 };
 
 void check_parts(double volume, std::int64_t number, const std::string& file) {
@@ -129,48 +125,34 @@ void check_parts(double volume, std::int64_t number, const std::string& file) {
               std::to_string(volume) + " m³, expected a positive volume (elements too distorted?)");
 }
 
-// A block all of whose nodes belong to blocks before it would be gone without a word.
-void check_blocks_have_points(const PointCloud& cloud, const std::string& file) {
-  std::vector<char> found(cloud.block_names.size(), 0);
-  for (const int block : cloud.blocks) found[block] = 1;
-  for (std::size_t b = 0; b < found.size(); ++b) {
-    if (found[b]) continue;
-    throw Error(
-        file + ": block '" + cloud.block_names[b] +
-        "' would have no point: all its nodes belong to blocks before it. Put it first in the file, refine it, or "
-        "use Points \"Elements\"");
-  }
-}
-
 }  // namespace
 
-PointCloud points_at_nodes(const Mesh& mesh, const std::vector<std::int64_t>& numbers, const std::string& file,
-                           bool with_cells) {
-  const std::vector<Share> shares = Shares(mesh, file).collect();
+PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
+                           const std::string& file, bool with_cells) {
+  const std::vector<Share> shares = Shares(slice, file).collect();
   std::optional<Cells> cells;
-  if (with_cells) cells.emplace(mesh);
-  const std::vector<std::uint64_t> sets = sets_of_nodes(mesh);
+  if (with_cells) cells.emplace(slice);
   PointCloud cloud;
   cloud.at = PointsAt::nodes;
-  for (const Mesh::Block& block : mesh.blocks) cloud.block_names.push_back(block.name);
-  for (const Mesh::NodeSet& set : mesh.node_sets) cloud.set_names.push_back(set.name);
+  for (const MeshLayout::Block& block : slice.layout.blocks) cloud.block_names.push_back(block.name);
+  for (const MeshLayout::NodeSet& set : slice.layout.node_sets) cloud.set_names.push_back(set.name);
   for (std::size_t n = 0; n < shares.size(); ++n) {
+    if (slice.nodes[n] < own.begin || slice.nodes[n] >= own.end) continue;
     const Share& share = shares[n];
-    if (share.elements == 0) continue;  // a node of no element
-    check_parts(share.volume, numbers[n], file);
+    const std::int64_t number = numbers[static_cast<std::size_t>(slice.nodes[n] - own.begin)];
+    check_parts(share.volume, number, file);
     if (with_cells) {
-      check_parts(cells->volume(n), numbers[n], file);
+      check_parts(cells->volume(n), number, file);
       cells->give(n, cloud);
     }
-    cloud.ids.push_back(static_cast<std::int64_t>(n));
-    cloud.element_ids.push_back(numbers[n]);
-    cloud.positions.push_back(mesh.nodes[n]);
+    cloud.ids.push_back(slice.nodes[n]);
+    cloud.element_ids.push_back(number);
+    cloud.positions.push_back(slice.mesh.nodes[n]);
     cloud.volumes.push_back(share.volume);
     cloud.spacings.push_back(std::cbrt(share.around / share.elements));
     cloud.blocks.push_back(share.block);
-    cloud.sets.push_back(sets[n]);
+    cloud.sets.push_back(slice.sets[n]);
   }
-  check_blocks_have_points(cloud, file);
   return cloud;
 }
 

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <tuple>
+
+#include "base/parallel/portions.hpp"
+#include "io/slices.hpp"
 
 namespace strut::io {
 
@@ -54,6 +58,74 @@ Face face_of(const Mesh& mesh, const Side& side) {
   return face;
 }
 
+// Sides of the same nodes, one after the other.
+struct Group {
+  std::size_t first;  // of the sorted sides
+  std::int64_t count;
+};
+
+std::vector<Group> groups_of(std::vector<Side>& sides) {
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.key, a.element) < std::tie(b.key, b.element); });
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (k == 0 || sides[k].key != sides[k - 1].key) groups.push_back({k, 0});
+    ++groups.back().count;
+  }
+  return groups;
+}
+
+// A group as other ranks see it.
+struct Count {
+  std::array<int, 4> key;  // places of nodes in the file
+  int count;
+};
+
+// Of equal keys the sum, for all of them.
+std::vector<int> sums_of_equals(const std::vector<Count>& counts) {
+  std::vector<std::size_t> order(counts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return counts[a].key < counts[b].key; });
+  std::vector<int> sums(counts.size());
+  for (auto begin = order.begin(); begin != order.end();) {
+    const auto end = std::find_if(begin, order.end(), [&](auto k) { return counts[k].key != counts[*begin].key; });
+    int sum = 0;
+    for (auto k = begin; k != end; ++k) sum += counts[*k].count;
+    for (auto k = begin; k != end; ++k) sums[*k] = sum;
+    begin = end;
+  }
+  return sums;
+}
+
+// Collective. The counts are those over all ranks then: the rank whose slice of nodes has a side's last one adds up.
+void add_up(const MeshSlice& slice, const Communicator& communicator, const std::vector<Side>& sides,
+            std::vector<Group>& groups) {
+  const auto owner = [&](const Group& group) {
+    return slice_owner(slice.layout.nodes, communicator.size(), slice.nodes[sides[group.first].key[3]]);
+  };
+  std::stable_sort(groups.begin(), groups.end(), [&](const auto& a, const auto& b) { return owner(a) < owner(b); });
+  std::vector<std::int64_t> to_ranks(static_cast<std::size_t>(communicator.size()), 0);
+  std::vector<Count> leaving;
+  for (const Group& group : groups) {
+    Count& count = leaving.emplace_back(Count{sides[group.first].key, static_cast<int>(group.count)});
+    for (int& node : count.key) node = node < 0 ? node : static_cast<int>(slice.nodes[node]);
+    ++to_ranks[static_cast<std::size_t>(owner(group))];
+  }
+  const std::vector<std::int64_t> from_ranks = counts_from_ranks(communicator, to_ranks);
+  const std::vector<int> sums = sums_of_equals(exchange<Count>(communicator, leaving, to_ranks, from_ranks));
+  const std::vector<int> mine = exchange<int>(communicator, sums, from_ranks, to_ranks);
+  for (std::size_t k = 0; k < groups.size(); ++k) groups[k].count = mine[k];
+  std::sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.first < b.first; });
+}
+
+std::vector<Face> faces_of(const Mesh& mesh, const std::vector<Side>& sides, const std::vector<Group>& groups) {
+  std::vector<Face> faces;
+  for (const Group& group : groups) {
+    if (group.count == 1) faces.push_back(face_of(mesh, sides[group.first]));
+  }
+  return faces;
+}
+
 }  // namespace
 
 Vector Face::middle(const Mesh& mesh) const {
@@ -71,15 +143,15 @@ Vector Face::middle_at(const Mesh& mesh, std::size_t c) const {
 
 std::vector<Face> surface_of(const Mesh& mesh) {
   std::vector<Side> sides = sides_of(mesh);
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return std::tie(a.key, a.element) < std::tie(b.key, b.element); });
-  std::vector<Face> faces;
-  for (auto begin = sides.begin(); begin != sides.end();) {
-    const auto end = std::find_if(begin, sides.end(), [&](const Side& side) { return side.key != begin->key; });
-    if (end - begin == 1) faces.push_back(face_of(mesh, *begin));
-    begin = end;
-  }
-  return faces;
+  const std::vector<Group> groups = groups_of(sides);
+  return faces_of(mesh, sides, groups);
+}
+
+std::vector<Face> surface_of(const MeshSlice& slice, const Communicator& communicator) {
+  std::vector<Side> sides = sides_of(slice.mesh);
+  std::vector<Group> groups = groups_of(sides);
+  if (communicator.size() > 1) add_up(slice, communicator, sides, groups);
+  return faces_of(slice.mesh, sides, groups);
 }
 
 }  // namespace strut::io

@@ -4,13 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "io/exodus/exodus.hpp"
+#include "io/exodus/mesh_slice.hpp"
 
 namespace strut::io {
 
 struct Face {
   int nodes[4];              // the last one −1 for a triangle
-  std::int64_t element = 0;  // counted over all blocks, from 0
+  std::int64_t element = 0;  // counted over all blocks of the mesh here, from 0
   Vector area;               // ∫ n dA, n outward, m²
 
   std::span<const int> corners() const { return {nodes, nodes[3] < 0 ? 3u : 4u}; }
@@ -19,7 +19,9 @@ struct Face {
   Vector middle_at(const Mesh& mesh, std::size_t c) const;
 };
 
-// Of hexahedra and tetrahedra, in an order that depends on the mesh alone.
+// Of hexahedra and tetrahedra, in an order that depends on the mesh alone: of the elements here, as if there were no
+// others; and, collective, those of the whole mesh that belong to elements here.
 std::vector<Face> surface_of(const Mesh& mesh);
+std::vector<Face> surface_of(const MeshSlice& slice, const Communicator& communicator);
 
 }  // namespace strut::io

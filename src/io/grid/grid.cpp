@@ -4,8 +4,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
-#include "base/parallel/communicator.hpp"
-#include "io/distribute.hpp"
+#include "io/slices.hpp"
 
 namespace strut::io {
 
@@ -19,17 +18,21 @@ void check_count(const std::array<int, 3>& points) {
               " points; expected less than 2147483647");
 }
 
-PointCloud whole_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points) {
+// Where the cell of a number is, x fastest.
+std::array<int, 3> place_of(std::int64_t number, const std::array<int, 3>& points) {
+  const std::int64_t row = number / points[0];
+  return {static_cast<int>(number % points[0]), static_cast<int>(row % points[1]), static_cast<int>(row / points[1])};
+}
+
+// The cells from number `begin` to before `end`.
+PointCloud part_of_grid(const Vector& origin, const Vector& cell, const std::array<int, 3>& points, std::int64_t begin,
+                        std::int64_t end) {
   PointCloud cloud;
-  const Vector cell = length.cwiseQuotient(Vector(points[0], points[1], points[2]));
-  for (int k = 0; k < points[2]; ++k) {
-    for (int j = 0; j < points[1]; ++j) {
-      for (int i = 0; i < points[0]; ++i) {
-        cloud.ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
-        cloud.element_ids.push_back(static_cast<std::int64_t>(cloud.ids.size()));
-        cloud.positions.push_back(origin + cell.cwiseProduct(Vector(i + 0.5, j + 0.5, k + 0.5)));
-      }
-    }
+  for (std::int64_t number = begin; number < end; ++number) {
+    const auto [i, j, k] = place_of(number, points);
+    cloud.ids.push_back(number);
+    cloud.element_ids.push_back(number + 1);
+    cloud.positions.push_back(origin + cell.cwiseProduct(Vector(i + 0.5, j + 0.5, k + 0.5)));
   }
   cloud.volumes.assign(cloud.size(), cell.prod());
   cloud.spacings.assign(cloud.size(), std::cbrt(cell.prod()));
@@ -63,29 +66,27 @@ std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::ar
 
 void add_cells(const Vector& cell, const std::array<int, 3>& points, PointCloud& cloud) {
   const Vector squares = cell.cwiseAbs2() / 12;
-  for (int k = 0; k < points[2]; ++k) {
-    for (int j = 0; j < points[1]; ++j) {
-      for (int i = 0; i < points[0]; ++i) {
-        CellShape& shape = cloud.shapes.emplace_back();
-        shape.moments.head<3>() = squares;
-        set_surface({i, j, k}, points, cell, shape);
-        cloud.joints.push_back(corners_of({i, j, k}, points));
-      }
-    }
+  for (const std::int64_t id : cloud.ids) {
+    const std::array<int, 3> at = place_of(id, points);
+    CellShape& shape = cloud.shapes.emplace_back();
+    shape.moments.head<3>() = squares;
+    set_surface(at, points, cell, shape);
+    cloud.joints.push_back(corners_of(at, points));
   }
+  cloud.joined = true;
 }
 
 }  // namespace
 
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
                      const Communicator& communicator, bool with_cells) {
-  PointCloud whole;
-  run_on_root(communicator, [&] {
-    check_count(points);
-    whole = whole_grid(origin, length, points);
-    if (with_cells) add_cells(length.cwiseQuotient(Vector(points[0], points[1], points[2])), points, whole);
-  });
-  return distribute(whole, communicator);
+  check_count(points);
+  const Vector cell = length.cwiseQuotient(Vector(points[0], points[1], points[2]));
+  const std::int64_t total = std::int64_t{points[0]} * points[1] * points[2];
+  PointCloud cloud = part_of_grid(origin, cell, points, slice_begin(total, communicator.size(), communicator.rank()),
+                                  slice_begin(total, communicator.size(), communicator.rank() + 1));
+  if (with_cells) add_cells(cell, points, cloud);
+  return cloud;
 }
 
 }  // namespace strut::io

@@ -67,14 +67,17 @@ void NetcdfLists::define(const std::string& name, Of kind, std::size_t size) con
 
 void NetcdfLists::end_definitions() const { check(nc_enddef(handle_), "write its header"); }
 
-void NetcdfLists::put(const std::string& name, const std::vector<double>& values) const {
-  if (!values.empty()) check(nc_put_var_double(handle_, variable(name), values.data()), "write '" + name + "'");
+void NetcdfLists::put(const std::string& name, std::span<const double> values, std::int64_t begin) const {
+  if (values.empty()) return;
+  const auto first = static_cast<std::size_t>(begin), count = values.size();
+  check(nc_put_vara_double(handle_, variable(name), &first, &count, values.data()), "write '" + name + "'");
 }
 
-void NetcdfLists::put(const std::string& name, const std::vector<std::int64_t>& values) const {
+void NetcdfLists::put(const std::string& name, std::span<const std::int64_t> values, std::int64_t begin) const {
   if (values.empty()) return;
-  check(nc_put_var_longlong(handle_, variable(name), reinterpret_cast<const long long*>(values.data())),
-        "write '" + name + "'");
+  const auto first = static_cast<std::size_t>(begin), count = values.size();
+  const auto* numbers = reinterpret_cast<const long long*>(values.data());
+  check(nc_put_vara_longlong(handle_, variable(name), &first, &count, numbers), "write '" + name + "'");
 }
 
 // ---- reading
@@ -98,16 +101,21 @@ std::string NetcdfLists::text(const std::string& name) const {
 
 std::vector<double> NetcdfLists::reals(const std::string& name) const {
   std::vector<double> values(size(name));
-  if (!values.empty()) check(nc_get_var_double(handle_, variable(name), values.data()), "read '" + name + "'");
+  get(name, values, 0);
   return values;
 }
 
-std::vector<std::int64_t> NetcdfLists::integers(const std::string& name) const {
-  std::vector<std::int64_t> values(size(name));
-  if (values.empty()) return values;
-  check(nc_get_var_longlong(handle_, variable(name), reinterpret_cast<long long*>(values.data())),
-        "read '" + name + "'");
-  return values;
+void NetcdfLists::get(const std::string& name, std::span<double> values, std::int64_t begin) const {
+  if (values.empty()) return;
+  const auto first = static_cast<std::size_t>(begin), count = values.size();
+  check(nc_get_vara_double(handle_, variable(name), &first, &count, values.data()), "read '" + name + "'");
+}
+
+void NetcdfLists::get(const std::string& name, std::span<std::int64_t> values, std::int64_t begin) const {
+  if (values.empty()) return;
+  const auto first = static_cast<std::size_t>(begin), count = values.size();
+  auto* numbers = reinterpret_cast<long long*>(values.data());
+  check(nc_get_vara_longlong(handle_, variable(name), &first, &count, numbers), "read '" + name + "'");
 }
 
 bool NetcdfLists::has_number(const std::string& name) const {

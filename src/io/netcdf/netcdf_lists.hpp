@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,20 +20,22 @@ class NetcdfLists {
   NetcdfLists(NetcdfLists&& other) noexcept;
   NetcdfLists& operator=(NetcdfLists&&) = delete;
 
-  // First numbers, texts and the sizes of lists, then their values.
+  // First numbers, texts and the sizes of lists, then their values, or some of them from number `begin` on.
   void put(const std::string& name, double number) const;
   void put(const std::string& name, const std::string& text) const;
   enum class Of { reals, integers };
   void define(const std::string& name, Of kind, std::size_t size) const;
   void end_definitions() const;
-  void put(const std::string& name, const std::vector<double>& values) const;
-  void put(const std::string& name, const std::vector<std::int64_t>& values) const;
+  void put(const std::string& name, std::span<const double> values, std::int64_t begin = 0) const;
+  void put(const std::string& name, std::span<const std::int64_t> values, std::int64_t begin = 0) const;
   void close();
 
   double number(const std::string& name) const;
   std::string text(const std::string& name) const;
   std::vector<double> reals(const std::string& name) const;
-  std::vector<std::int64_t> integers(const std::string& name) const;
+  // As many as there is room for, from number `begin` on.
+  void get(const std::string& name, std::span<double> values, std::int64_t begin) const;
+  void get(const std::string& name, std::span<std::int64_t> values, std::int64_t begin) const;
   bool has_number(const std::string& name) const;
   std::size_t size(const std::string& name) const;  // of a list; 0 where there is none
   int lists() const;

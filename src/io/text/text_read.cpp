@@ -1,20 +1,23 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
-#include <map>
-#include <numeric>
+#include <optional>
+#include <set>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "io/distribute.hpp"
 #include "io/exodus/exodus.hpp"
+#include "io/on_root.hpp"
+#include "io/slices.hpp"
 
 namespace strut::io {
 
 namespace {
 
 struct Line {
-  Vector position;
+  std::array<double, 3> position = {};
   int block = 0;
   double volume = 0;
 };
@@ -39,57 +42,105 @@ std::string parse(const std::string& text, Line& line) {
     return "block '" + words[3] + "' is not an integer";
   }
   if (numbers[4] <= 0) return "volume " + words[4] + " m³ is not positive";
-  line = {Vector(numbers[0], numbers[1], numbers[2]), static_cast<int>(numbers[3]), numbers[4]};
+  line = {{numbers[0], numbers[1], numbers[2]}, static_cast<int>(numbers[3]), numbers[4]};
   return "";
 }
 
-std::vector<Line> read_lines(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw Error(path.string() + ": cannot open it: it is a directory");
-  std::ifstream file(path);
-  if (!file) throw Error(path.string() + ": cannot open it: no such file, or it may not be read");
-  std::vector<Line> lines;
-  std::string text;
-  for (std::size_t number = 1; std::getline(file, text); ++number) {
-    const std::string content = text.substr(0, text.find('#'));
-    if (content.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::string problem = parse(content, lines.emplace_back());
-    if (problem.empty()) continue;
-    throw Error(path.string() + ", line " + std::to_string(number) + ": " + problem + ": \"" + text.substr(0, 120) +
-                "\"");
+// The points of a file, one after the other.
+class TextFile {
+ public:
+  explicit TextFile(std::filesystem::path path) : path_(std::move(path)) {
+    if (std::filesystem::is_directory(path_)) throw Error(path_.string() + ": cannot open it: it is a directory");
+    file_.open(path_);
+    if (!file_) throw Error(path_.string() + ": cannot open it: no such file, or it may not be read");
   }
-  if (lines.empty()) throw Error(path.string() + ": the file has no points");
-  return lines;
+
+  // The next ones, so many at the most; none at the end.
+  std::vector<Line> next(std::size_t most) {
+    std::vector<Line> lines;
+    std::string text;
+    while (lines.size() < most && std::getline(file_, text)) {
+      ++number_;
+      const std::string content = text.substr(0, text.find('#'));
+      if (content.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const std::string problem = parse(content, lines.emplace_back());
+      if (problem.empty()) continue;
+      throw Error(path_.string() + ", line " + std::to_string(number_) + ": " + problem + ": \"" + text.substr(0, 120) +
+                  "\"");
+    }
+    return lines;
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::size_t number_ = 0;  // of the line
+};
+
+// Some of the points, in the order of the lines.
+struct Part {
+  std::vector<std::int64_t> ids;
+  std::vector<Line> lines;
+};
+
+// Collective. Portions, to the ranks in turn: how many there are is not known yet.
+Part dealt(const std::filesystem::path& path, const Communicator& communicator) {
+  std::optional<TextFile> file;
+  run_on_root(communicator, [&] { file.emplace(path); });
+  Part mine;
+  std::int64_t first = 0;
+  OnRoot on_root(communicator);
+  for (int turn = 0;; turn = (turn + 1) % communicator.size()) {
+    std::vector<Line> lines;
+    on_root([&] { lines = file->next(largest_portion); });
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(communicator.size()), 0), size{std::ssize(lines)};
+    communicator.broadcast(size);
+    if (size[0] == 0) break;
+    counts[static_cast<std::size_t>(turn)] = size[0];
+    const std::vector<Line> own = communicator.scatter(std::span<const Line>(lines), counts);
+    mine.lines.insert(mine.lines.end(), own.begin(), own.end());
+    for (std::int64_t n = 0; n < std::ssize(own); ++n) mine.ids.push_back(first + n);
+    first += size[0];
+  }
+  on_root([&] {
+    if (first == 0) throw Error(path.string() + ": the file has no points");
+  });
+  on_root.raise();
+  return mine;
 }
 
-// Blocks in the order of their numbers, points in the order of the lines.
-PointCloud cloud_of(const std::vector<Line>& lines) {
-  PointCloud cloud;
-  std::map<int, int> index;
-  for (const Line& line : lines) index[line.block] = 0;
-  for (auto& [number, place] : index) {
-    place = static_cast<int>(cloud.block_names.size());
-    cloud.block_names.push_back("block_" + std::to_string(number));
-  }
-  for (const Line& line : lines) {
-    cloud.positions.push_back(line.position);
-    cloud.volumes.push_back(line.volume);
-    cloud.spacings.push_back(std::cbrt(line.volume));
-    cloud.blocks.push_back(index[line.block]);
-  }
-  cloud.sets.assign(lines.size(), 0);
-  cloud.ids.resize(lines.size());
-  std::iota(cloud.ids.begin(), cloud.ids.end(), 0);
-  cloud.element_ids.resize(lines.size());
-  std::iota(cloud.element_ids.begin(), cloud.element_ids.end(), 1);
-  return cloud;
+// Collective. The numbers of the blocks, ascending.
+std::vector<int> block_numbers(const std::vector<Line>& lines, const Communicator& communicator) {
+  std::set<int> found;
+  for (const Line& line : lines) found.insert(line.block);
+  const std::vector<int> own(found.begin(), found.end());
+  const std::vector<int> all = communicator.gather(std::span<const int>(own));
+  found.insert(all.begin(), all.end());
+  std::vector<int> numbers(found.begin(), found.end());
+  communicator.broadcast(numbers);
+  return numbers;
 }
 
 }  // namespace
 
+// Blocks in the order of their numbers, points in the order of the lines.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator) {
-  PointCloud whole;
-  run_on_root(communicator, [&] { whole = cloud_of(read_lines(file)); });
-  return distribute(whole, communicator);
+  const Part part = dealt(file, communicator);
+  const Slices slices(communicator, part.ids);
+  PointCloud cloud;
+  cloud.ids = slices.ids();
+  const std::vector<int> numbers = block_numbers(part.lines, communicator);
+  for (const int number : numbers) cloud.block_names.push_back("block_" + std::to_string(number));
+  for (const Line& line : slices.to_slices(std::span(part.lines))) {
+    cloud.positions.emplace_back(line.position.data());
+    cloud.volumes.push_back(line.volume);
+    cloud.spacings.push_back(std::cbrt(line.volume));
+    const auto place = std::lower_bound(numbers.begin(), numbers.end(), line.block);
+    cloud.blocks.push_back(static_cast<int>(place - numbers.begin()));
+  }
+  cloud.sets.assign(cloud.size(), 0);
+  for (const std::int64_t id : cloud.ids) cloud.element_ids.push_back(id + 1);
+  return cloud;
 }
 
 }  // namespace strut::io

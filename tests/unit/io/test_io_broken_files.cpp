@@ -169,7 +169,7 @@ TEST_F(BrokenFile, UnknownElementType) {
     file.put_sizes("", {3, 5, 1, 1, 0});
     file.put_blocks({block});
     file.put_coordinates({std::vector<double>(5), std::vector<double>(5), std::vector<double>(5)});
-    file.put_connectivity(block, {1, 2, 3, 4, 5});
+    file.put_connectivity(block, std::vector<std::int64_t>{1, 2, 3, 4, 5});
   });
   expect_error(world, folder / "pyramid.g", "PYRAMID5");
 }

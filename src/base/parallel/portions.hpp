@@ -1,0 +1,74 @@
+// Values between ranks where no rank may hold those of all: in portions to and from rank 0, and from every rank to
+// every other. All calls are collective; T trivially copyable.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/parallel/communicator.hpp"
+
+namespace strut {
+
+// The most values that rank 0 holds at a time of those of other ranks.
+constexpr std::size_t largest_portion = std::size_t{1} << 16;
+
+namespace portions {
+
+// What goes on behind the functions below, in bytes; `size`: of a value.
+using Take = std::function<void(const char* values, std::size_t count)>;
+using Give = std::function<void(std::int64_t begin, char* values, std::size_t count)>;
+void collect(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size, const Take& take);
+void deal(const Communicator& communicator, const std::vector<std::int64_t>& counts, char* mine, std::size_t size,
+          const Give& give);
+void exchange(const Communicator& communicator, const char* leaving, const std::vector<std::int64_t>& to_ranks,
+              char* arriving, const std::vector<std::int64_t>& from_ranks, std::size_t size);
+
+}  // namespace portions
+
+// All ranks' values in the order of ranks: take(portion) on rank 0, again and again.
+template <class T, class TakePortion>
+void collect(const Communicator& communicator, std::span<const T> mine, const TakePortion& take) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  portions::collect(
+      communicator, reinterpret_cast<const char*>(mine.data()), mine.size(), sizeof(T),
+      [&take](const char* values, std::size_t count) { take(std::span(reinterpret_cast<const T*>(values), count)); });
+}
+
+// To each rank r the next counts[r] values: give(begin, portion) fills those from number `begin` on, on rank 0.
+template <class T, class GivePortion>
+std::vector<T> deal(const Communicator& communicator, const std::vector<std::int64_t>& counts,
+                    const GivePortion& give) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<T> mine(static_cast<std::size_t>(counts[static_cast<std::size_t>(communicator.rank())]));
+  portions::deal(communicator, counts, reinterpret_cast<char*>(mine.data()), sizeof(T),
+                 [&give](std::int64_t begin, char* values, std::size_t count) {
+                   give(begin, std::span(reinterpret_cast<T*>(values), count));
+                 });
+  return mine;
+}
+
+// How many values each rank has for this one, where this one has to_ranks[r] for rank r.
+std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
+                                            const std::vector<std::int64_t>& to_ranks);
+
+// `leaving`: to_ranks[r] values for each rank r, one rank after the other. Returns the from_ranks[r] of each rank r.
+template <class T>
+std::vector<T> exchange(const Communicator& communicator, std::span<const T> leaving,
+                        const std::vector<std::int64_t>& to_ranks, const std::vector<std::int64_t>& from_ranks) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  std::vector<T> arriving(
+      static_cast<std::size_t>(std::accumulate(from_ranks.begin(), from_ranks.end(), std::int64_t{0})));
+  portions::exchange(communicator, reinterpret_cast<const char*>(leaving.data()), to_ranks,
+                     reinterpret_cast<char*>(arriving.data()), from_ranks, sizeof(T));
+  return arriving;
+}
+
+// Those of rank 0, on all ranks. They may hold any character.
+std::vector<std::string> broadcast_names(std::vector<std::string> names, const Communicator& communicator);
+
+}  // namespace strut

@@ -1,0 +1,86 @@
+// How points stand in files, and how on ranks: by number in slices, one after the other, and as the partition has it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
+
+namespace strut::io {
+
+// Of `total` numbers 0, 1, … the slice of each rank: as many for each, to one.
+std::vector<std::int64_t> slice_counts(std::int64_t total, int ranks);
+// The first number of the slice of `rank`.
+std::int64_t slice_begin(std::int64_t total, int ranks, int rank);
+// The rank whose slice has the number.
+int slice_owner(std::int64_t total, int ranks, std::int64_t number);
+
+// Numbered things (points, nodes) that ranks have in any order, and the same in slices: each rank also keeps those
+// whose numbers are in its slice, in ascending order. Values travel either way between both without any rank having
+// more than its points and its slice.
+class Slices {
+ public:
+  // Collective. `ids`: numbers of this rank's, 0 or more; several ranks may have the same. `total`: one more than the
+  // largest may be; found where it is not given.
+  Slices(const Communicator& communicator, std::span<const std::int64_t> ids, std::int64_t total = 0);
+
+  const std::vector<std::int64_t>& ids() const { return ids_; }        // of this rank's slice
+  const std::vector<std::int64_t>& counts() const { return counts_; }  // in the slice of each rank
+  std::int64_t first() const;                                          // how many are in the slices before
+  std::int64_t size() const;                                           // on all ranks
+
+  // Collective. Of `width` values for each of this rank's things, in the order of the ids given, the one of number
+  // `component`; those of the slice. Where several ranks have the same thing they must give the same.
+  template <class T>
+  std::vector<T> to_slices(std::span<const T> values, int width = 1, int component = 0) const {
+    std::vector<T> result(ids_.size());
+    place<T>(arriving(values, width, component), places_, result, 1, 0);
+    return result;
+  }
+  // Collective. All of them, one component at a time: so what travels is small beside them.
+  template <class T>
+  std::vector<T> rows_to_slices(std::span<const T> values, int width) const {
+    std::vector<T> result(ids_.size() * static_cast<std::size_t>(width));
+    for (int c = 0; c < width; ++c) place<T>(arriving(values, width, c), places_, result, width, c);
+    return result;
+  }
+  // Collective. The way back; `result` has room for `width` values for each of this rank's things.
+  template <class T>
+  void rows_from_slices(std::span<const T> values, int width, std::span<T> result) const {
+    for (int c = 0; c < width; ++c) {
+      place<T>(exchange<T>(communicator_, picked(values, places_, width, c), from_ranks_, to_ranks_), leaving_, result,
+               width, c);
+    }
+  }
+
+ private:
+  template <class T>
+  std::vector<T> arriving(std::span<const T> values, int width, int component) const {
+    return exchange<T>(communicator_, picked(values, leaving_, width, component), to_ranks_, from_ranks_);
+  }
+  static std::size_t place_of(int row, int width, int component) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(component);
+  }
+  template <class T>
+  static std::vector<T> picked(std::span<const T> values, const std::vector<int>& rows, int width, int component) {
+    std::vector<T> result;
+    result.reserve(rows.size());
+    for (const int row : rows) result.push_back(values[place_of(row, width, component)]);
+    return result;
+  }
+  template <class T>
+  static void place(const std::vector<T>& values, const std::vector<int>& rows, std::span<T> result, int width,
+                    int component) {
+    for (std::size_t k = 0; k < rows.size(); ++k) result[place_of(rows[k], width, component)] = values[k];
+  }
+
+  Communicator communicator_;
+  std::vector<int> leaving_;                         // this rank's things, as they leave
+  std::vector<int> places_;                          // in the slice, of those that arrive
+  std::vector<std::int64_t> to_ranks_, from_ranks_;  // how many
+  std::vector<std::int64_t> ids_, counts_;
+};
+
+}  // namespace strut::io
