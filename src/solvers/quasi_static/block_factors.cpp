@@ -60,6 +60,11 @@ BlockFactors::BlockFactors(const Pattern& pattern) {
   }
 }
 
+double BlockFactors::bytes() const {
+  return static_cast<double>(blocks_.size()) * (sizeof(Pair) + sizeof(int)) +
+         static_cast<double>(first_.back()) * (sizeof(Factor) + sizeof(int));
+}
+
 void BlockFactors::clear() { std::fill(blocks_.begin(), blocks_.end(), Pair()); }
 
 void BlockFactors::add(int row, int column, const Eigen::Matrix3d& block) {

@@ -14,6 +14,7 @@ class BlockFactors {
   explicit BlockFactors(const Eigen::SparseMatrix<double>& pattern);
 
   double operations() const { return operations_; }  // of one factorization
+  double bytes() const;                              // of the matrix and its factors
 
   // The matrix: zero, then what is added.
   void clear();

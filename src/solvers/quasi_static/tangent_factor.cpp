@@ -20,10 +20,14 @@ constexpr double most_operations = 1e6;
 // Of the resembling matrix, from each point to the ground: what nothing holds would have no factors.
 constexpr double to_ground = 1e-5;
 
-// Which owned points share a family, each point itself first.
+// Pairs of coupled points on a rank: what has more is not ordered (some gigabytes, and as many as ten seconds).
+constexpr std::size_t most_coupled = 10'000'000;
+
+// Which owned points share a family, each point itself first. Nothing where they are too many.
 std::vector<std::vector<int>> coupled_points(const Body& body) {
   std::vector<std::vector<int>> coupled(body.owned());
   std::vector<int> seen_by(body.owned(), -1);
+  std::size_t pairs = 0;
   for (int i = 0; i < body.owned(); ++i) {
     const auto take = [&](int j) {
       if (j < body.owned() && seen_by[j] != i) seen_by[j] = i, coupled[i].push_back(j);
@@ -33,6 +37,8 @@ std::vector<std::vector<int>> coupled_points(const Body& body) {
     for (std::size_t n = 0, near = coupled[i].size(); n < near; ++n) {
       body.domain.families.for_each(coupled[i][n], take);
     }
+    pairs += coupled[i].size();
+    if (pairs > most_coupled) return {};
   }
   return coupled;
 }
@@ -64,52 +70,66 @@ struct TangentFactor::Matrix {
   }
 
   void add(int i, int j, const Tensor& block) { factors->add(place[i], place[j], block); }
+
+  // The part of a point's stiffness that is this rank's, along what is free.
+  void add(const PointStiffness& stiffness, const Constraints& held) {
+    for (std::size_t a = 0; a < stiffness.points.size(); ++a) {
+      for (std::size_t b = 0; b < stiffness.points.size(); ++b) {
+        const int i = stiffness.points[a], j = stiffness.points[b];
+        if (std::max<std::size_t>(i, j) >= place.size()) continue;
+        add(i, j, held.free_projection(i) * stiffness.matrix.block<3, 3>(3 * a, 3 * b) * held.free_projection(j));
+      }
+    }
+  }
+
+  // What holds point i besides: `extra`, bonds to other ranks, the ground, and along held directions a spring.
+  void add_supports(int i, const Tensor& extra, const Constraints& held, const BlockRows& resembling,
+                    std::int64_t first) {
+    const std::size_t own = resembling.start[i];
+    const double spring = resembling.blocks[own].trace() / 3;
+    Tensor diagonal = extra + to_ground * spring * Tensor::Identity();
+    for (std::size_t e = own + 1; e < resembling.start[i + 1]; ++e) {
+      const std::int64_t column = resembling.columns[e] - first;
+      if (column < 0 || column >= static_cast<std::int64_t>(place.size())) diagonal -= resembling.blocks[e];
+    }
+    const Tensor& free = held.free_projection(i);
+    add(i, i, free * diagonal * free + spring * (Tensor::Identity() - free));
+  }
 };
 
 TangentFactor::TangentFactor(const Body& body) {
-  const Communicator& ranks = body.domain.communicator;
   if (!have_point_stiffness(body)) return;
-  matrix_ = std::make_unique<Matrix>(pattern_of(coupled_points(body)));
-  operations_ = matrix_->factors->operations();
-  worthwhile_ = ranks.max(operations_ > most_operations * body.owned() ? 1.0 : 0.0) == 0;
+  const std::vector<std::vector<int>> coupled = coupled_points(body);
+  if (!coupled.empty()) matrix_ = std::make_unique<Matrix>(pattern_of(coupled));
+  const bool too_long = coupled.empty() || matrix_->factors->operations() > most_operations * body.owned();
+  worthwhile_ = body.domain.communicator.max(too_long && body.owned() > 0 ? 1.0 : 0.0) == 0;
   if (!worthwhile_) matrix_ = nullptr;
 }
+
+double TangentFactor::bytes() const { return matrix_ ? matrix_->factors->bytes() : 0; }
 
 TangentFactor::~TangentFactor() = default;
 
 bool TangentFactor::factorize(const Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
                               const std::vector<Tensor>& extra, const BlockRows& resembling, std::int64_t first) {
-  matrix_->factors->clear();
-  const auto add = [&](int i, int j, const Tensor& block) {
-    matrix_->add(i, j, held.free_projection(i) * block * held.free_projection(j));
-  };
-  PointStiffness stiffness;
-  for (const MaterialBlock& block : body.blocks) {
-    for (std::size_t k = 0; k < block.points.size(); ++k) {
-      take_point_stiffness(body, block, static_cast<int>(k), tangents, stiffness);
-      for (std::size_t a = 0; a < stiffness.points.size(); ++a) {
-        for (std::size_t b = 0; b < stiffness.points.size(); ++b) {
-          const int i = stiffness.points[a], j = stiffness.points[b];
-          if (std::max(i, j) < body.owned()) add(i, j, stiffness.matrix.block<3, 3>(3 * a, 3 * b));
-        }
+  bool found = true;
+  if (matrix_) {
+    matrix_->factors->clear();
+    PointStiffness stiffness;
+    for (const MaterialBlock& block : body.blocks) {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        take_point_stiffness(body, block, static_cast<int>(k), tangents, stiffness);
+        matrix_->add(stiffness, held);
       }
     }
+    for (int i = 0; i < body.owned(); ++i) matrix_->add_supports(i, extra[i], held, resembling, first);
+    found = matrix_->factors->factorize();
   }
-  for (int i = 0; i < body.owned(); ++i) {
-    const std::size_t own = resembling.start[i];
-    const double spring = resembling.blocks[own].trace() / 3;
-    Tensor diagonal = extra[i] + to_ground * spring * Tensor::Identity();
-    for (std::size_t e = own + 1; e < resembling.start[i + 1]; ++e) {
-      const std::int64_t column = resembling.columns[e] - first;
-      if (column < 0 || column >= body.owned()) diagonal -= resembling.blocks[e];
-    }
-    add(i, i, diagonal);
-    matrix_->add(i, i, spring * (Tensor::Identity() - held.free_projection(i)));
-  }
-  return body.domain.communicator.max(matrix_->factors->factorize() ? 0.0 : 1.0) == 0;
+  return body.domain.communicator.max(found ? 0.0 : 1.0) == 0;
 }
 
 void TangentFactor::solve(const Field& right, Field& x) const {
+  if (!matrix_) return;  // a rank without points
   Field ordered(right.size());
   for (std::size_t i = 0; i < right.size(); ++i) ordered[matrix_->place[i]] = right[i];
   matrix_->factors->solve(ordered);

@@ -20,7 +20,7 @@ class TangentFactor {
   // Whether it is worth its time on all ranks: every block has a stiffness (mechanics/point_stiffness.hpp), and the
   // factorization takes few enough operations.
   bool is_worthwhile() const { return worthwhile_; }
-  double operations() const { return operations_; }  // of one factorization, on this rank
+  double bytes() const;  // on this rank, where it is
 
   // Collective. The sum of the points' stiffnesses and `extra` stiffness of each point, N/m; `resembling`: rows that
   // resemble it, which are taken for bonds to other ranks. False where a rank finds no factors.
@@ -32,7 +32,6 @@ class TangentFactor {
   struct Matrix;
   std::unique_ptr<Matrix> matrix_;
   bool worthwhile_ = false;
-  double operations_ = 0;
 };
 
 }  // namespace strut
