@@ -1,4 +1,5 @@
-// The linear systems of implicit steps: GMRES (Belos) with algebraic multigrid (MueLu) as its preconditioner.
+// The linear systems of implicit steps: GMRES (Belos), with algebraic multigrid (MueLu) or what else solves them
+// roughly as its preconditioner.
 // Written in C++17, as its .cpp must be: Trilinos' parameter validators are not C++20.
 #pragma once
 
