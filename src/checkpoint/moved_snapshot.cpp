@@ -68,7 +68,7 @@ void take(const std::vector<double>& records, Snapshot::Group& group) {
 
 }  // namespace
 
-void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator) {
+void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator) {
   to.numbers = from.numbers;
   to.shares = from.shares;
   for (std::size_t g = 0; g < to.groups.size(); ++g) {
@@ -77,6 +77,7 @@ void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& t
       throw std::logic_error("another partition keeps other things of points: " + to.groups[g].name);
     }
     const Outgoing outgoing = leaving(from.groups[g], ranks);
+    from.groups[g] = {};  // the largest part of a run, thrice in memory as it is
     take(sent_to_ranks(outgoing.ranks, outgoing.records, width, communicator), to.groups[g]);
   }
 }

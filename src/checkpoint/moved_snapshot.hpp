@@ -16,6 +16,6 @@ using RanksOfPoints = std::vector<std::pair<std::int64_t, int>>;
 
 // Collective. Fills `to`, a snapshot of the same run where its points are now, with the values of `from`, where they
 // were. Of shares each rank keeps its own.
-void move_snapshot(const Snapshot& from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator);
+void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator);
 
 }  // namespace strut

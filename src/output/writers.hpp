@@ -29,6 +29,7 @@ class FieldWriter {
 
   bool has(double time) const { return time == last_; }  // a frame of this time was the last one
   bool enabled() const { return enabled_; }
+  bool is_open() const { return writer_.has_value(); }
   Schedule schedule;
 
  private:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <limits>
 #include <numeric>
 #include <sstream>
 #include <string>
@@ -56,17 +55,17 @@ double imbalance(const std::vector<double>& work, const std::vector<int>& ranks,
 
 }  // namespace
 
-Balance::Balance(const deck::Deck& deck, const Communicator& communicator)
+Balance::Balance(const deck::Deck& deck)
     : enabled_(!deck.solver.quasi_static),
-      most_(communicator.size() > 1 ? deck.solver.rebalance : std::numeric_limits<double>::infinity()),
+      most_(deck.solver.rebalance),
       final_time_(deck.solver.final_time),
       verbose_(deck.solver.verbose) {}
 
 std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const CentralDifference& solver) {
-  if (!enabled_ || (most_ >= scene.body.domain.communicator.size() && !verbose_))
-    return std::nullopt;  // it cannot be so much
-  if (solver.steps() == 0 || solver.steps() % steps_between_looks != 0) return std::nullopt;
   const Communicator& communicator = scene.body.domain.communicator;
+  if (!enabled_ || communicator.size() == 1) return std::nullopt;
+  if (most_ >= communicator.size() && !verbose_) return std::nullopt;  // it cannot be so much
+  if (solver.steps() == 0 || solver.steps() % steps_between_looks != 0) return std::nullopt;
   const std::vector<double> work = work_of_points(scene, solver.contact());
   const double now = imbalance(work, std::vector<int>(work.size(), communicator.rank()), communicator);
   if (verbose_) tell(communicator, solver.steps(), "the rank with most work has " + to_text(now) + " times the mean");
@@ -92,7 +91,11 @@ void Balance::serialize(Archive& archive, const Body& body) {
   archive.number("accepted_imbalance", accepted_);
   archive.points("all points", body.domain.cloud.ids);
   archive.field("rank", 1, [&](std::size_t i, int) -> int& { return ranks[i]; });
-  if (!archive.loading() || size != communicator.size()) return;
+  if (!archive.loading()) return;
+  if (size != communicator.size()) {
+    accepted_ = 0;
+    return;
+  }
   const auto stays = [&](int rank) { return rank == communicator.rank(); };
   const bool all = std::all_of(ranks.begin(), ranks.end(), stays);
   if (communicator.max(all ? 0.0 : 1.0) > 0) restored_ = std::move(ranks);

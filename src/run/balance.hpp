@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -13,14 +14,14 @@ namespace strut {
 // Work is counted (bonds, substeps, contact), not timed: what a run decides is the same when it is repeated or resumed.
 class Balance {
  public:
-  Balance(const deck::Deck& deck, const Communicator& communicator);
+  explicit Balance(const deck::Deck& deck);
 
   // Collective; between advance_position() and advance_velocity(). The rank where each owned point is to be, if it is
   // time to look, the work is uneven, and another partition will save more than it costs.
   std::optional<std::vector<int>> better_ranks(const Scene& scene, const CentralDifference& solver);
 
   // After a checkpoint has been read: the same, where it was written by as many ranks, with another partition.
-  std::optional<std::vector<int>> restored_ranks() const { return restored_; }
+  std::optional<std::vector<int>> take_restored_ranks() { return std::exchange(restored_, std::nullopt); }
 
   void serialize(Archive& archive, const Body& body);  // collective
 

@@ -56,10 +56,13 @@ void repartition(const ExplicitRun& run, const std::vector<int>& ranks) {
   const double time = run.solver->time();
   Snapshot kept = saved(run, time);
   const RanksOfPoints where = by_ids(run.scene->body.domain, ranks);
-  make_anew(run, ranks);
+  try {
+    make_anew(run, ranks);
+  } catch (const Error& error) {
+    throw LostState(error.what());
+  }
   Snapshot here = saved(run, time);
-  move_snapshot(kept, where, here, run.scene->body.domain.communicator);
-  kept = {};
+  move_snapshot(std::move(kept), where, here, run.scene->body.domain.communicator);
   Archive archive = Archive::loading_from(here);
   run.solver->serialize(archive);
   run.writers->serialize(archive, time);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/errors.hpp"
 #include "deck/deck.hpp"
 #include "output/writers.hpp"
 #include "setup/scene.hpp"
@@ -16,6 +17,11 @@ struct ExplicitRun {
   std::optional<Scene>& scene;
   std::optional<CentralDifference>& solver;
   std::optional<OutputWriters>& writers;
+};
+
+// Thrown in the middle of a change, when there is neither the old run nor the new one.
+struct LostState : Error {
+  using Error::Error;
 };
 
 // Collective; between advance_position() and advance_velocity(). Makes all of it anew where it stands, with each owned

@@ -32,19 +32,19 @@ void quietly(Action&& action) {
 
 // The fields as they are, where a run ends in an error: they show where.
 void leave_frame(OutputWriters& writers, double time, const Body& body) {
-  if (!writers.frames.enabled() || writers.frames.has(time)) return;
+  if (!writers.frames.is_open() || writers.frames.has(time)) return;
   quietly([&] { writers.frames.write(time, body); });
 }
 
 // The time loop: everything after set-up. Returns the ledger at the end.
 Ledger step_through(const RunServices& services, const ExplicitRun& run, Balance& balance) {
-  if (const auto ranks = balance.restored_ranks()) repartition(run, *ranks);
+  if (const auto ranks = balance.take_restored_ranks()) repartition(run, *ranks);
   CentralDifference& solver = *run.solver;  // it stays there
   say(services.scene.body.domain.communicator, critical_time_step_line(solver.critical_time_step()));
   ExplicitRunControl control(services, solver);
   for (;;) {
     control.save(solver);
-    if (!control.ends_here(solver)) {
+    if (!control.ends_here(solver) && !solver.went_on()) {  // of whose point the monitor has not told yet
       if (const auto ranks = balance.better_ranks(*run.scene, solver)) repartition(run, *ranks);
     }
     solver.advance_velocity(services.deck.solver.final_time);
@@ -115,6 +115,8 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
   const Ledger ledger = [&] {
     try {
       return through(RunServices{deck, scene, writers, checkpoint, monitor, early_end});
+    } catch (const LostState& error) {
+      throw Error(error.what() + checkpoint.hint());
     } catch (const Error& error) {
       leave_frame(writers, solver.time(), scene.body);
       throw Error(error.what() + checkpoint.hint());
@@ -147,7 +149,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   std::optional<OutputWriters> writers;
   writers.emplace(
       deck, output_variables_of(deck, scene.body, scene.contact));  // all names are checked before a file is replaced
-  Balance balance(deck, communicator);
+  Balance balance(deck);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
                        deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end));

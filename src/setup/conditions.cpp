@@ -38,6 +38,7 @@ template <ConditionType Type>
 void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, double t, Scene& scene) {
   Type condition = prototype.on(std::move(points), place, scene.body);
   if constexpr (std::is_same_v<Type, RigidTool>) {
+    if (condition.free) condition.free->time = t;  // it stands until then
     condition.set_reaches(t, scene.body);
     scene.tools.push_back({name, condition.touched});
   }

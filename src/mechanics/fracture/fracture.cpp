@@ -482,16 +482,20 @@ void Fracture::serialize(Archive& archive, Body& body) {
   }
   archive.field("broken_bonds", words, [&](std::size_t i, int c) -> double& { return bits[i * words + c]; });
   // A break in the next step asks what they were at its start.
-  const auto states = [&](const char* name, auto& of_points) {
+  const auto states = [&](const char* name, auto& of_points, bool exist) {
     using State = std::remove_cvref_t<decltype(of_points[0])>;
-    if (of_points.empty()) return;
+    if (!exist) return;
     archive.field(name, sizeof(State) / sizeof(double),
                   [&](std::size_t i, int c) -> double& { return reinterpret_cast<double*>(&of_points[i])[c]; });
   };
-  states("tensor_state", body.force_states.tensors);
-  states("scalar_state", body.force_states.scalars);
-  states("gradient_state", body.force_states.gradients);
-  states("quadratic_state", body.force_states.quadratics);
+  // By what blocks there are, also on a rank without points.
+  const auto any = [&](Formulation formulation) {
+    return std::ranges::any_of(body.blocks, [&](const auto& b) { return b.material.formulation == formulation; });
+  };
+  states("tensor_state", body.force_states.tensors, any(Formulation::correspondence));
+  states("scalar_state", body.force_states.scalars, any(Formulation::ordinary));
+  states("gradient_state", body.force_states.gradients, body.has_springs(ResidualKind::both_gradients));
+  states("quadratic_state", body.force_states.quadratics, any(Formulation::quadratic));
   archive.field("released", 1, [&](std::size_t i, int) -> double& { return released_[i]; });
   archive.field("fracture_energy", 1, [&](std::size_t i, int) -> double& { return dissipated_[i]; });
   if (archive.loading()) restore(body, bits, words);

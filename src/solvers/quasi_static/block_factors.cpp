@@ -48,7 +48,6 @@ BlockFactors::BlockFactors(const Pattern& pattern) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = pattern;
   start_.assign(by_rows.outerIndexPtr(), by_rows.outerIndexPtr() + size + 1);
   columns_.assign(by_rows.innerIndexPtr(), by_rows.innerIndexPtr() + by_rows.nonZeros());
-  blocks_.resize(columns_.size());
   Symbolic symbolic;
   symbolic.analyzePattern(pattern);
   parent_.assign(symbolic.parent().begin(), symbolic.parent().end());
@@ -61,11 +60,11 @@ BlockFactors::BlockFactors(const Pattern& pattern) {
 }
 
 double BlockFactors::bytes() const {
-  return static_cast<double>(blocks_.size()) * (sizeof(Pair) + sizeof(int)) +
+  return static_cast<double>(columns_.size()) * (sizeof(Pair) + sizeof(int)) +
          static_cast<double>(first_.back()) * (sizeof(Factor) + sizeof(int));
 }
 
-void BlockFactors::clear() { std::fill(blocks_.begin(), blocks_.end(), Pair()); }
+void BlockFactors::clear() { blocks_.assign(columns_.size(), Pair()); }
 
 void BlockFactors::add(int row, int column, const Eigen::Matrix3d& block) {
   const int low = std::min(row, column), high = std::max(row, column);

@@ -16,7 +16,7 @@ class BlockFactors {
   double operations() const { return operations_; }  // of one factorization
   double bytes() const;                              // of the matrix and its factors
 
-  // The matrix: zero, then what is added.
+  // The matrix: zero (first of all), then what is added.
   void clear();
   void add(int row, int column, const Eigen::Matrix3d& block);
 

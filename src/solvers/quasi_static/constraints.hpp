@@ -14,8 +14,8 @@ class Constraints {
  public:
   Constraints(const std::vector<HeldDirection>& held, const Body& body);
 
-  void remove(Field& field) const;  // the held parts, from a field
-  void keep_constrained(Field& field) const;    // them only
+  void remove(Field& field) const;            // the held parts, from a field
+  void keep_constrained(Field& field) const;  // them only
   // The projection of point i on its free directions.
   const Tensor& free_projection(int i) const { return free_projection_[i]; }
 

@@ -46,8 +46,7 @@ bool is_a_way(const Field& way, const Body& body) {
 Newton::Newton(Equilibrium& equilibrium, const Observer& observer)
     : equilibrium_(equilibrium),
       observer_(observer),
-      krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()),
-      factor_(equilibrium.body()) {}
+      krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
 
 // Of a point alone.
 double Newton::mean_spring(const BlockRows& matrix) const {
@@ -82,9 +81,10 @@ void Newton::tell_once(const std::string& trouble) {
 
 void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   Body& body = equilibrium_.body();
-  if (factor_.is_worthwhile() &&
-      factor_.factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first())) {
-    return krylov_.precondition_by([this](const Field& right, Field& x) { factor_.solve(right, x); });
+  if (!factor_) factor_.emplace(body);
+  if (factor_->is_worthwhile() &&
+      factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first())) {
+    return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
   }
   tell_once(krylov_.precondition(matrix, rigid_motions(body)));
 }

@@ -2,6 +2,7 @@
 // leads nowhere.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "solvers/quasi_static/krylov.hpp"
@@ -35,8 +36,8 @@ class Newton {
   Equilibrium& equilibrium_;
   const Observer& observer_;
   Krylov krylov_;
-  TangentFactor factor_;
-  double spring_ = 1;  // N/m, of held directions in the linear systems: as stiff as others
+  std::optional<TangentFactor> factor_;  // from the first system on
+  double spring_ = 1;                    // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true;
   bool told_trouble_ = false;

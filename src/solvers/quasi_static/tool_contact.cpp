@@ -150,7 +150,7 @@ void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
 }
 
 void ToolContact::serialize(Archive& archive, const Body& body) {
-  std::size_t first = 0;  // of the tool's grips
+  std::size_t first = 0;  // contact point of the tool
   for (std::size_t t = 0; t < tools_.size(); first += tools_[t].points.size(), ++t) {
     const auto traction = [this, first](std::size_t k) -> Traction& { return contact_points_[first + k].at_start; };
     archive.points("tool " + std::to_string(t), ids_of(body, tools_[t].points));

@@ -33,6 +33,7 @@ TEST(BlockFactors, SolveUnsymmetricSystems) {
   Eigen::SparseMatrix<double> pattern(size, size);
   pattern.setFromTriplets(lower.begin(), lower.end());
   BlockFactors factors(pattern);
+  factors.clear();
   for (const auto& entry : lower) {
     const int i = entry.row(), j = entry.col();
     factors.add(i, j, whole.block<3, 3>(3 * i, 3 * j));
