@@ -38,7 +38,7 @@ double predicted_memory(const Scene& scene);
 // Of the result file, for each frame.
 double frame_bytes(const OutputVariables& variables, std::int64_t points);
 
-// Collective. What rank 0, which reads the mesh, and the others have taken at most until now, the program itself
+// Collective. What rank 0, which opens the files, and the others have taken at most until now, the program itself
 // included; what a frame takes.
 std::string memory_and_frame(const Scene& scene, const OutputVariables& variables);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "mechanics/cost.hpp"
 #include "points/bounding_box.hpp"
 #include "points/domain.hpp"
 #include "setup/blocks.hpp"
@@ -14,13 +15,13 @@ namespace {
 
 // What a step of a point of each block takes, in ns, roughly (tests/bench): its bonds and its update.
 std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, std::vector<double> costs) {
-  constexpr double update = 80, state = 150, quadratic = 4;  // docs/decisions.md, What subcycling costs
+  constexpr double update = 80, state = 150;
   for (std::size_t b = 0; b < costs.size(); ++b) {
     const deck::Block& section = *section_of(deck, cloud.block_names[b]);
     const auto has_state = []<class L>(const L&) { return materials::state_size<L> > 0; };
     const bool flows = std::visit(has_state, deck.materials[section.material].law);
     costs[b] += update + (flows ? state : 0);
-    if (is_quadratic(deck.materials[section.material])) costs[b] *= quadratic;
+    if (is_quadratic(deck.materials[section.material])) costs[b] *= cost_of_quadratic;
   }
   return costs;
 }

@@ -13,7 +13,7 @@ def size_of(path, block):
         with netCDF4.Dataset(path) as file:
             file.set_auto_mask(False)
             boxes = [box_of(file, n) for n, name in enumerate(names_of(file, "eb_names"), 1) if block in (None, name)]
-    except (OSError, KeyError):
+    except (OSError, KeyError, AttributeError):
         return None
     if not boxes or any(box is None for box in boxes):
         return None
@@ -43,6 +43,8 @@ def box_of_cells(places, middle, half, low, high):
     them all, each taken for a prism (its half edge is √3 times its radius of gyration)."""
     box = [low.copy(), high.copy()]
     for c in range(3):
-        for side, edge, ends in ((0, places[:, :, c].min(axis=1), middle - half), (1, places[:, :, c].max(axis=1), middle + half)):
-            box[side][c] = np.clip(np.median(ends[np.isclose(edge, box[side][c]), c]), low[c], high[c])
+        least, most = places[:, :, c].min(axis=1), places[:, :, c].max(axis=1)
+        for side, edge, ends in ((0, least, middle - half), (1, most, middle + half)):
+            beside = np.abs(edge - box[side][c]) <= 1e-5 * (most - least)  # round-off of the nodes, whatever the size
+            box[side][c] = np.clip(np.median(ends[beside, c]), low[c], high[c])
     return box

@@ -74,6 +74,7 @@ def paint(best, owner, at, radii, points):
         places = base + offset
         apart = np.linalg.norm(places + 0.5 - at, axis=1)
         voxels = tuple(places.T)
-        keep = (apart <= radii) & (apart < best[voxels])
+        keep = np.flatnonzero((apart <= radii) & (apart < best[voxels]))
+        keep = keep[np.argsort(-apart[keep], kind="stable")]  # of those that share a voxel the last stays
         voxels = tuple(places[keep].T)
         best[voxels], owner[voxels] = apart[keep], points[keep]

@@ -99,6 +99,11 @@ def value_in(element, key):
     return next((e.get("value") for e in element.findall("Parameter") if e.get("name") == key), None)
 
 
+def is_true(value):
+    """As the program reads it (src/deck/numbers.cpp)."""
+    return value is not None and value.strip().lower() in ("true", "yes", "1")
+
+
 def without_comments(text):
     """Blanks in their place, so that all stays where it is."""
     return re.sub(r"<!--.*?-->", lambda m: " " * len(m.group()), text, flags=re.S)

@@ -28,6 +28,8 @@ def without_exceptions(function):
 def bessel(order, wave):
     """(1/π)∫ wave(τ, x) dτ from 0 to π, of Bessel's functions of whole order; midpoints converge faster than any power."""
     def of(x):
+        if math.isnan(x):
+            return x
         points = 64 + 2 * math.ceil(min(abs(x), 1e6))
         angle = (np.arange(points) + 0.5) * math.pi / points
         return wave(angle, x, order).mean()
@@ -35,7 +37,7 @@ def bessel(order, wave):
 
 
 def ordinary(angle, x, n):
-    return np.cos(n * angle - x * np.sin(angle))
+    return np.cos(n * angle - x * np.sin(angle)) if math.isfinite(x) else np.zeros_like(angle)
 
 
 def modified(angle, x, n):
@@ -61,7 +63,10 @@ class NoExpression(Exception):
 
 def compiled(text, names):
     """A function of a {name: number}, with a number for each of the names; throws NoExpression."""
-    return Parser(text, names).parse()
+    try:
+        return Parser(text, names).parse()
+    except RecursionError:
+        raise NoExpression("too many brackets and signs within each other") from None
 
 
 def evaluated(expression, numbers):
@@ -177,12 +182,12 @@ class Parser:
     # ---- expressions: functions that return a number
 
     def binary(self, rank):
-        left = self.within(self.power)
+        first, others = self.within(self.power), []
         while RANKS.get(self.coming(), -1) >= rank:
             token = self.coming()
             self.at += 1
-            left = combined(OPERATIONS[token], left, self.binary(RANKS[token] + 1))
-        return left
+            others.append((OPERATIONS[token], self.binary(RANKS[token] + 1)))
+        return chained(first, others) if others else first
 
     def power(self):
         signs = []
@@ -251,6 +256,16 @@ def constant(word):
 
 def combined(operation, left, right):
     return lambda v: np.float64(operation(left(v), right(v)))
+
+
+def chained(first, others):
+    """From left to right; a loop, as sums may have thousands of terms."""
+    def of(v):
+        number = first(v)
+        for operation, right in others:
+            number = np.float64(operation(number, right(v)))
+        return number
+    return of
 
 
 def signed(signs, base):

@@ -3,7 +3,7 @@ import re
 
 import numpy as np
 from curve_parts import measures, options, shock
-from decks import value_in
+from decks import is_true, value_in
 from expressions import NoExpression, compiled
 from strut_tools import Parser, fail, nearest
 
@@ -21,12 +21,12 @@ def columns_of(deck):
         return []
     layers = {name: int(value_in(keys, "Layers") or 0) for name, keys in deck.sections("History", "Profiles").items()}
     variables = deck.section("History", "Variables")
-    asked = [] if variables is None else [e.get("name") for e in variables.findall("Parameter") if e.get("value") == "true"]
+    asked = [] if variables is None else [e.get("name") for e in variables.findall("Parameter") if is_true(e.get("value"))]
     found = list(ALWAYS)
     for name in asked:
         match = re.fullmatch(r"(.+)\((.+)\)", name)
-        count = layers.get(match[2], 0) if match else 0
-        found += [f"{match[1]}({match[2]} {n})" for n in range(1, count + 1)] or [name]
+        count = layers.get(match[2], 1) if match else 1
+        found += [f"{match[1]}({match[2]} {n})" for n in range(1, count + 1)] if count > 1 else [name]
     return found
 
 

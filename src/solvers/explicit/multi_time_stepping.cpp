@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mechanics/cost.hpp"
 #include "mechanics/force_sum.hpp"
 #include "mechanics/fracture/fracture.hpp"
 
@@ -24,8 +25,6 @@ constexpr double most_turn = 0.6;
 // A substep of a point, with its share of the points that it moves, beside a whole step of that point: more than is
 // measured on one rank, for each substep has exchanges of its own.
 constexpr double cost_of_substep = 1.5;
-// A step of a point by quadratic correspondence beside one by another formulation.
-constexpr double cost_of_quadratic = 4;
 
 // Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
 constexpr int families_between_levels = 2;

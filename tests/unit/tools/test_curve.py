@@ -105,21 +105,22 @@ class Curves(unittest.TestCase):
 class Extents(InFolder):
     """Meshes of cubes of edge 1: of whole ones, and of cells that hold a part of them."""
 
-    def write(self, middles, radii=None):
+    def write(self, middles, radii=None, scale=1, element="HEX8"):
         corners = np.array([(x, y, z) for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)
         nodes = (np.floor(middles)[:, None] + corners).reshape(-1, 3)
         with netCDF4.Dataset(self.folder / "m.g", "w", format="NETCDF3_CLASSIC") as file:
             for name, size in (("nodes", len(nodes)), ("cells", len(middles)), ("corners", 8), ("numbers", 6), ("len", 16), ("one", 1)):
                 file.createDimension(name, size)
             for c, x in zip("xyz", nodes.T):
-                file.createVariable("coord" + c, "f8", ("nodes",))[:] = x
+                file.createVariable("coord" + c, "f8", ("nodes",))[:] = scale * x
             self.put_names(file, "eb_names", "one", ["foam"])
             elements = file.createVariable("connect1", "i4", ("cells", "corners"))
-            elements.elem_type = "HEX8"
+            if element:
+                elements.elem_type = element
             elements[:] = 1 + np.arange(len(nodes)).reshape(-1, 8)
             if radii is not None:
                 self.put_names(file, "attrib_name1", "numbers", extent.NUMBERS)
-                file.createVariable("attrib1", "f8", ("cells", "numbers"))[:] = np.hstack([middles, radii**2])
+                file.createVariable("attrib1", "f8", ("cells", "numbers"))[:] = np.hstack([scale * middles, (scale * radii)**2])
         return str(self.folder / "m.g")
 
     @staticmethod
@@ -133,6 +134,7 @@ class Extents(InFolder):
         np.testing.assert_array_equal(extent.size_of(mesh, "foam"), [4, 1, 2])
         self.assertIsNone(extent.size_of(mesh, "plate"))
         self.assertIsNone(extent.size_of(str(self.folder / "none.g"), "foam"))
+        self.assertIsNone(extent.size_of(self.write(np.full((1, 3), 0.5), element=None), "foam"))
 
     def test_cells_that_reach_beyond_the_image_do_not_count_as_full(self):
         # Along x the image ends in the middle of the last cells, which hold a half each; one strut there ends before.
@@ -140,7 +142,9 @@ class Extents(InFolder):
         radii = np.full((15, 3), 0.5 / np.sqrt(3))  # of a prism of edge 1
         radii[10:, 0] = 0.25 / np.sqrt(3)
         middles[12, 0], radii[12, 0] = 2.1, 0.1 / np.sqrt(3)
-        np.testing.assert_allclose(extent.size_of(self.write(middles, radii), None), [2.5, 5, 1], rtol=1e-14)
+        for scale in (1, 1e-9):  # a body of nanometers is a body, too
+            size = extent.size_of(self.write(middles, radii, scale), None)
+            np.testing.assert_allclose(size / scale, [2.5, 5, 1], rtol=1e-14)
 
 
 V, U, RHO, H = 80.0, 100.0, 400.0, 0.02  # m/s, m/s, kg/m³, m

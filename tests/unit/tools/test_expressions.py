@@ -37,6 +37,13 @@ class Expressions(unittest.TestCase):
         self.assertEqual(value_at(right, 3), 1)
         self.assertEqual(value_at("t" + "-" * 9000 + "t", 3), 6)
         self.assertIsNone(value_at("(" * 100000 + "t" + ")" * 100000, 3))
+        for _ in range(52):  # too deep for Python, though not for the program
+            right = f"fabs(0 || 1 && 1 == 1 < 2 + 3 * {right})"
+        self.assertRaises(NoExpression, compiled, right, ["t"])
+
+    def test_sums_are_as_long_as_they_like(self):
+        self.assertEqual(value_at("t" + " + t" * 1999, 3), 6000)
+        self.assertEqual(value_at("t" + " + 2*t*t" * 1999, 3), 3 + 18 * 1999)
 
     def test_of_the_time_alone(self):
         self.assertEqual(value_at("-2*t^2", 3), -18)

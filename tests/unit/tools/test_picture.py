@@ -339,6 +339,12 @@ class Surfaces(unittest.TestCase):
         cells = struts.voxels_of(*both)[0]
         self.assertGreater(np.diff(np.unique(cells[:, 2])).max(), 1)
 
+    def test_of_points_that_share_a_voxel_it_has_the_nearest(self):
+        best, owner = np.full((5, 5, 5), np.inf, np.float32), np.full((5, 5, 5), -1, np.int32)
+        at = np.array([[2.3, 2.5, 2.5], [2.5, 2.5, 2.5], [2.2, 2.5, 2.5]])
+        struts.paint(best, owner, at, np.full(3, 0.4), np.arange(3))
+        self.assertEqual((owner[2, 2, 2], best[2, 2, 2]), (1, 0))
+
     def test_cells_of_volumes_that_change_little_are_cubes(self):
         places = box(6, 6, 6) * 1.01**np.arange(216)[:, None]**0.3
         self.assertIsNone(struts.voxels_of(places, H**3 * (1 + 0.002 * np.arange(216))))

@@ -32,9 +32,13 @@ DECK = """<ParameterList>
   <ParameterList name="History"><Parameter name="Filename" type="string" value="bar.csv"/>
     <ParameterList name="Variables"><Parameter name="Mean_Displacement_Z" type="bool" value="true"/>
       <Parameter name="Mean_Velocity_Z" type="bool" value="true"/>
-      <Parameter name="Mean_Velocity_X(cuts)" type="bool" value="true"/></ParameterList>
+      <Parameter name="Mean_Velocity_X(cuts)" type="bool" value="Yes"/>
+      <Parameter name="Mean_Velocity_Y(whole)" type="bool" value="1"/>
+      <Parameter name="Mean_Velocity_Y" type="bool" value="no"/></ParameterList>
     <ParameterList name="Profiles"><ParameterList name="cuts"><Parameter name="Direction" type="string" value="0 0 1"/>
-      <Parameter name="Layers" type="int" value="2"/></ParameterList></ParameterList></ParameterList>
+      <Parameter name="Layers" type="int" value="2"/></ParameterList>
+      <ParameterList name="whole"><Parameter name="Direction" type="string" value="0 0 1"/>
+      <Parameter name="Layers" type="int" value="1"/></ParameterList></ParameterList></ParameterList>
 </ParameterList>
 """
 RECIPE = "name = bar\nshape = box\nsize = 4e-3 4e-3 8e-3\nspacing = 1e-3  # of a cube\n"
