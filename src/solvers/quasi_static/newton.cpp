@@ -29,7 +29,8 @@ constexpr double short_part = 0.1, long_part = 0.5;  // of a step
 constexpr int most_damped = 8;                       // iterations: what takes more is left to relaxation
 constexpr int most_products_damped = 200;            // directions are not worth more, and GMRES not a restart
 
-// A hierarchy is kept until systems take so much longer than just after it was made.
+// A hierarchy is kept until systems take so much longer than just after it was made, factors until they take so much
+// longer than others would take to make.
 constexpr double wear = 1.5;
 
 // Whether anything of the way is left but the round-off of times.
@@ -79,11 +80,17 @@ void Newton::tell_once(const std::string& trouble) {
   if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
 }
 
+bool Newton::damping_has_changed() const {
+  return damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
+}
+
 void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   Body& body = equilibrium_.body();
   if (!factor_) factor_.emplace(body);
-  if (factor_->is_worthwhile() &&
-      factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first())) {
+  is_factorized_ =
+      factor_->is_worthwhile() &&
+      factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first());
+  if (is_factorized_) {
     return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
   }
   tell_once(krylov_.precondition(matrix, rigid_motions(body)));
@@ -111,8 +118,7 @@ void Newton::renew_preconditioner() {
 int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
-  const bool worn = damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
-  if (preconditioner_due_ || changed || worn) renew_preconditioner();
+  if (preconditioner_due_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
   const Constraints& held = equilibrium_.constraints();
   Field right = equilibrium_.residual();
   if (moves) {
@@ -141,7 +147,7 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   held.remove(step);
   for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];
   if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
-  preconditioner_due_ = outcome.iterations > wear * products_when_new_;
+  preconditioner_due_ = outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
   return outcome.iterations;
 }
 

@@ -25,6 +25,7 @@ class Newton {
   int correct(const Field& way, bool moves, double accuracy, Field& step);
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void tell_once(const std::string& trouble);
+  bool damping_has_changed() const;
   void renew_preconditioner();
   void precondition(const BlockRows& matrix, const std::vector<Tensor>& extra);
   double mean_spring(const BlockRows& matrix) const;
@@ -39,7 +40,7 @@ class Newton {
   std::optional<TangentFactor> factor_;  // from the first system on
   double spring_ = 1;                    // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
-  bool preconditioner_due_ = true;
+  bool preconditioner_due_ = true, is_factorized_ = false;
   bool told_trouble_ = false;
 
   // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.

@@ -17,6 +17,9 @@ using Sparse = Eigen::SparseMatrix<double>;  // by columns, lower triangle
 // where multigrid on a strut in flow needs one to two thousand.
 constexpr double most_operations = 1e6;
 
+// What a product, with the factors once applied, takes: as long as so many of them for each point.
+constexpr double operations_of_product = 16000;
+
 // Of the resembling matrix, from each point to the ground: what nothing holds would have no factors.
 constexpr double to_ground = 1e-5;
 
@@ -101,8 +104,11 @@ TangentFactor::TangentFactor(const Body& body) {
   if (!have_point_stiffness(body)) return;
   const std::vector<std::vector<int>> coupled = coupled_points(body);
   if (!coupled.empty()) matrix_ = std::make_unique<Matrix>(pattern_of(coupled));
-  const bool too_long = coupled.empty() || matrix_->factors->operations() > most_operations * body.owned();
-  worthwhile_ = body.domain.communicator.max(too_long && body.owned() > 0 ? 1.0 : 0.0) == 0;
+  const double too_many = 2 * most_operations;
+  const double of_a_point = matrix_ ? matrix_->factors->operations() / body.owned() : body.owned() > 0 ? too_many : 0;
+  const double most = body.domain.communicator.max(of_a_point);
+  worthwhile_ = most <= most_operations;
+  products_worth_ = most / operations_of_product;
   if (!worthwhile_) matrix_ = nullptr;
 }
 

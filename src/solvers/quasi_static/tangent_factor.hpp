@@ -20,6 +20,8 @@ class TangentFactor {
   // Whether it is worth its time on all ranks: every block has a stiffness (mechanics/point_stiffness.hpp), and the
   // factorization takes few enough operations.
   bool is_worthwhile() const { return worthwhile_; }
+  // How many products of the tangent with a field take as long as the factors, roughly, on all ranks.
+  double products_worth() const { return products_worth_; }
   double bytes() const;  // on this rank, where it is
 
   // Collective. The sum of the points' stiffnesses and `extra` stiffness of each point, N/m; `resembling`: rows that
@@ -32,6 +34,7 @@ class TangentFactor {
   struct Matrix;
   std::unique_ptr<Matrix> matrix_;
   bool worthwhile_ = false;
+  double products_worth_ = 0;
 };
 
 }  // namespace strut
