@@ -29,6 +29,10 @@ constexpr double short_part = 0.1, long_part = 0.5;  // of a step
 constexpr int most_damped = 8;                       // iterations: what takes more is left to relaxation
 constexpr int most_products_damped = 200;            // directions are not worth more, and GMRES not a restart
 
+// Products with multigrid, of one system, after which thin bodies have factors for the rest of the run: the strut that
+// flows, or rubs, is not in multigrid's springs. Below, multigrid is the faster (docs/decisions.md).
+constexpr int most_of_multigrid = 200;
+
 // A hierarchy is kept until systems take so much longer than just after it was made, factors until they take so much
 // longer than others would take to make.
 constexpr double wear = 1.5;
@@ -86,9 +90,9 @@ bool Newton::damping_has_changed() const {
 
 void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   Body& body = equilibrium_.body();
-  if (!factor_) factor_.emplace(body);
+  if (wants_factors_ && !factor_) factor_.emplace(body);
   is_factorized_ =
-      factor_->is_worthwhile() &&
+      wants_factors_ && factor_->is_worthwhile() &&
       factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first());
   if (is_factorized_) {
     return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
@@ -114,6 +118,19 @@ void Newton::renew_preconditioner() {
   products_when_new_ = 0;
 }
 
+// What is solved once, or again with factors where multigrid took too long.
+Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::Outcome()>& solve) {
+  const Krylov::Outcome first = solve();
+  if (wants_factors_ || first.iterations < most_of_multigrid) return first;
+  wants_factors_ = true;
+  renew_preconditioner();
+  if (!is_factorized_) return first;
+  const Krylov::Outcome second = solve();
+  return {first.iterations + second.iterations, second.converged};
+}
+
+void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_factors_); }
+
 // The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
 int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
@@ -137,12 +154,13 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
     held.remove(out);
     for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
   };
-  static Teuchos::Time& timer = phase("Linear solver");
-  const Timed timed(timer);
   const int most = damping_ > 0 ? most_products_damped : most_products;
-  const Krylov::Outcome outcome = changed
-                                      ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most, step)
-                                      : krylov_.solve(product, right, Krylov::Measure::residual, accuracy, most, step);
+  const Krylov::Outcome outcome = with_another_preconditioner([&] {
+    static Teuchos::Time& timer = phase("Linear solver");
+    const Timed timed(timer);
+    return changed ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most, step)
+                   : krylov_.solve(product, right, Krylov::Measure::residual, accuracy, most, step);
+  });
   if (!outcome.converged) damp_more(where_unstable);
   held.remove(step);
   for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];

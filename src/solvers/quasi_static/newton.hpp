@@ -2,6 +2,7 @@
 // leads nowhere.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,8 @@ class Newton {
   // The next search does not depend on earlier ones.
   void begin_anew() { preconditioner_due_ = true; }
 
+  void serialize(Archive& archive);  // what a resumed run must know of the systems before
+
   // Collective. From the present places, within the step that the equilibrium has begun.
   Search solve(const Tolerance& tolerance);
 
@@ -26,6 +29,7 @@ class Newton {
   Imbalance advance(const Imbalance& now, const Field& step, bool moves);
   void tell_once(const std::string& trouble);
   bool damping_has_changed() const;
+  Krylov::Outcome with_another_preconditioner(const std::function<Krylov::Outcome()>& solve);
   void renew_preconditioner();
   void precondition(const BlockRows& matrix, const std::vector<Tensor>& extra);
   double mean_spring(const BlockRows& matrix) const;
@@ -40,7 +44,7 @@ class Newton {
   std::optional<TangentFactor> factor_;  // from the first system on
   double spring_ = 1;                    // N/m, of held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
-  bool preconditioner_due_ = true, is_factorized_ = false;
+  bool preconditioner_due_ = true, wants_factors_ = false, is_factorized_ = false;
   bool told_trouble_ = false;
 
   // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.

@@ -103,6 +103,7 @@ Search QuasiStatic::attempt() {
 
 void QuasiStatic::serialize(Archive& archive) {
   equilibrium_.serialize(archive);
+  newton_.serialize(archive);
   Body& body = equilibrium_.body();
   archive.points("motion", {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()});
   last_step_.resize(body.owned(), Vector::Zero());
