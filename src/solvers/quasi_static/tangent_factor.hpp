@@ -1,6 +1,6 @@
 // A factorization of the tangent of this rank's points, as a preconditioner: the points of other ranks are taken as
-// held (block Jacobi over the ranks). Struts, bars and shells fill in so little that it takes as long as some ten
-// products; solid bodies fill in too much, and have multigrid instead (krylov.hpp).
+// held (block Jacobi over the ranks). Struts, bars and shells fill in so little that it takes as long as some
+// tens of products; solid bodies fill in too much, and stay with multigrid (krylov.hpp).
 #pragma once
 
 #include <memory>
