@@ -96,12 +96,6 @@ std::int64_t Communicator::sum(std::int64_t value) const {
   return value;
 }
 
-std::int64_t Communicator::offset(std::int64_t value) const {
-  std::int64_t before = 0;
-  MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, implementation_->raw);
-  return rank_ == 0 ? 0 : before;  // MPI leaves rank 0's result undefined
-}
-
 void Communicator::broadcast(std::string& text) const {
   std::vector<char> bytes(text.begin(), text.end());
   broadcast(bytes);
@@ -135,26 +129,6 @@ std::vector<char> Communicator::gather_bytes(const void* data, std::size_t size)
     });
   }
   return all;
-}
-
-std::vector<char> Communicator::scatter_bytes(const void* data, const std::vector<std::int64_t>& sizes) const {
-  const MPI_Comm comm = implementation_->raw;
-  std::vector<char> mine(sizes[rank_]);
-  if (rank_ != 0) {
-    in_pieces(mine.size(), [&](std::size_t begin, int count) {
-      MPI_Recv(mine.data() + begin, count, MPI_BYTE, 0, 0, comm, MPI_STATUS_IGNORE);
-    });
-    return mine;
-  }
-  const char* all = static_cast<const char*>(data);
-  std::copy_n(all, mine.size(), mine.data());
-  std::size_t start = mine.size();
-  for (int target = 1; target < size_; ++target) {
-    in_pieces(sizes[target],
-              [&](std::size_t begin, int count) { MPI_Send(all + start + begin, count, MPI_BYTE, target, 0, comm); });
-    start += sizes[target];
-  }
-  return mine;
 }
 
 }  // namespace strut
