@@ -1,6 +1,7 @@
 # The libraries strut stands on: Debian 12's packages (tools/packages lists them), or any in CMAKE_PREFIX_PATH.
 # Everything is included as SYSTEM.
 find_package(MPI REQUIRED COMPONENTS C CXX)
+find_package(OpenMP COMPONENTS CXX)  # without it ranks have one thread
 find_package(Eigen3 REQUIRED NO_MODULE)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)

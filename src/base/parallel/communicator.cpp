@@ -22,8 +22,8 @@ void in_pieces(std::size_t size, Piece&& piece) {
   }
 }
 
-// With one thread, whatever Kokkos was built with and the environment says: a rank is a core, and laws add what they
-// find to one report. Without the words of the command line: Kokkos would answer --help with a page of its own.
+// With one thread, whatever Kokkos was built with and the environment says: those of a rank are not Kokkos'
+// (threads.hpp). Without the words of the command line: Kokkos would answer --help with a page of its own.
 void start_kokkos() {
 #if KOKKOS_VERSION >= 30700
   Kokkos::initialize(Kokkos::InitializationSettings().set_num_threads(1));
@@ -35,7 +35,8 @@ void start_kokkos() {
 }  // namespace
 
 Runtime::Runtime(int& argc, char**& argv) {
-  MPI_Init(&argc, &argv);
+  int level = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads looks at what it got
   start_kokkos();
 }
 
