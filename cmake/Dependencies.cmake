@@ -1,6 +1,7 @@
 # The libraries strut stands on: Debian 12's packages (tools/packages lists them), or any in CMAKE_PREFIX_PATH.
 # Everything is included as SYSTEM.
 find_package(MPI REQUIRED COMPONENTS C CXX)
+find_package(OpenMP COMPONENTS CXX)  # without it ranks have one thread
 find_package(Eigen3 REQUIRED NO_MODULE)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
@@ -13,7 +14,7 @@ if(STRUT_TOOLS)
   find_path(VORO_INCLUDE_DIR voro++/voro++.hh REQUIRED)
 endif()
 
-find_library(EXODUS_LIBRARY NAMES exoIIv2c exodus REQUIRED)
+find_library(EXODUS_LIBRARY NAMES exoIIv2c exodus NAMES_PER_DIR REQUIRED)  # Debian's name, Exodus' own
 find_path(EXODUS_INCLUDE_DIR exodusII.h REQUIRED)
 find_library(NETCDF_LIBRARY NAMES netcdf REQUIRED)
 find_path(NETCDF_INCLUDE_DIR netcdf.h REQUIRED)
@@ -21,20 +22,20 @@ add_library(with_exodus INTERFACE)
 target_include_directories(with_exodus SYSTEM INTERFACE ${EXODUS_INCLUDE_DIR} ${NETCDF_INCLUDE_DIR})
 target_link_libraries(with_exodus INTERFACE ${EXODUS_LIBRARY} ${NETCDF_LIBRARY})
 
-# Trilinos (14 and later) exports a target for each of its packages. Debian 12's 13.2 does not, and its configuration of
-# MueLu asks for packages that are not there: headers in one folder, libraries with one prefix.
+# Trilinos (14 and later) exports a target for each of its packages. 13.2 does not, and in Debian 12 its configuration of
+# MueLu asks for packages that are not there: headers in one folder, libraries by their names, Debian's with a prefix.
 find_package(Tpetra QUIET CONFIG)
 if(TARGET Tpetra::all_libs)
   set(STRUT_TRILINOS "exported targets, ${Tpetra_DIR}")
 else()
-  set(STRUT_TRILINOS "Debian's names")
   find_path(TRILINOS_INCLUDE_DIR Teuchos_ParameterList.hpp PATH_SUFFIXES trilinos REQUIRED)
+  set(STRUT_TRILINOS "libraries by their names, ${TRILINOS_INCLUDE_DIR}")
 endif()
 message(STATUS "Trilinos: ${STRUT_TRILINOS}")
 
-# strut_trilinos(TARGET PACKAGES packages that export targets… DEBIAN libraries…)
+# strut_trilinos(TARGET PACKAGES packages that export targets… LIBRARIES names, where there are no targets…)
 function(strut_trilinos target)
-  cmake_parse_arguments(trilinos "" "" "PACKAGES;DEBIAN" ${ARGN})
+  cmake_parse_arguments(trilinos "" "" "PACKAGES;LIBRARIES" ${ARGN})
   add_library(${target} INTERFACE)
   if(TARGET Tpetra::all_libs)
     foreach(package IN LISTS trilinos_PACKAGES)
@@ -45,8 +46,8 @@ function(strut_trilinos target)
     endforeach()
   else()
     target_include_directories(${target} SYSTEM INTERFACE ${TRILINOS_INCLUDE_DIR})
-    foreach(name IN LISTS trilinos_DEBIAN)
-      find_library(TRILINOS_${name} trilinos_${name} REQUIRED)
+    foreach(name IN LISTS trilinos_LIBRARIES)
+      find_library(TRILINOS_${name} NAMES trilinos_${name} ${name} NAMES_PER_DIR REQUIRED)
       target_link_libraries(${target} INTERFACE ${TRILINOS_${name}})
     endforeach()
   endif()
@@ -54,11 +55,11 @@ function(strut_trilinos target)
 endfunction()
 
 strut_trilinos(with_teuchos PACKAGES Teuchos
-               DEBIAN teuchoscore teuchosparser teuchosparameterlist teuchoscomm)
-strut_trilinos(with_kokkos PACKAGES Kokkos DEBIAN kokkoscore)
+               LIBRARIES teuchoscore teuchosparser teuchosparameterlist teuchoscomm)
+strut_trilinos(with_kokkos PACKAGES Kokkos LIBRARIES kokkoscore)
 strut_trilinos(with_tpetra PACKAGES Tpetra
-               DEBIAN tpetra teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
+               LIBRARIES tpetra teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
 strut_trilinos(with_krylov PACKAGES MueLu Belos Ifpack2 Xpetra Amesos2 Tpetra
-               DEBIAN muelu muelu-adapters muelu-interface belostpetra belos ifpack2 xpetra xpetra-sup amesos2 tpetra
-                      teuchosnumerics teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
-strut_trilinos(with_zoltan PACKAGES Zoltan DEBIAN zoltan)
+               LIBRARIES muelu muelu-adapters muelu-interface belostpetra belos ifpack2 xpetra xpetra-sup amesos2 tpetra
+                         teuchosnumerics teuchosparameterlist teuchoscomm teuchoscore kokkoscore)
+strut_trilinos(with_zoltan PACKAGES Zoltan LIBRARIES zoltan)

@@ -1,13 +1,16 @@
 // strut: correspondence peridynamics of foams and bars under impact.
 // What it can be told stands in `help`.
 #include <algorithm>
+#include <charconv>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/threads.hpp"
 #include "deck/deck.hpp"
 #include "run/log.hpp"
 #include "run/simulation.hpp"
@@ -25,6 +28,8 @@ usage: strut [option] deck.xml              on one core
                        none it starts anew, unless the result is complete
   --check deck.xml     say what is wrong with it, or what the run would do: points, memory, time step, time. Writes nothing
   --log FILE           before any of these: what is said on the terminal goes to the file, too
+  --threads N          before any of these: N threads a rank, in place of one; results are the same to the last bit.
+                       A rank needs as many cores: mpirun -np 4 --map-by slot:PE=2 strut --threads 2 deck.xml
   --explain KEY        where a key or section of a deck stands, what it takes and means
   --keys               all keys of a deck, their units and defaults, as a page of Markdown
   --version            the version and how it was built, as every file that it writes has it
@@ -48,17 +53,29 @@ int run(const std::string& deck, const strut::Communicator& world, strut::Start 
   return strut::run(deck, world, start) ? 0 : 3;
 }
 
+std::optional<int> number_of_threads(const std::string& word) {
+  int number = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool is_number = problem == std::errc() && end == word.data() + word.size();
+  if (!is_number || number < 1 || number > strut::most_threads) return std::nullopt;
+  return number;
+}
+
 // Of words that ask for nothing that there is.
 std::string what_is_wrong(const std::vector<std::string>& words) {
-  static const std::vector<std::string> options = {"--continue", "--check",   "--log", "--explain",
-                                                   "--keys",     "--version", "--help"};
+  static const std::vector<std::string> options = {"--continue", "--check", "--log",     "--threads",
+                                                   "--explain",  "--keys",  "--version", "--help"};
   if (words.empty()) return "no deck is named";
+  if (words[0] == "--threads" && words.size() > 1 && !number_of_threads(words[1])) {
+    return "'--threads' needs a whole number, 1 to " + std::to_string(strut::most_threads) + ", not '" + words[1] + "'";
+  }
   for (const std::string& word : words) {
     const bool known = std::find(options.begin(), options.end(), word) != options.end();
     if (word.starts_with("-") && !known)
       return "there is no option '" + word + "'" + strut::did_you_mean(word, options);
   }
   if (words[0] == "--log" && words.size() < 3) return "'--log' needs a file, and a deck";
+  if (words[0] == "--threads" && words.size() < 3) return "'--threads' needs a number, and a deck";
   if (words[0] == "--explain") return "'--explain' needs a key";
   if (words.size() == 1) return "'" + words[0] + "' needs a deck";
   return "'" + strut::joined(words, " ") + "' does not say what to do";
@@ -92,6 +109,10 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
   if (words.size() > 2 && first == "--log" && !words[1].starts_with("-") && words[1] != words.back()) {
     const strut::Log log(words[1], world);
     return reported({words.begin() + 2, words.end()}, world);
+  }
+  if (words.size() > 2 && first == "--threads" && number_of_threads(words[1])) {
+    strut::set_threads(*number_of_threads(words[1]));
+    return act({words.begin() + 2, words.end()}, world);
   }
   if (world.rank() == 0) {
     std::cerr << "strut: " << what_is_wrong(words) << "; expected: strut [--continue | --check] deck.xml\n"

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "mechanics/body.hpp"
 
@@ -14,9 +15,10 @@ struct Failure {
   enum class Kind { not_finite, no_stress, inverted } kind;  // the worst first
 };
 
-// Leaves the worse of both in `worst`.
+// Leaves the worse of both in `worst`, of alike ones that of the first point: whichever comes first.
 inline void take_worse(const std::optional<Failure>& other, std::optional<Failure>& worst) {
-  if (other && (!worst || other->kind < worst->kind)) worst = other;
+  const auto order = [](const Failure& f) { return std::pair(f.kind, f.point); };
+  if (other && (!worst || order(*other) < order(*worst))) worst = other;
 }
 
 // "element 17 of block foam, reference position (…) m, now at (…) m"

@@ -11,11 +11,18 @@ bool all_move_rigidly(const Body& body) {
   return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.in_rigid_motion; });
 }
 
+StepReport together(const PerThread<StepReport>& reports) {
+  StepReport all;
+  for (const StepReport& of_thread : reports.all()) all.add(of_thread);
+  return all;
+}
+
 StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
-  StepReport report;
+  PerThread<StepReport> reports;  // of strips of a lattice
   const Displacements u{body.domain.sites.data()};
   const auto advance = [&](MaterialBlock& block, const LaneGroups& groups) {
+    StepReport& report = reports.mine();
     if (block.is_ordinary()) return advance_ordinary(body, block, with_diagnostics, groups, report);
     if (block.is_quadratic()) return advance_quadratic(body, block, pass, groups, report);
     advance_stress(body, block, pass, groups, report);
@@ -38,17 +45,17 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
         view);
   };
   for (const MaterialBlock& block : body.blocks) {
-    if (block.in_rigid_motion) report.frequency_bound = std::max(report.frequency_bound, block.rest_frequency_bound);
+    if (block.in_rigid_motion) reports.mine().add({.frequency_bound = block.rest_frequency_bound});
   }
   if (all_move_rigidly(body)) {
     over(Part::interior);
-    return report;
+    return together(reports);
   }
   behind_exchange(
       body.domain.halo, places(body.domain.sites), site_stride, 3, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
   if (body.fracture) body.fracture->finish_step();
-  return report;
+  return together(reports);
 }
 
 }  // namespace

@@ -1,37 +1,67 @@
-// Loops over points on Kokkos' default host space. Only kernels (.cpp files) include this: Kokkos is slow to compile.
+// Loops over points, by the threads of this rank (base/parallel/threads.hpp). Each index writes what is its own, and
+// none calls MPI or a timer.
 #pragma once
 
-#include <Kokkos_Core.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel/threads.hpp"
 
 namespace strut {
 
-using HostRange = Kokkos::RangePolicy<Kokkos::DefaultHostExecutionSpace, Kokkos::IndexType<int>>;
+namespace chunks {
+
+// Parts of [begin, end) for threads to take up: one where that is not worth another thread's while, several a thread
+// otherwise, so that one that is held up keeps none waiting for long.
+inline int count(int begin, int end) {
+  constexpr int least = 16, each = 8;
+  return goes_alone() ? 1 : std::min((end - begin) / least, each * threads());
+}
+
+// work(chunk, its begin, its end).
+template <class Work>
+void over(int count, int begin, int end, const Work& work) {
+  if (count < 2) return work(0, begin, end);
+  const auto start = [=](int c) { return begin + static_cast<int>(std::int64_t{end - begin} * c / count); };
+  side_by_side(count, [&](int c) { work(c, start(c), start(c + 1)); });
+}
+
+}  // namespace chunks
 
 // work(i) for every i in [begin, end), in any order.
 template <class Work>
 void for_each_point(int begin, int end, const Work& work) {
-  Kokkos::parallel_for(HostRange(begin, end), work);
+  chunks::over(chunks::count(begin, end), begin, end, [&work](int, int first, int last) {
+    for (int i = first; i < last; ++i) work(i);
+  });
 }
 
 // The largest value(i) of [begin, end), at least `floor`.
 template <class Value>
 double largest(int begin, int end, double floor, const Value& value) {
-  double result = floor;
-  const auto keep = [&value](int i, double& best) {
-    const double candidate = value(i);
-    if (candidate > best) best = candidate;
+  const auto of_part = [floor, &value](int first, int last) {
+    double best = floor;
+    for (int i = first; i < last; ++i) {
+      const double candidate = value(i);
+      if (candidate > best) best = candidate;
+    }
+    return best;
   };
-  Kokkos::parallel_reduce(HostRange(begin, end), keep, Kokkos::Max<double>(result));
-  return std::max(result, floor);
+  const int count = chunks::count(begin, end);
+  if (count < 2) return of_part(begin, end);
+  std::vector<double> best(static_cast<std::size_t>(count));
+  chunks::over(count, begin, end,
+               [&](int chunk, int first, int last) { best[static_cast<std::size_t>(chunk)] = of_part(first, last); });
+  return *std::max_element(best.begin(), best.end());
 }
 
-// Σ value(i) over [begin, end).
+// Σ value(i) over [begin, end), by one thread: a sum has an order.
 template <class Value>
 double total(int begin, int end, const Value& value) {
-  double result = 0;
-  Kokkos::parallel_reduce(
-      HostRange(begin, end), [&value](int i, double& sum) { sum += value(i); }, result);
-  return result;
+  double sum = 0;
+  for (int i = begin; i < end; ++i) sum += value(i);
+  return sum;
 }
 
 }  // namespace strut

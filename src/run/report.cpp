@@ -10,6 +10,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "base/parallel/threads.hpp"
 #include "base/timing.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/fracture/fragments.hpp"
@@ -95,14 +96,32 @@ double predicted_memory(const Scene& scene) {
   return scene.body.domain.communicator.sum(footprint(scene.body) + solver);
 }
 
+namespace {
+
+std::string threads_of_a_rank() { return threads() == 1 ? "" : formatted(" of %d threads", threads()); }
+
+// mpirun gives a rank one core, unless it is told otherwise.
+std::string warning_of_cores(const Communicator& ranks) {
+  if (threads() == 1) return "";
+  const int least = static_cast<int>(ranks.min(cores()));
+  if (least >= threads()) return "";
+  return formatted(
+      "WARNING: %d threads share %d core%s, and take longer than one would: mpirun --map-by slot:PE=%d gives a rank as "
+      "many cores\n",
+      threads(), least, least == 1 ? "" : "s", threads());
+}
+
+}  // namespace
+
 std::string describe_scene(const Scene& scene) {
   std::ostringstream text;
   const double neighbors = static_cast<double>(scene.bonds) / static_cast<double>(scene.points);
   const double memory = predicted_memory(scene);
   const int ranks = scene.body.domain.communicator.size();
-  text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s\n",
+  text << formatted("%lld points, %lld bonds (%.1f a point), %s of memory, %d rank%s%s\n",
                     static_cast<long long>(scene.points), static_cast<long long>(scene.bonds), neighbors,
-                    as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s");
+                    as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s", threads_of_a_rank().c_str());
+  text << warning_of_cores(scene.body.domain.communicator);
   text << told(scene.dropped);
   text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << scene.outline << scene.warnings;
   return text.str();

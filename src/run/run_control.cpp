@@ -1,5 +1,6 @@
 #include "run/run_control.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <iostream>
 
@@ -7,7 +8,7 @@ namespace strut {
 
 namespace {
 
-volatile std::sig_atomic_t signalled = 0;
+std::atomic<int> signalled = 0;  // the handler may be called by any thread
 
 }  // namespace
 

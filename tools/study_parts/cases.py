@@ -1,4 +1,5 @@
 """The runs of a study: each in a folder of its own, several at a time, resumed where they were stopped."""
+import functools
 import glob
 import hashlib
 import json
@@ -12,6 +13,13 @@ import time
 from strut_tools import fail, programs
 
 EARLY = 3  # the exit status of a run that a signal or its wall time has ended
+
+
+@functools.cache
+def launcher():
+    """mpirun; Open MPI's must be asked for runs that share cores."""
+    found = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
+    return ["mpirun", *(["--oversubscribe", "--bind-to", "none"] if "Open MPI" in found or "OpenRTE" in found else [])]
 
 
 class Case:
@@ -74,7 +82,7 @@ class Case:
                     return self.put_state(over=True, error=last_line(self.log), seconds=0)
             command = [programs.strut, *(["--continue"] if goes_on else []), self.deck]
             if ranks > 1:
-                command = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", str(ranks), *command]
+                command = [*launcher(), "-np", str(ranks), *command]
             self.started = time.monotonic()
             environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
             # A group of its own: a Ctrl-C at the terminal is handed on by this program alone.
@@ -96,10 +104,10 @@ class Case:
         return True
 
     def stop(self, ranks):
-        """strut leaves a checkpoint; mpirun would leave its ranks a second, so they are told, not mpirun."""
-        if ranks > 1:
-            subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid)])
-        else:
+        """strut leaves a checkpoint. Open MPI's mpirun would leave its ranks a second, so they are told; MPICH's, of which
+        they are no children, hands the signal on and waits."""
+        told = ranks > 1 and subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid), "-x", "strut"]).returncode == 0
+        if not told:
             os.killpg(self.process.pid, signal.SIGTERM)
 
     def part(self):

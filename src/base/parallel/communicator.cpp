@@ -22,8 +22,8 @@ void in_pieces(std::size_t size, Piece&& piece) {
   }
 }
 
-// With one thread, whatever Kokkos was built with and the environment says: a rank is a core, and laws add what they
-// find to one report. Without the words of the command line: Kokkos would answer --help with a page of its own.
+// With one thread, whatever Kokkos was built with and the environment says: those of a rank are not Kokkos'
+// (threads.hpp). Without the words of the command line: Kokkos would answer --help with a page of its own.
 void start_kokkos() {
 #if KOKKOS_VERSION >= 30700
   Kokkos::initialize(Kokkos::InitializationSettings().set_num_threads(1));
@@ -35,7 +35,8 @@ void start_kokkos() {
 }  // namespace
 
 Runtime::Runtime(int& argc, char**& argv) {
-  MPI_Init(&argc, &argv);
+  int level = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads looks at what it got
   start_kokkos();
 }
 
@@ -96,12 +97,6 @@ std::int64_t Communicator::sum(std::int64_t value) const {
   return value;
 }
 
-std::int64_t Communicator::offset(std::int64_t value) const {
-  std::int64_t before = 0;
-  MPI_Exscan(&value, &before, 1, MPI_INT64_T, MPI_SUM, implementation_->raw);
-  return rank_ == 0 ? 0 : before;  // MPI leaves rank 0's result undefined
-}
-
 void Communicator::broadcast(std::string& text) const {
   std::vector<char> bytes(text.begin(), text.end());
   broadcast(bytes);
@@ -135,26 +130,6 @@ std::vector<char> Communicator::gather_bytes(const void* data, std::size_t size)
     });
   }
   return all;
-}
-
-std::vector<char> Communicator::scatter_bytes(const void* data, const std::vector<std::int64_t>& sizes) const {
-  const MPI_Comm comm = implementation_->raw;
-  std::vector<char> mine(sizes[rank_]);
-  if (rank_ != 0) {
-    in_pieces(mine.size(), [&](std::size_t begin, int count) {
-      MPI_Recv(mine.data() + begin, count, MPI_BYTE, 0, 0, comm, MPI_STATUS_IGNORE);
-    });
-    return mine;
-  }
-  const char* all = static_cast<const char*>(data);
-  std::copy_n(all, mine.size(), mine.data());
-  std::size_t start = mine.size();
-  for (int target = 1; target < size_; ++target) {
-    in_pieces(sizes[target],
-              [&](std::size_t begin, int count) { MPI_Send(all + start + begin, count, MPI_BYTE, target, 0, comm); });
-    start += sizes[target];
-  }
-  return mine;
 }
 
 }  // namespace strut

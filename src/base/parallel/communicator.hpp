@@ -45,9 +45,6 @@ class Communicator {
   double min(double value) const;
   std::int64_t sum(std::int64_t value) const;
 
-  // The exclusive prefix sum of `value` over ranks: what the ranks before this one hold.
-  std::int64_t offset(std::int64_t value) const;
-
   void broadcast(std::string& text) const;  // from rank 0
   template <class T>
   void broadcast(std::vector<T>& values) const;  // from rank 0, resized elsewhere; T trivially copyable
@@ -56,16 +53,11 @@ class Communicator {
   template <class T>
   std::vector<T> gather(std::span<const T> values) const;
 
-  // Rank 0 holds all values; rank r receives counts[r] of them, in order. `counts` is the same on all ranks.
-  template <class T>
-  std::vector<T> scatter(std::span<const T> values, const std::vector<std::int64_t>& counts) const;
-
   const Teuchos::RCP<const Teuchos::Comm<int>>& teuchos() const;
 
  private:
   void broadcast_bytes(void* data, std::size_t size) const;
   std::vector<char> gather_bytes(const void* data, std::size_t size) const;
-  std::vector<char> scatter_bytes(const void* data, const std::vector<std::int64_t>& sizes) const;
 
   struct Implementation;
   std::shared_ptr<const Implementation> implementation_;
@@ -86,16 +78,6 @@ template <class T>
 std::vector<T> Communicator::gather(std::span<const T> values) const {
   static_assert(std::is_trivially_copyable_v<T>);
   const std::vector<char> bytes = gather_bytes(values.data(), values.size_bytes());
-  const T* begin = reinterpret_cast<const T*>(bytes.data());
-  return {begin, begin + bytes.size() / sizeof(T)};
-}
-
-template <class T>
-std::vector<T> Communicator::scatter(std::span<const T> values, const std::vector<std::int64_t>& counts) const {
-  static_assert(std::is_trivially_copyable_v<T>);
-  std::vector<std::int64_t> sizes;
-  for (const std::int64_t count : counts) sizes.push_back(count * static_cast<std::int64_t>(sizeof(T)));
-  const std::vector<char> bytes = scatter_bytes(values.data(), sizes);
   const T* begin = reinterpret_cast<const T*>(bytes.data());
   return {begin, begin + bytes.size() / sizeof(T)};
 }

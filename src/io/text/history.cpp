@@ -51,7 +51,7 @@ void HistoryFile::begin(const std::string& units, const std::string& header) {
 void HistoryFile::go_on(const std::string& header) {
   std::string facts, found;
   std::ifstream before(path_);
-  std::getline(before, facts) && std::getline(before, found);
+  if (std::getline(before, facts)) std::getline(before, found);
   if (std::filesystem::file_size(path_) < static_cast<std::uintmax_t>(bytes_) || !facts.starts_with("# strut ") ||
       found != header) {
     throw Error(path_.string() + ": is not the history that the run left: it is shorter, or has other columns");

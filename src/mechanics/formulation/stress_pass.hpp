@@ -1,6 +1,7 @@
 // Inside mechanics: what the passes over the points of a block that end in their force states have in common.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <limits>
 
@@ -14,16 +15,20 @@ namespace strut {
 class WorstFailure {
  public:
   void report(int k, Failure::Kind kind) {
-    Kokkos::atomic_fetch_min(&code_, (static_cast<std::int64_t>(kind) << 32) + k);
+    const std::int64_t code = (static_cast<std::int64_t>(kind) << 32) + k;
+    std::int64_t worst = code_;
+    while (code < worst && !code_.compare_exchange_weak(worst, code)) {
+    }
   }
   std::optional<Failure> found(const MaterialBlock& block) const {
-    if (code_ == none) return std::nullopt;
-    return Failure{block.points[static_cast<std::uint32_t>(code_)], static_cast<Failure::Kind>(code_ >> 32)};
+    const std::int64_t code = code_;
+    if (code == none) return std::nullopt;
+    return Failure{block.points[static_cast<std::uint32_t>(code)], static_cast<Failure::Kind>(code >> 32)};
   }
 
  private:
   static constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
-  std::int64_t code_ = none;
+  std::atomic<std::int64_t> code_ = none;
 };
 
 struct StressPass {

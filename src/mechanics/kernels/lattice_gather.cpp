@@ -7,33 +7,36 @@ using namespace lattice;
 
 // ---- Sweeps --------------------------------------------------------------------------------------------------------
 
-// The sources, `inputs` a point, are packed plane by plane; gather(z, strip) fills `outputs` of the strip's points in a
-// plane as soon as all that a stencil reaches is there.
 template <class Fill, class Gather>
-void LatticeSums::gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take) {
+void LatticeSums::Traversal::gather_strip(const Strip& strip, int inputs, int outputs, const Fill& fill,
+                                          const Gather& gather, const Take& take) {
   const int planes = lattice_->shape()[2], far = far_z();
   sources_.keep(2 * far + 1), sums_.keep(1);
-  for (const Strip& strip : strips((2 * far + 1) * inputs + outputs)) {
-    for (int z = 0; z < planes; ++z) {
-      sources_.open(*this, z, strip.y0 - far_y(), strip.y1 + far_y(), inputs);
-      for (int slot = sources_.begin(z); slot < sources_.end(z); ++slot) pack(slot, fill, sources_.of(z, slot));
-      const int complete = z - far;
-      if (complete < far) continue;
-      sums_.open(*this, complete, strip.y0, strip.y1, outputs);
-      gather(complete, strip);
-      take_plane(complete, outputs, take);
-    }
+  for (int z = 0; z < planes; ++z) {
+    open(sources_, z, strip.y0 - far_y(), strip.y1 + far_y(), inputs);
+    for (int slot = sources_.begin(z); slot < sources_.end(z); ++slot) all_.pack(slot, fill, sources_.of(z, slot));
+    const int complete = z - far;
+    if (complete < far) continue;
+    open(sums_, complete, strip.y0, strip.y1, outputs);
+    gather(complete);
+    take_plane(complete, outputs, take);
   }
 }
 
-// Pencil by pencil.
-template <class Fill>
-void LatticeSums::gather_pencils(int inputs, int outputs, const Fill& fill,
-                                 void (LatticeSums::*gather)(int slot, int z), const Take& take) {
-  const auto plane = [this, gather](int z, const Strip&) {
-    for (int slot = sums_.begin(z); slot < sums_.end(z); ++slot) {
-      if (lattice_->is_owned(slot)) (this->*gather)(slot, z);
-    }
+// gather(traversal, z, strip)
+template <class Fill, class Gather>
+void LatticeSums::gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take) {
+  over_strips((2 * far_z() + 1) * inputs + outputs, [&](Traversal& traversal, const Strip& strip) {
+    traversal.gather_strip(
+        strip, inputs, outputs, fill, [&](int z) { gather(traversal, z, strip); }, take);
+  });
+}
+
+// Pencil by pencil: gather(traversal, slot, z).
+template <class Fill, class Gather>
+void LatticeSums::gather_pencils(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take) {
+  const auto plane = [&gather](Traversal& traversal, int z, const Strip&) {
+    traversal.for_each_slot(z, [&](int slot) { gather(traversal, slot, z); });
   };
   gather_planes(inputs, outputs, fill, plane, take);
 }
@@ -47,7 +50,7 @@ constexpr int shape_outputs = 13;  // K by columns, S and W
 }  // namespace
 
 // Of eight points and one row of their stencils: Σ ω V, Σ ω dx V and Σ ω dx² V.
-struct LatticeSums::Shapes {
+struct LatticeSums::Traversal::Shapes {
   const std::array<const Pencil*, 3>& there;  // V of the row: before, here and after
   const Kind& kind;
   double spacing;  // along x, m
@@ -67,14 +70,14 @@ struct LatticeSums::Shapes {
   }
 };
 
-void LatticeSums::gather_shape(int slot, int z) {
+void LatticeSums::Traversal::gather_shape(int slot, int z) {
   const int place = lattice_->place(slot);
   Pencil K[9] = {}, S[3] = {}, W = {};
-  for (const Row& row : rows_) {
+  for (const Row& row : all_.rows_) {
     const int beside = place + row.offset, plane = z + row.dz;
     const std::array<const Pencil*, 3> there{source_at(beside - 1, plane), source_at(beside, plane),
                                              source_at(beside + 1, plane)};
-    Shapes sums{there, kinds_[row.kind], lattice_->frame().spacing[0]};
+    Shapes sums{there, all_.kinds_[row.kind], lattice_->frame().spacing[0]};
     sums.add();
     K[0] += sums.second, K[4] += (row.y * row.y) * sums.sum, K[8] += (row.z * row.z) * sums.sum;
     K[1] += row.y * sums.first, K[2] += row.z * sums.first, K[5] += (row.y * row.z) * sums.sum;
@@ -100,7 +103,8 @@ void LatticeSums::gather_shapes(const Body& body, const Take& take) {
   };
   const Displacements places{body.domain.sites.data()};
   const auto volume = [&](const Cells& cells, const Put& put) { put(0, places.of(cells.of(places.sites)).volume); };
-  gather_pencils(1, shape_outputs, volume, &LatticeSums::gather_shape, [&](const Chunk& chunk) {
+  const auto shape = [](Traversal& traversal, int slot, int z) { traversal.gather_shape(slot, z); };
+  gather_pencils(1, shape_outputs, volume, shape, [&](const Chunk& chunk) {
     for (int cell = pencil_width * chunk.begin; cell < pencil_width * chunk.end; ++cell) {
       const int i = lattice_->point(cell / pencil_width, cell % pencil_width);
       if (i >= 0 && i < body.owned()) set(i, chunk.at(i));
@@ -155,12 +159,12 @@ struct MomentsOfPencil {
 
 // Along z, of the columns at the places of a row: once for each kind.
 template <int reach>
-void LatticeSums::sum_columns(int z, int y) {
+void LatticeSums::Traversal::sum_columns(int z, int y) {
   const int places = lattice_->shape()[0], plane = places * lattice_->shape()[1];
   std::uint64_t* const columns = column_bits(y);
-  set_bits_near(filled_, z, y, columns);
+  all_.set_bits_near(all_.filled_, z, y, columns);
   const int row = z * plane + y * places;
-  for_each_bit(columns, words_, [&](int x) {
+  for_each_bit(columns, all_.words_, [&](int x) {
     const Pencil* here = source_at(row + x, z);
     const Pencil *above[reach + 1], *below[reach + 1];
     for (int dz = 1; dz <= reach; ++dz) {
@@ -174,16 +178,16 @@ void LatticeSums::sum_columns(int z, int y) {
         u.plus[dz] = above[dz][c] + below[dz][c];
         u.minus[dz] = above[dz][c] - below[dz][c];
       }
-      for (std::size_t k = 0; k < column_kinds_.size(); ++k) {
-        to[k * of_a_column + c] = u.sum(column_kinds_[k]);
-        to[k * of_a_column + 3 + c] = u.first(column_kinds_[k]);
+      for (std::size_t k = 0; k < all_.column_kinds_.size(); ++k) {
+        to[k * of_a_column + c] = u.sum(all_.column_kinds_[k]);
+        to[k * of_a_column + 3 + c] = u.first(all_.column_kinds_[k]);
       }
     }
   });
 }
 
 // Along y, at one place of the row at hand: for each |dx| the columns that a stencil has there.
-void LatticeSums::sum_across(int x, Pencil* to) const {
+void LatticeSums::Traversal::sum_across(int x, Pencil* to) const {
   for (const std::vector<ColumnOfSums>& columns : columns_near_) {
     Pencil sum[3] = {}, along_z[3] = {}, along_y[3] = {};
     for (const ColumnOfSums& column : columns) {
@@ -202,19 +206,19 @@ void LatticeSums::sum_across(int x, Pencil* to) const {
 
 // Along x, of the pencils in a row.
 template <bool with_springs>
-void LatticeSums::gather_row(int z, int y) {
+void LatticeSums::Traversal::gather_row(int z, int y) {
   const int places = lattice_->shape()[0], row = (z * lattice_->shape()[1] + y) * places;
-  for (std::size_t dx = 0; dx < columns_.size(); ++dx) {
+  for (std::size_t dx = 0; dx < all_.columns_.size(); ++dx) {
     columns_near_[dx].clear();
-    for (const Column& column : columns_[dx]) {
+    for (const Column& column : all_.columns_[dx]) {
       const int beside = y + column.dy;
       columns_near_[dx].push_back(
           {ring_.row(beside, places) + of_a_column * column.kind, column_bits(beside), column.y});
     }
   }
-  const auto across = [&](int x) { return &across_[(x % 4) * of_columns * columns_.size()]; };
+  const auto across = [&](int x) { return &across_[(x % 4) * of_columns * columns_near_.size()]; };
   int next = 0;  // place to be summed along y
-  for_each_bit(row_of(owned_, z, y), words_, [&](int x) {
+  for_each_bit(all_.row_of(all_.owned_, z, y), all_.words_, [&](int x) {
     for (next = std::max(next, x - 1); next <= x + 1; ++next) sum_across(next, across(next));
     const std::array<const Pencil*, 3> at{across(x - 1), across(x), across(x + 1)};
     const MomentsOfPencil<with_springs> sums(at, lattice_->reach(), lattice_->frame().spacing[0]);
@@ -222,25 +226,29 @@ void LatticeSums::gather_row(int z, int y) {
   });
 }
 
+template <int reach, bool with_springs>
+void LatticeSums::Traversal::gather_moments(int z, const Strip& strip) {
+  ring_.open(lattice_->rows_across(), static_cast<int>(all_.column_kinds_.size()) * of_a_column, lattice_->shape()[0]);
+  column_bits_.resize(static_cast<std::size_t>(ring_.rows) * all_.words_);
+  across_.resize(4 * of_columns * columns_near_.size());
+  int next = strip.y0 - far_y();  // row whose columns are to be summed
+  for (int y = strip.y0; y < strip.y1; ++y) {
+    const std::uint64_t* owned = all_.row_of(all_.owned_, z, y);
+    if (std::all_of(owned, owned + all_.words_, [](std::uint64_t word) { return word == 0; })) continue;
+    for (next = std::max(next, y - far_y()); next <= y + far_y(); ++next) sum_columns<reach>(z, next);
+    gather_row<with_springs>(z, y);
+  }
+}
+
 // `fill`: V u of points.
 template <bool with_springs, class Fill>
 void LatticeSums::gather_moments(const Fill& fill, const Take& take) {
-  ring_.open(lattice_->rows_across(), static_cast<int>(column_kinds_.size()) * of_a_column, lattice_->shape()[0]);
-  column_bits_.resize(static_cast<std::size_t>(ring_.rows) * words_);
-  across_.resize(4 * of_columns * columns_.size());
-  const auto gather = [&](auto reach, int z, const Strip& strip) {
-    int next = strip.y0 - far_y();  // row whose columns are to be summed
-    for (int y = strip.y0; y < strip.y1; ++y) {
-      const std::uint64_t* owned = row_of(owned_, z, y);
-      if (std::all_of(owned, owned + words_, [](std::uint64_t word) { return word == 0; })) continue;
-      for (next = std::max(next, y - far_y()); next <= y + far_y(); ++next) sum_columns<reach>(z, next);
-      gather_row<with_springs>(z, y);
-    }
-  };
-  with_constant(far_z(), [&](auto reach) {
-    gather_planes(
-        moment_inputs, MomentsOfPencil<with_springs>::outputs, fill,
-        [&](int z, const Strip& strip) { gather(reach, z, strip); }, take);
+  with_constant(far_z(), [&](auto far) {
+    constexpr int reach = far;
+    const auto gather = [](Traversal& traversal, int z, const Strip& strip) {
+      traversal.gather_moments<reach, with_springs>(z, strip);
+    };
+    gather_planes(moment_inputs, MomentsOfPencil<with_springs>::outputs, fill, gather, take);
   });
 }
 
@@ -290,12 +298,13 @@ void LatticeSums::gather_residuals_of(std::size_t kind, const Displacements& u,
     }
     put(12, bonds::stiffness_of(kind, F[3], F[11])), put(13, V), put(14, F[7]);
   };
-  gather_pencils(residual_inputs, residual_outputs, fill, &LatticeSums::gather_residuals<S>, take);
+  const auto gather = [](Traversal& traversal, int slot, int z) { traversal.gather_residuals<S>(slot, z); };
+  gather_pencils(residual_inputs, residual_outputs, fill, gather, take);
 }
 
 // The bonds of eight points with one row of their stencils.
 template <class S>
-struct LatticeSums::Residuals {
+struct LatticeSums::Traversal::Residuals {
   const Pencil* own;           // columns of the points
   const Pencil* const* there;  // columns of the row: before, here and after
   const Pencil* fitted;        // u − ½ (H_y dy + H_z dz) of the row: before, here and after, three each
@@ -336,11 +345,11 @@ struct LatticeSums::Residuals {
 };
 
 template <class S>
-void LatticeSums::gather_residuals(int slot, int z) {
+void LatticeSums::Traversal::gather_residuals(int slot, int z) {
   const int place = lattice_->place(slot);
   const Pencil* own = sources_.of(z, slot);
   Pencil M[9] = {}, force[3] = {};
-  for (const Row& row : rows_) {
+  for (const Row& row : all_.rows_) {
     const int beside = place + row.offset, plane = z + row.dz;
     const Pencil* ends[] = {source_at(beside - 1, plane), source_at(beside, plane), source_at(beside + 1, plane)};
     Pencil fitted[9], base[3];
@@ -350,7 +359,7 @@ void LatticeSums::gather_residuals(int slot, int z) {
       }
       base[c] = own[9 + c] + 0.5 * (row.y * own[3 + c] + row.z * own[6 + c]);
     }
-    Residuals<S> bonds{own, ends, fitted, base, kinds_[row.kind], lattice_->frame().spacing[0], row.y, row.z};
+    Residuals<S> bonds{own, ends, fitted, base, all_.kinds_[row.kind], lattice_->frame().spacing[0], row.y, row.z};
     bonds.template add_bond<0>();
     bonds.add_bonds();
     for (int c = 0; c < 3; ++c) {

@@ -12,26 +12,30 @@ using namespace lattice;
 // from the first and last plane and row as a stencil reaches.
 template <class Sweep, class Fill>
 void LatticeSums::sweep(const Fill& fill, const Take& take) {
+  over_strips((2 * far_z() + 1) * Sweep::outputs,
+              [&](Traversal& traversal, const Strip& strip) { traversal.sweep_strip<Sweep>(strip, fill, take); });
+}
+
+template <class Sweep, class Fill>
+void LatticeSums::Traversal::sweep_strip(const Strip& strip, const Fill& fill, const Take& take) {
   const Eigen::Array3i& shape = lattice_->shape();
   const int planes = shape[2], far = far_z();
   row_.assign(static_cast<std::size_t>(shape[0]) * Sweep::inputs, Pencil{});
-  ring_.open(lattice_->rows_across(), static_cast<int>(kinds_.size()) * Sweep::columns, shape[0]);
+  ring_.open(lattice_->rows_across(), static_cast<int>(all_.kinds_.size()) * Sweep::columns, shape[0]);
   sums_.keep(2 * far + 1);
-  for (const Strip& strip : strips((2 * far + 1) * Sweep::outputs)) {
-    for (int z = 0; z < planes; ++z) {
-      if (z + far < planes) {
-        sums_.open(*this, z + far, strip.y0, strip.y1, Sweep::outputs);
-        sums_.clear(z + far);
-      }
-      if (z >= far && z < planes - far) sum_plane<Sweep>(z, strip, fill);
-      if (z >= 2 * far) take_plane(z - far, Sweep::outputs, take);
+  for (int z = 0; z < planes; ++z) {
+    if (z + far < planes) {
+      open(sums_, z + far, strip.y0, strip.y1, Sweep::outputs);
+      sums_.clear(z + far);
     }
+    if (z >= far && z < planes - far) sum_plane<Sweep>(z, strip, fill);
+    if (z >= 2 * far) take_plane(z - far, Sweep::outputs, take);
   }
 }
 
 template <class Sweep, class Fill>
-void LatticeSums::sum_plane(int z, const Strip& strip, const Fill& fill) {
-  if (slots_before(z, strip.y0 - far_y()) == slots_before(z, strip.y1 + far_y())) return;
+void LatticeSums::Traversal::sum_plane(int z, const Strip& strip, const Fill& fill) {
+  if (all_.slots_before(z, strip.y0 - far_y()) == all_.slots_before(z, strip.y1 + far_y())) return;
   int next = strip.y0 - far_y();  // row to be summed along x
   for (int y = strip.y0; y < strip.y1; ++y) {
     for (; next <= y + far_y(); ++next) sum_row<Sweep>(z, next, fill);
@@ -40,42 +44,42 @@ void LatticeSums::sum_plane(int z, const Strip& strip, const Fill& fill) {
 }
 
 template <class Sweep, class Fill>
-void LatticeSums::sum_row(int z, int y, const Fill& fill) {
+void LatticeSums::Traversal::sum_row(int z, int y, const Fill& fill) {
   const int places = lattice_->shape()[0], row = z * lattice_->shape()[1] + y;
-  const std::uint64_t* filled = row_of(filled_, z, y);
+  const std::uint64_t* filled = all_.row_of(all_.filled_, z, y);
   Pencil* const sums = ring_.row(y, places);
-  for_each_bit(filled, words_, [&](int x) {
-    pack(lattice_->slot_at(row * places + x), fill, &row_[static_cast<std::size_t>(x) * Sweep::inputs]);
+  for_each_bit(filled, all_.words_, [&](int x) {
+    all_.pack(lattice_->slot_at(row * places + x), fill, &row_[static_cast<std::size_t>(x) * Sweep::inputs]);
   });
-  for_each_bit(filled, words_, [&](int x) {
+  for_each_bit(filled, all_.words_, [&](int x) {
     const Pencil* here = &row_[static_cast<std::size_t>(x) * Sweep::inputs];
-    Sweep::row_sums(kinds_, here, sums + static_cast<std::size_t>(x) * ring_.columns);
+    Sweep::row_sums(all_.kinds_, here, sums + static_cast<std::size_t>(x) * ring_.columns);
   });
-  for_each_bit(filled, words_, [&](int x) {
+  for_each_bit(filled, all_.words_, [&](int x) {
     std::fill_n(&row_[static_cast<std::size_t>(x) * Sweep::inputs], Sweep::inputs, Pencil{});
   });
 }
 
 // What the rows about row y of plane z give to the pencils above and below it.
 template <class Sweep>
-void LatticeSums::hand_over_row(int z, int y) {
+void LatticeSums::Traversal::hand_over_row(int z, int y) {
   const int places = lattice_->shape()[0];
   for (int dz = 0; dz <= far_z(); ++dz) {
     near_[dz].clear();
-    for (const Row& r : above_[dz]) {
+    for (const Row& r : all_.above_[dz]) {
       near_[dz].push_back({ring_.row(y + r.dy, places) + Sweep::columns * r.kind, r.dy * places, r.y});
     }
   }
-  set_bits_near(owned_, z, y, targets_.data());
+  all_.set_bits_near(all_.owned_, z, y, targets_.data());
   const int row = (z * lattice_->shape()[1] + y) * places;
-  for_each_bit(targets_.data(), words_, [&](int x) {
+  for_each_bit(targets_.data(), all_.words_, [&](int x) {
     for (int dz = 0; dz <= far_z(); ++dz) hand_over<Sweep>(row + x, z, dz, x * ring_.columns);
   });
 }
 
 // `first`: where the sums of the pencil's own x stand in each row. Inlined: as a call it costs a fifth of a sweep.
 template <class Sweep>
-__attribute__((always_inline)) inline void LatticeSums::hand_over(int place, int z, int dz, int first) {
+__attribute__((always_inline)) inline void LatticeSums::Traversal::hand_over(int place, int z, int dz, int first) {
   const int away = dz * lattice_->shape()[0] * lattice_->shape()[1];
   const int below = lattice_->slot_at(place - away), over = lattice_->slot_at(place + away);
   const bool to_below = lattice_->is_owned(below), to_over = dz > 0 && lattice_->is_owned(over);
@@ -84,7 +88,7 @@ __attribute__((always_inline)) inline void LatticeSums::hand_over(int place, int
   for (const RowOfSums& row : near_[dz]) {
     if (lattice_->slot_at(place + row.offset) != 0) sums.add(row.sums + first, row.y);
   }
-  const double height = above_[dz][0].z;
+  const double height = all_.above_[dz][0].z;
   if (to_below) sums.hand(sums_.of(z - dz, below), height);
   if (to_over) sums.hand(sums_.of(z + dz, over), -height);
 }

@@ -12,10 +12,6 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const
   make_columns(body.influence);
   mark_places();
   has_springs_ = body.has_springs(ResidualKind::own_gradient);
-  near_.resize(above_.size());
-  columns_near_.resize(columns_.size());
-  targets_.resize(words_);
-  nothing_.assign(residual_inputs, Pencil{});
   gather_shapes(body, take);
 }
 
@@ -78,6 +74,7 @@ void LatticeSums::mark_places() {
   filled_.assign(static_cast<std::size_t>(shape[1]) * shape[2] * words_, 0);
   owned_ = filled_;
   row_begins_.assign(static_cast<std::size_t>(shape[1]) * shape[2] + 1, 0);
+  slots_at_.assign(shape[1], 0);
   for (int slot = 1; slot < lattice_->slots(); ++slot) {
     const int row = lattice_->place(slot) / shape[0], x = lattice_->place(slot) % shape[0];
     const std::size_t word = static_cast<std::size_t>(row) * words_ + x / 64;
@@ -85,9 +82,11 @@ void LatticeSums::mark_places() {
     filled_[word] |= bit;
     if (lattice_->is_owned(slot)) owned_[word] |= bit;
     row_begins_[row + 1] = slot + 1;
+    ++slots_at_[row % shape[1]];
   }
   row_begins_[0] = 1;
   for (std::size_t row = 1; row < row_begins_.size(); ++row) {
+    rows_with_slots_ += row_begins_[row] > 0;
     row_begins_[row] = std::max(row_begins_[row], row_begins_[row - 1]);
   }
 }
@@ -101,12 +100,6 @@ void LatticeSums::set_bits_near(const std::vector<std::uint64_t>& bits, int z, i
   }
 }
 
-double LatticeSums::bytes() const {
-  const std::size_t rows = row_begins_.size() * sizeof(int) + 2 * filled_.size() * sizeof(std::uint64_t);
-  return static_cast<double>(rows + sizeof(Pencil) * (row_.size() + ring_.room.size() + across_.size())) +
-         constants_.bytes() + sums_.bytes() + sources_.bytes();
-}
-
 std::pair<int, int> LatticeSums::Chunk::part_of(const std::vector<int>& points, int low, int high) const {
   const auto place_of = [&](int slot) {
     const auto is_before = [this](int i, int cell) { return all->lattice_->cell(i) < cell; };
@@ -114,51 +107,6 @@ std::pair<int, int> LatticeSums::Chunk::part_of(const std::vector<int>& points, 
     return static_cast<int>(at - points.begin());
   };
   return {place_of(begin), place_of(end)};
-}
-
-// ---- Strips --------------------------------------------------------------------------------------------------------
-
-// As many rows as leave what is kept of the planes, so many pencils a slot, in a megabyte; twice what a stencil
-// reaches at least, for the rows beside a strip are done once more for the next one.
-std::vector<LatticeSums::Strip> LatticeSums::strips(int pencils) const {
-  constexpr double room = 1 << 20;
-  const Eigen::Array3i& shape = lattice_->shape();
-  double rows = 1;  // that hold anything
-  for (std::size_t row = 1; row < row_begins_.size(); ++row) rows += row_begins_[row] > row_begins_[row - 1];
-  const double a_row = sizeof(Pencil) * pencils * lattice_->slots() / rows;
-  const int height = std::max(4 * far_y() + 2, static_cast<int>(room / a_row));
-  std::vector<Strip> strips;
-  for (int y = far_y(); y < shape[1] - far_y(); y += height) {
-    strips.push_back({y, std::min(y + height, shape[1] - far_y())});
-  }
-  return strips;
-}
-
-void LatticeSums::Planes::keep(int planes) {
-  count_ = planes;
-  if (room_.size() < static_cast<std::size_t>(planes))
-    room_.resize(planes), begins_.resize(planes), ends_.resize(planes);
-}
-
-void LatticeSums::Planes::open(const LatticeSums& all, int z, int y0, int y1, int columns) {
-  columns_ = columns;
-  begins_[z % count_] = all.slots_before(z, y0), ends_[z % count_] = all.slots_before(z, y1);
-  std::vector<Pencil>& room = room_[z % count_];
-  room.resize(std::max(room.size(), static_cast<std::size_t>(end(z) - begin(z)) * columns));
-}
-
-double LatticeSums::Planes::bytes() const {
-  std::size_t pencils = 0;
-  for (const auto& plane : room_) pencils += plane.capacity();
-  return static_cast<double>(sizeof(Pencil) * pencils);
-}
-
-void LatticeSums::take_plane(int z, int columns, const Take& take) {
-  Chunk chunk;
-  chunk.all = this, chunk.begin = sums_.begin(z), chunk.end = sums_.end(z), chunk.columns = columns;
-  if (chunk.begin == chunk.end) return;
-  chunk.sums = sums_.of(z, chunk.begin);
-  take(chunk);
 }
 
 }  // namespace strut

@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "base/math/pencil.hpp"
@@ -154,53 +155,8 @@ class LatticeSums {
   };
   // Of a point, over its family and itself: S = Σ ω V ξ, and in the fourth lane W = Σ ω V.
   using Constants = Eigen::Array4d;
-  // The rows y0 … y1 − 1 of all planes.
-  struct Strip {
-    int y0, y1;
-  };
-  // The sums of a row for one kind of rows, from x = 0; how far it is in the grid, and in m.
-  struct RowOfSums {
-    const Pencil* sums;
-    int offset;
-    double y;
-  };
-  // The sums of the columns of a kind in a row, from x = 0; where any are; how far the row is, m.
-  struct ColumnOfSums {
-    const Pencil* sums;
-    const std::uint64_t* filled;
-    double y;
-  };
-  // Some numbers of each point for the slots of a strip, of as many planes as are kept.
-  class Planes {
-   public:
-    void keep(int planes);
-    void open(const LatticeSums& all, int z, int y0, int y1, int columns);  // whatever is in it
-    void clear(int z) { std::fill(of(z, begin(z)), of(z, end(z)), Pencil{}); }
-    int begin(int z) const { return begins_[z % count_]; }
-    int end(int z) const { return ends_[z % count_]; }
-    Pencil* of(int z, int slot) {
-      return room_[z % count_].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
-    }
-    double bytes() const;
-
-   private:
-    int columns_ = 0, count_ = 1;
-    std::vector<std::vector<Pencil>> room_;
-    std::vector<int> begins_, ends_;  // slots
-  };
-  // The sums along x or z at the places of the rows that a stencil reaches in a plane.
-  struct Ring {
-    int rows = 1, columns = 0;  // of a place
-    std::vector<Pencil> room;
-    void open(int across, int of_a_place, int places) {
-      rows = across, columns = of_a_place;
-      room.resize(std::max(room.size(), static_cast<std::size_t>(rows) * places * columns));
-    }
-    Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
-  };
-  struct Shapes;
-  template <class S>
-  struct Residuals;
+  // One thread's way through the lattice, and its workspaces (lattice_traversal.hpp).
+  class Traversal;
   template <int reach>
   struct SquareSweep;
   template <int reach, bool with_springs>
@@ -220,47 +176,25 @@ class LatticeSums {
     return &bits[(static_cast<std::size_t>(z) * lattice_->shape()[1] + y) * words_];
   }
   void set_bits_near(const std::vector<std::uint64_t>& bits, int z, int y, std::uint64_t* row) const;
-  std::vector<Strip> strips(int pencils) const;
   template <class Fill>
   void pack(int slot, const Fill& fill, Pencil* to) const;
-  void take_plane(int z, int columns, const Take& take);
+  template <class Work>
+  void over_strips(int pencils, const Work& work);
 
   // Gathered.
   template <class Fill, class Gather>
   void gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take);
-  template <class Fill>
-  void gather_pencils(int inputs, int outputs, const Fill& fill, void (LatticeSums::*gather)(int slot, int z),
-                      const Take& take);
+  template <class Fill, class Gather>
+  void gather_pencils(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take);
   template <bool with_springs, class Fill>
   void gather_moments(const Fill& fill, const Take& take);
-  template <int reach>
-  void sum_columns(int z, int y);
-  void sum_across(int x, Pencil* to) const;
-  template <bool with_springs>
-  void gather_row(int z, int y);
-  void gather_shape(int slot, int z);
-  template <class S>
-  void gather_residuals(int slot, int z);
   template <class S>
   void gather_residuals_of(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
                            const Take& take);
-  std::uint64_t* column_bits(int y) { return &column_bits_[static_cast<std::size_t>(y % ring_.rows) * words_]; }
-  const Pencil* source_at(int place, int z) {
-    const int slot = lattice_->slot_at(place);
-    return slot == 0 ? nothing_.data() : sources_.of(z, slot);
-  }
 
   // Handed over.
   template <class Sweep, class Fill>
   void sweep(const Fill& fill, const Take& take);
-  template <class Sweep, class Fill>
-  void sum_plane(int z, const Strip& strip, const Fill& fill);
-  template <class Sweep, class Fill>
-  void sum_row(int z, int y, const Fill& fill);
-  template <class Sweep>
-  void hand_over_row(int z, int y);
-  template <class Sweep>
-  void hand_over(int place, int z, int dz, int first);
 
   const LatticeFamilies* lattice_;
   std::vector<Row> rows_;
@@ -270,23 +204,14 @@ class LatticeSums {
   std::vector<Kind> column_kinds_;
   // A bit for each place of the grid: whether there is a slot; one with points of this rank's own.
   std::vector<std::uint64_t> filled_, owned_;
-  int words_ = 0;                      // of these bits a row
-  std::vector<int> row_begins_;        // the first slot of each row of the grid, and of the next ones if it has none
+  int words_ = 0;                // of these bits a row
+  std::vector<int> row_begins_;  // the first slot of each row of the grid, and of the next ones if it has none
+  std::vector<int> slots_at_;    // of the rows at each y
+  int rows_with_slots_ = 0;
   Deduplicated<Constants> constants_;  // of owned points
   bool has_springs_ = false;
 
-  // Workspaces of a sweep.
-  Ring ring_;
-  Planes sums_, sources_;
-  std::vector<Pencil> nothing_;
-  // That gathers: by |dx|; whether there are columns at the places of the rows of the ring; their sums at four places.
-  std::vector<std::vector<ColumnOfSums>> columns_near_;
-  std::vector<std::uint64_t> column_bits_;
-  std::vector<Pencil> across_;
-  // That hands over: what is summed, of all places of a row, zero between rows; by |dz|; places that take something.
-  std::vector<Pencil> row_;
-  std::vector<std::vector<RowOfSums>> near_;
-  std::vector<std::uint64_t> targets_;
+  std::vector<std::shared_ptr<Traversal>> traversals_;  // of threads
 };
 
 }  // namespace strut

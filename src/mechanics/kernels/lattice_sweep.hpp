@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "mechanics/kernels/bonds.hpp"
-#include "mechanics/kernels/lattice_sums.hpp"
+#include "mechanics/kernels/lattice_traversal.hpp"
 
 namespace strut {
 

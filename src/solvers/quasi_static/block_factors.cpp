@@ -1,7 +1,6 @@
 #include "solvers/quasi_static/block_factors.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +9,6 @@ namespace strut {
 namespace {
 
 using Pattern = Eigen::SparseMatrix<double>;
-
-// What Eigen finds out of a pattern.
-class Symbolic : public Eigen::SimplicialLDLT<Pattern, Eigen::Lower, Eigen::NaturalOrdering<int>> {
- public:
-  const Eigen::VectorXi& parent() const { return m_parent; }
-  const Eigen::VectorXi& filled() const { return m_nonZerosPerCol; }
-};
 
 // A block at work: its columns in registers, of four numbers each.
 struct Padded {
@@ -48,15 +40,31 @@ BlockFactors::BlockFactors(const Pattern& pattern) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = pattern;
   start_.assign(by_rows.outerIndexPtr(), by_rows.outerIndexPtr() + size + 1);
   columns_.assign(by_rows.innerIndexPtr(), by_rows.innerIndexPtr() + by_rows.nonZeros());
-  Symbolic symbolic;
-  symbolic.analyzePattern(pattern);
-  parent_.assign(symbolic.parent().begin(), symbolic.parent().end());
+  const std::vector<int> filled = find_parents();
   first_.assign(size + 1, 0);
   for (int k = 0; k < size; ++k) {
-    const double count = symbolic.filled()[k];
-    first_[k + 1] = first_[k] + symbolic.filled()[k];
+    const double count = filled[k];
+    first_[k + 1] = first_[k] + filled[k];
     operations_ += 27 * (count + 1) * (count + 1);
   }
+}
+
+// The elimination tree, from the columns of each row. Returns how many rows each column of L fills below its diagonal.
+std::vector<int> BlockFactors::find_parents() {
+  const int size = static_cast<int>(start_.size()) - 1;
+  parent_.assign(size, -1);
+  std::vector<int> filled(size, 0), seen_by(size, -1);
+  for (int k = 0; k < size; ++k) {
+    seen_by[k] = k;
+    for (int e = start_[k]; e < start_[k + 1]; ++e) {
+      for (int j = columns_[e]; seen_by[j] != k; j = parent_[j]) {
+        if (parent_[j] < 0) parent_[j] = k;
+        seen_by[j] = k;
+        ++filled[j];
+      }
+    }
+  }
+  return filled;
 }
 
 double BlockFactors::bytes() const {

@@ -25,6 +25,7 @@ class BlockFactors {
   void solve(std::vector<Eigen::Vector3d>& x) const;  // in place
 
  private:
+  std::vector<int> find_parents();
   std::vector<int> row_of(int k, std::vector<int>& seen_by) const;
 
   // One below the diagonal and the one across from it.

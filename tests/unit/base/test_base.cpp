@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <numeric>
 #include <string>
 #include <thread>
 
@@ -69,22 +68,12 @@ TEST(Communicator, GatherKeepsTheOrderOfRanks) {
   EXPECT_EQ(all, expected);
 }
 
-TEST(Communicator, ScatterUndoesGather) {
-  const Communicator world;
-  std::vector<std::int64_t> counts(world.size());
-  std::iota(counts.begin(), counts.end(), 0);  // rank 0 receives nothing
-  const std::vector<double> mine(world.rank(), 0.5 * world.rank());
-  const std::vector<double> all = world.gather(std::span<const double>(mine));
-  EXPECT_EQ(world.scatter(std::span<const double>(all), counts), mine);
-}
-
 TEST(Communicator, Reductions) {
   const Communicator world;
   const int n = world.size();
   EXPECT_EQ(world.sum(1.0), n);
   EXPECT_EQ(world.max(static_cast<double>(world.rank())), n - 1);
   EXPECT_EQ(world.min(static_cast<double>(world.rank())), 0);
-  EXPECT_EQ(world.offset(2), 2 * world.rank());
   std::string text = world.rank() == 0 ? "deck" : "";
   world.broadcast(text);
   EXPECT_EQ(text, "deck");

@@ -477,5 +477,17 @@ TEST(DeckErrors, AMissingMeshWithARecipe) {
             "rod.recipe); expected a mesh, its path relative to the deck's folder");
 }
 
+TEST(DeckErrors, AMeshOfAnotherProgramNamesTheToolThatConvertsIt) {
+  const DeckFolder folder;
+  for (const std::string mesh : {"rod.vtk", "rod.vtu", "rod.msh"}) {
+    folder.write(mesh, "of another program\n");
+    EXPECT_EQ(
+        folder.error(changed(small_deck, "bar.txt", mesh)),
+        "deck.xml: 1 problem\n  Discretization > Input Mesh File: '" + mesh +
+            "' is a mesh of another program, of which tools/tetrahedra makes one that can be read; expected a mesh, "
+            "its path relative to the deck's folder");
+  }
+}
+
 }  // namespace
 }  // namespace strut::deck

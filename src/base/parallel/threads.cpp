@@ -1,0 +1,85 @@
+#include "base/parallel/threads.hpp"
+
+#include <mpi.h>
+
+#include <exception>
+#include <string>
+
+#include "base/errors.hpp"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace strut {
+
+namespace {
+
+int thread_count = 1;
+
+// Empty if there can be so many.
+std::string what_forbids(int count) {
+  if (count == 1) return "";
+#ifdef _OPENMP
+  int level = MPI_THREAD_SINGLE;
+  MPI_Query_thread(&level);
+  if (level < MPI_THREAD_FUNNELED) return "this MPI allows its ranks one thread only";
+  if (omp_get_thread_limit() < count) return "OMP_THREAD_LIMIT is " + std::to_string(omp_get_thread_limit());
+  return "";
+#else
+  return "this strut was built without OpenMP";
+#endif
+}
+
+}  // namespace
+
+void set_threads(int count) {
+  const std::string problem = what_forbids(count);
+  if (!problem.empty()) throw Error("there cannot be " + std::to_string(count) + " threads a rank: " + problem);
+  thread_count = count;
+}
+
+int threads() { return thread_count; }
+
+#ifdef _OPENMP
+
+int this_thread() { return omp_get_thread_num(); }
+
+int cores() { return omp_get_num_procs(); }
+
+bool goes_alone() { return thread_count == 1 || omp_in_parallel() != 0; }
+
+void side_by_side(int count, const std::function<void(int i)>& work) {
+  if (goes_alone() || count < 2) {
+    for (int i = 0; i < count; ++i) work(i);
+    return;
+  }
+  int first = count;  // whose error it is
+  std::exception_ptr error;
+#pragma omp parallel for schedule(dynamic) num_threads(thread_count)
+  for (int i = 0; i < count; ++i) {
+    try {
+      work(i);
+    } catch (...) {
+#pragma omp critical
+      if (i < first) first = i, error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+#else
+
+int this_thread() { return 0; }
+
+int cores() { return 1; }
+
+bool goes_alone() { return true; }
+
+void side_by_side(int count, const std::function<void(int i)>& work) {
+  for (int i = 0; i < count; ++i) work(i);
+}
+
+#endif
+
+}  // namespace strut

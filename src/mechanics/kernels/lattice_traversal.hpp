@@ -1,0 +1,165 @@
+// Inside the sums over lattices: how one thread goes through the lattice, strip by strip and each of them plane by
+// plane, and what it keeps meanwhile. Strips are independent of each other; what they are made of does not change a
+// sum.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel/threads.hpp"
+#include "mechanics/kernels/lattice_sums.hpp"
+
+namespace strut {
+
+namespace lattice {
+
+// The rows y0 … y1 − 1 of all planes.
+struct Strip {
+  int y0, y1;
+};
+
+// The sums of a row for one kind of rows, from x = 0; how far it is in the grid, and in m.
+struct RowOfSums {
+  const Pencil* sums;
+  int offset;
+  double y;
+};
+
+// The sums of the columns of a kind in a row, from x = 0; where any are; how far the row is, m.
+struct ColumnOfSums {
+  const Pencil* sums;
+  const std::uint64_t* filled;
+  double y;
+};
+
+// Some numbers of each point for the slots of a strip, of as many planes as are kept.
+class Planes {
+ public:
+  void keep(int planes);
+  // For the slots from `begin` to `end` of a plane; whatever is in it.
+  void open(int z, int begin, int end, int columns);
+  void clear(int z) { std::fill(of(z, begin(z)), of(z, end(z)), Pencil{}); }
+  int begin(int z) const { return begins_[z % count_]; }
+  int end(int z) const { return ends_[z % count_]; }
+  Pencil* of(int z, int slot) {
+    return room_[z % count_].data() + static_cast<std::size_t>(slot - begin(z)) * columns_;
+  }
+  std::size_t pencils() const;
+
+ private:
+  int columns_ = 0, count_ = 1;
+  std::vector<std::vector<Pencil>> room_;
+  std::vector<int> begins_, ends_;  // slots
+};
+
+// The sums along x or z at the places of the rows that a stencil reaches in a plane.
+struct Ring {
+  int rows = 1, columns = 0;  // of a place
+  std::vector<Pencil> room;
+  void open(int across, int of_a_place, int places) {
+    rows = across, columns = of_a_place;
+    room.resize(std::max(room.size(), static_cast<std::size_t>(rows) * places * columns));
+  }
+  Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
+};
+
+// Of a lattice whose rows hold so many slots at each y: as many strips as asked for, in multiples of the threads, with
+// about as many slots each. Rows beside a strip are done once more for the next one.
+std::vector<Strip> strips(const std::vector<int>& slots_at, int far_y, int count);
+
+}  // namespace lattice
+
+class LatticeSums::Traversal {
+ public:
+  explicit Traversal(const LatticeSums& all);
+
+  // What is gathered: the sources, `inputs` a point, are packed plane by plane; gather(z) fills `outputs` of the
+  // strip's points in a plane as soon as all that a stencil reaches is there.
+  template <class Fill, class Gather>
+  void gather_strip(const lattice::Strip& strip, int inputs, int outputs, const Fill& fill, const Gather& gather,
+                    const Take& take);
+  template <class Gather>
+  void for_each_slot(int z, const Gather& gather) {
+    for (int slot = sums_.begin(z); slot < sums_.end(z); ++slot) {
+      if (lattice_->is_owned(slot)) gather(slot);
+    }
+  }
+  void gather_shape(int slot, int z);
+  template <class S>
+  void gather_residuals(int slot, int z);
+  template <int reach, bool with_springs>
+  void gather_moments(int z, const lattice::Strip& strip);
+
+  // What is handed over.
+  template <class Sweep, class Fill>
+  void sweep_strip(const lattice::Strip& strip, const Fill& fill, const Take& take);
+
+  double bytes() const;
+
+ private:
+  struct Shapes;
+  template <class S>
+  struct Residuals;
+
+  int far_z() const { return all_.far_z(); }
+  int far_y() const { return all_.far_y(); }
+  void open(lattice::Planes& planes, int z, int y0, int y1, int columns) {
+    planes.open(z, all_.slots_before(z, y0), all_.slots_before(z, y1), columns);
+  }
+  void take_plane(int z, int columns, const Take& take);
+
+  template <int reach>
+  void sum_columns(int z, int y);
+  void sum_across(int x, Pencil* to) const;
+  template <bool with_springs>
+  void gather_row(int z, int y);
+  std::uint64_t* column_bits(int y) { return &column_bits_[static_cast<std::size_t>(y % ring_.rows) * all_.words_]; }
+  const Pencil* source_at(int place, int z) {
+    const int slot = lattice_->slot_at(place);
+    return slot == 0 ? nothing_.data() : sources_.of(z, slot);
+  }
+
+  template <class Sweep, class Fill>
+  void sum_plane(int z, const lattice::Strip& strip, const Fill& fill);
+  template <class Sweep, class Fill>
+  void sum_row(int z, int y, const Fill& fill);
+  template <class Sweep>
+  void hand_over_row(int z, int y);
+  template <class Sweep>
+  void hand_over(int place, int z, int dz, int first);
+
+  const LatticeSums& all_;
+  const LatticeFamilies* lattice_;
+  lattice::Ring ring_;
+  lattice::Planes sums_, sources_;
+  std::vector<Pencil> nothing_;
+  // Of what is gathered: by |dx|; whether there are columns at the places of the rows of the ring; their sums at four
+  // places.
+  std::vector<std::vector<lattice::ColumnOfSums>> columns_near_;
+  std::vector<std::uint64_t> column_bits_;
+  std::vector<Pencil> across_;
+  // Of what is handed over: what is summed, of all places of a row, zero between rows; by |dz|; places that take
+  // something.
+  std::vector<Pencil> row_;
+  std::vector<std::vector<lattice::RowOfSums>> near_;
+  std::vector<std::uint64_t> targets_;
+};
+
+// work(traversal, strip) for strips of a megabyte: so many pencils a slot are kept of the planes.
+template <class Work>
+void LatticeSums::over_strips(int pencils, const Work& work) {
+  constexpr double room = 1 << 20;
+  const int y_rows = static_cast<int>(slots_at_.size()) - 2 * far_y();
+  const double a_row = sizeof(Pencil) * pencils * lattice_->slots() / (1.0 + rows_with_slots_);
+  const int height =
+      std::max(4 * far_y() + 2, static_cast<int>(room / a_row));  // for what is beside a strip is done twice
+  const std::vector<lattice::Strip> strips = lattice::strips(slots_at_, far_y(), (y_rows + height - 1) / height);
+  while (traversals_.size() < static_cast<std::size_t>(threads())) {
+    traversals_.push_back(std::make_shared<Traversal>(*this));
+  }
+  side_by_side(static_cast<int>(strips.size()),
+               [&](int s) { work(*traversals_[static_cast<std::size_t>(this_thread())], strips[s]); });
+}
+
+}  // namespace strut
