@@ -1,5 +1,5 @@
 // main() of every GoogleTest program: starts the run time, lets rank 0 speak, and fails on all ranks when one fails.
-// The other ranks say only which of their assertions failed.
+// The other ranks say only which of their assertions failed. After --threads stands how many a rank has.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/threads.hpp"
 
 namespace {
 
@@ -37,6 +38,7 @@ class FailuresOnly : public testing::EmptyTestEventListener {
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
   testing::InitGoogleTest(&argc, argv);
+  if (argc == 3 && std::string(argv[1]) == "--threads") strut::set_threads(std::stoi(argv[2]));
   const strut::Communicator world;
   if (world.rank() != 0) {
     auto& listeners = testing::UnitTest::GetInstance()->listeners();

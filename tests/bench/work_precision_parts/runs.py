@@ -104,7 +104,11 @@ class Runner:
         return Result(taken * share_of_steps(done.stdout), number, history, self.work / f"{name}.e")
 
 
+def seconds(report):
+    """Of the steps, on the clock."""
+    return sum(seconds_of_phase(report, phase) for phase in STEPPING)
+
+
 def share_of_steps(report):
     """Of the time on the clock; start-up and output are not the method's."""
-    stepping = sum(seconds_of_phase(report, phase) for phase in STEPPING)
-    return stepping / max(seconds_of_phase(report, "whole run"), 1e-9)
+    return seconds(report) / max(seconds_of_phase(report, "whole run"), 1e-9)
