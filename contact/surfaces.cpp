@@ -129,6 +129,7 @@ void Surfaces::take(const BlockPair& blocks, const Pairs& pairs) {
   slips_.swap(slips);  // a point without partners has none
   overlaps_.swap(overlaps);
   facing_.assign(pairs.sites.size(), {});
+  note_touching();
   gradient_.assign(pairs.owned.size(), Vector::Zero());
   seen_.clear();
   set_smallest_reaches(pairs);
@@ -175,7 +176,7 @@ void Surfaces::over_feeling(const Pairs& pairs, std::size_t k, const Visit& visi
   const Site& here = pairs.sites[k];
   for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
     const int partner = pairs.partners[p];
-    if (!facing_[partner].touches()) continue;
+    if (!touches_[partner]) continue;
     const Site& there = pairs.sites[partner];
     const Vector eta = (there.current - here.current).head<3>().matrix();
     const double reach = reach_between(facing_[partner].reach, here, there, pairs.one_body);
@@ -239,6 +240,14 @@ void Surfaces::advance_travel(const Pairs& pairs) {
   for (const Site& site : pairs.sites) seen_.push_back(site.current.head<3>().matrix());
 }
 
+void Surfaces::note_touching() {
+  touches_.assign(facing_.size(), false);
+  any_touches_ = false;
+  for (std::size_t s = 0; s < facing_.size(); ++s) {
+    if (facing_[s].touches()) touches_[s] = any_touches_ = true;
+  }
+}
+
 // What each point feels: energy and deepest overlap. One that does not touch is asked again when the motion since then
 // may have sufficed.
 ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
@@ -266,6 +275,8 @@ ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const Surf
   take_broken(kinematics.domain, pairs);
   ForceResult result = feel_all(law, pairs);
   exchange_records(pairs, facing_);
+  note_touching();
+  if (!any_touches_) return result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const double root = std::sqrt(pairs.masses[k]), volume = pairs.sites[k].volume();
     Tensor springs = Tensor::Zero();
@@ -335,6 +346,7 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
                  .slides = slides};
   }
   exchange_records(pairs, rubbing);
+  if (!any_touches_) return;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     over_feeling(pairs, k, [&](int partner, const Vector&, double distance2, double reach) {
       friction[k] -= pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].drag;

@@ -94,6 +94,7 @@ class Surfaces {
   void over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   void set_smallest_reaches(const Pairs& pairs);
   void take_broken(const Domain& domain, const Pairs& pairs);
+  void note_touching();
   void advance_travel(const Pairs& pairs);
   Felt feel(const Pairs& pairs, std::size_t k) const;
   Facing facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass, double& overlap) const;
@@ -111,6 +112,8 @@ class Surfaces {
   std::vector<Vector> seen_;                  // where pairs.sites were, m
   double travel_ = 0;                         // since the search, m
   std::vector<Facing> facing_;                // of pairs.sites, as of the last forces
+  std::vector<char> touches_;                 // of pairs.sites: what is asked of every partner, close together
+  bool any_touches_ = false;                  // of pairs.sites
   std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by its own place, 1/m
 };
 
