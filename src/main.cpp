@@ -40,8 +40,8 @@ checkpoint (relative to this folder).
 Signals: SIGTERM, SIGINT and SIGUSR1 end a run after the current step, with a last frame and a checkpoint; so does the
 deck's Wall Time.
 Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal or the wall time, also
-of tools/run, which hands the signal on, and of an mpirun that gets SIGUSR1. An mpirun that gets SIGTERM or SIGINT ends
-with 1, a status of its own, and kills ranks that take longer than a second.
+of tools/run, which hands the signal on, and of an mpirun that gets SIGUSR1. Open MPI's, where it gets SIGTERM or SIGINT,
+ends with 1, a status of its own, and kills ranks that take longer than a second.
 )";
 
 int say(const strut::Communicator& world, const std::string& text) {
@@ -111,7 +111,7 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
     return reported({words.begin() + 2, words.end()}, world);
   }
   if (words.size() > 2 && first == "--threads" && number_of_threads(words[1])) {
-    strut::set_threads(*number_of_threads(words[1]));
+    strut::raise_together(world, strut::set_threads(*number_of_threads(words[1])));
     return act({words.begin() + 2, words.end()}, world);
   }
   if (world.rank() == 0) {

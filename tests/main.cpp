@@ -38,7 +38,10 @@ class FailuresOnly : public testing::EmptyTestEventListener {
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
   testing::InitGoogleTest(&argc, argv);
-  if (argc == 3 && std::string(argv[1]) == "--threads") strut::set_threads(std::stoi(argv[2]));
+  if (argc == 3 && std::string(argv[1]) == "--threads") {
+    const std::string problem = strut::set_threads(std::stoi(argv[2]));
+    if (!problem.empty()) return std::cerr << problem << "\n", 1;
+  }
   const strut::Communicator world;
   if (world.rank() != 0) {
     auto& listeners = testing::UnitTest::GetInstance()->listeners();

@@ -100,14 +100,16 @@ namespace {
 
 std::string threads_of_a_rank() { return threads() == 1 ? "" : formatted(" of %d threads", threads()); }
 
-// mpirun gives a rank one core, unless it is told otherwise.
+// mpirun binds each of one or two ranks to a core, more of them to a socket, unless it is told otherwise.
 std::string warning_of_cores(const Communicator& ranks) {
   if (threads() == 1) return "";
-  const int least = static_cast<int>(ranks.min(cores()));
+  const int of_node = cores_of_node() / ranks.ranks_of_node();
+  const int least = static_cast<int>(ranks.min(std::min(cores(), std::max(1, of_node))));
   if (least >= threads()) return "";
   return formatted(
-      "WARNING: %d threads share %d core%s, and take longer than one would: mpirun --map-by slot:PE=%d gives a rank as "
-      "many cores\n",
+      "WARNING: the %d threads of a rank have %d core%s, and wait for each other: fewer ranks, or mpirun --map-by "
+      "slot:PE=%d, "
+      "which gives each as many cores\n",
       threads(), least, least == 1 ? "" : "s", threads());
 }
 
@@ -249,7 +251,7 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
   std::ostringstream text;
   text << table_of_phases(scene, seconds) << table_of_ranks(scene.body) << searches(solver.contact());
   const int steps = std::max(1, solver.steps() - before);  // none where a run that was over goes on
-  const double core_seconds = seconds * scene.body.domain.communicator.size();
+  const double core_seconds = seconds * scene.body.domain.communicator.size() * threads();
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
                     static_cast<double>(scene.points) * steps / seconds,
                     1e9 * core_seconds / (static_cast<double>(scene.bonds) * steps));

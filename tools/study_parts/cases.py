@@ -6,7 +6,6 @@ import json
 import os
 import re
 import shutil
-import signal
 import subprocess
 import time
 
@@ -16,10 +15,14 @@ EARLY = 3  # the exit status of a run that a signal or its wall time has ended
 
 
 @functools.cache
+def is_open_mpi():
+    found = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
+    return "Open MPI" in found or "OpenRTE" in found
+
+
 def launcher():
     """mpirun; Open MPI's must be asked for runs that share cores."""
-    found = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
-    return ["mpirun", *(["--oversubscribe", "--bind-to", "none"] if "Open MPI" in found or "OpenRTE" in found else [])]
+    return ["mpirun", *(["--oversubscribe", "--bind-to", "none"] if is_open_mpi() else [])]
 
 
 class Case:
@@ -106,9 +109,10 @@ class Case:
     def stop(self, ranks):
         """strut leaves a checkpoint. Open MPI's mpirun would leave its ranks a second, so they are told; MPICH's, of which
         they are no children, hands the signal on and waits."""
-        told = ranks > 1 and subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid), "-x", "strut"]).returncode == 0
-        if not told:
-            os.killpg(self.process.pid, signal.SIGTERM)
+        if ranks > 1 and is_open_mpi():
+            subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid), "-x", "strut"])
+        else:
+            self.process.terminate()
 
     def part(self):
         """Of its time that is computed, 0 to 1."""

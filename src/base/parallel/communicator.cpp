@@ -63,6 +63,15 @@ Communicator& Communicator::operator=(const Communicator&) = default;
 
 const Teuchos::RCP<const Teuchos::Comm<int>>& Communicator::teuchos() const { return implementation_->teuchos; }
 
+int Communicator::ranks_of_node() const {
+  MPI_Comm node = MPI_COMM_NULL;
+  MPI_Comm_split_type(implementation_->raw, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &node);
+  int count = 1;
+  MPI_Comm_size(node, &count);
+  MPI_Comm_free(&node);
+  return count;
+}
+
 void Communicator::barrier() const { teuchos()->barrier(); }
 
 void Communicator::abort() const {

@@ -36,6 +36,8 @@ class Communicator {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
+  int ranks_of_node() const;  // that share memory with this one, itself included
+
   void barrier() const;
   [[noreturn]] void abort() const;           // ends all ranks at once; not collective
   void sum(std::span<double> values) const;  // in place, on all ranks

@@ -1,11 +1,10 @@
 #include "base/parallel/threads.hpp"
 
 #include <mpi.h>
+#include <unistd.h>
 
 #include <exception>
 #include <string>
-
-#include "base/errors.hpp"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -33,13 +32,16 @@ std::string what_forbids(int count) {
 
 }  // namespace
 
-void set_threads(int count) {
+std::string set_threads(int count) {
   const std::string problem = what_forbids(count);
-  if (!problem.empty()) throw Error("there cannot be " + std::to_string(count) + " threads a rank: " + problem);
+  if (!problem.empty()) return "there cannot be " + std::to_string(count) + " threads a rank: " + problem;
   thread_count = count;
+  return "";
 }
 
 int threads() { return thread_count; }
+
+int cores_of_node() { return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)); }
 
 #ifdef _OPENMP
 

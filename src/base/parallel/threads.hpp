@@ -4,27 +4,30 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace strut {
 
 constexpr int most_threads = 1024;
 
-// Of each rank from now on, 1 … most_threads. Throws Error where there cannot be so many.
-void set_threads(int count);
+// Of each rank from now on, 1 … most_threads. Returns why there cannot be so many; nothing where there can.
+std::string set_threads(int count);
 int threads();
 
 // The one that calls: 0 … threads() − 1, outside of side_by_side 0.
 int this_thread();
 
-// Cores that this rank may use.
+// Cores that this rank may use, and those of its node.
 int cores();
+int cores_of_node();
 
 // Whether side_by_side would go one by one: there is one thread, or this is one of several already.
 bool goes_alone();
 
-// work(i), i = 0 … count − 1, by the threads of this rank, who takes up what comes next; in a work itself one by one.
-// What is thrown reaches the caller when all is done: of several errors that of the least i.
+// work(i), i = 0 … count − 1: each thread of this rank takes the next i that is left. Called from within such a work,
+// it runs all i on the calling thread. What is thrown reaches the caller when all is done: of several errors that of
+// the least i.
 void side_by_side(int count, const std::function<void(int i)>& work);
 
 // A value for each thread, so that none waits for another.

@@ -120,6 +120,8 @@ class LatticeSums {
 
   // Keeps a pointer to the lattice, and hands the shapes of all owned points to `take`.
   LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take);
+  LatticeSums(const LatticeSums&) = delete;  // traversals know whose they are
+  LatticeSums& operator=(const LatticeSums&) = delete;
 
   Vector first_moment(int i) const { return constants_[i].head<3>().matrix(); }  // Σ ω V ξ of an owned point, m⁴
 

@@ -16,7 +16,9 @@ void Planes::open(int z, int begin, int end, int columns) {
   columns_ = columns;
   begins_[z % count_] = begin, ends_[z % count_] = end;
   std::vector<Pencil>& room = room_[z % count_];
-  room.resize(std::max(room.size(), static_cast<std::size_t>(end - begin) * columns));
+  const std::size_t needed = static_cast<std::size_t>(end - begin) * columns;
+  room.reserve(needed);  // no more: what is forecast does not depend on the order of strips
+  room.resize(std::max(room.size(), needed));
 }
 
 std::size_t Planes::pencils() const {
@@ -66,7 +68,7 @@ double LatticeSums::Traversal::bytes() const {
                              (row_.size() + ring_.room.size() + across_.size() + sums_.pencils() + sources_.pencils()));
 }
 
-// Which thread came to which strip is chance: as if each had come to the largest.
+// Which thread came to which strip is chance: as if each had come to the largest that any has.
 double LatticeSums::bytes() const {
   const std::size_t rows = row_begins_.size() * sizeof(int) + 2 * filled_.size() * sizeof(std::uint64_t);
   double most = 0;

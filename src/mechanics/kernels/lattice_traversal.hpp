@@ -146,7 +146,8 @@ class LatticeSums::Traversal {
   std::vector<std::uint64_t> targets_;
 };
 
-// work(traversal, strip) for strips of a megabyte: so many pencils a slot are kept of the planes.
+// work(traversal, strip) for strips of a megabyte: so many pencils a slot are kept of the planes. One for each thread
+// at least, even where they are then hardly higher than what is done twice beside them.
 template <class Work>
 void LatticeSums::over_strips(int pencils, const Work& work) {
   constexpr double room = 1 << 20;

@@ -1,6 +1,6 @@
 # Small problems that have all that a step may do, in a folder of their own: meshes, and decks by problem and deck. Read
 # by scripts that have set $mesh, to strut-mesh.
-folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-invariance-XXXXXX")
+folder=$(mktemp -d "${TMPDIR:-/tmp}/strut-problems-XXXXXX")
 cd "$folder" || exit 1
 trap 'rm -rf "$folder"' EXIT
 

@@ -146,7 +146,7 @@ checkpoint=$(sed -n 's/^ended by a signal.* goes on from t = .*(\(.*\))$/\1/p' l
 [ -s "$checkpoint" ] || { fail "SIGUSR1 to mpirun: no checkpoint is left"; cat log; }
 for signal in INT TERM; do
   run "SIG$signal to mpirun" pid $signal "$@" -n 2 sh ./start
-  [ $status -eq $told_to_end ] || fail "SIG$signal to mpirun: it ends with $status, documented is $told_to_end"
+  [ $status -eq $told_to_end ] || fail "SIG$signal to mpirun: it ends with $status, expected $told_to_end"
 done
 
 # Wall time, of two ranks whose clocks differ by their start: both end at the same step, with what a signal leaves.

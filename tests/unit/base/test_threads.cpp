@@ -12,9 +12,15 @@
 namespace strut {
 namespace {
 
+// Before any other test asks for more.
+TEST(AThread, IsAloneUnlessMoreAreAskedFor) {
+  EXPECT_EQ(threads(), 1);
+  EXPECT_TRUE(goes_alone());
+}
+
 class Threads : public testing::Test {
  protected:
-  Threads() { set_threads(4); }
+  Threads() { EXPECT_EQ(set_threads(4), ""); }
   ~Threads() override { set_threads(1); }
 };
 
@@ -75,11 +81,6 @@ TEST_F(Threads, HaveAValueEach) {
   for (const int count : counts.all()) sum += count;
   EXPECT_EQ(counts.all().size(), 4u);
   EXPECT_EQ(sum, 1000);
-}
-
-TEST(Thread, IsOneUnlessAskedFor) {
-  EXPECT_EQ(threads(), 1);
-  EXPECT_TRUE(goes_alone());
 }
 
 }  // namespace

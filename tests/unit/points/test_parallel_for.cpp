@@ -21,7 +21,7 @@ void over_ranges(const Test& test) {
 
 class Loops : public testing::TestWithParam<int> {
  protected:
-  Loops() { set_threads(GetParam()); }
+  Loops() { EXPECT_EQ(set_threads(GetParam()), ""); }
   ~Loops() override { set_threads(1); }
 };
 

@@ -1,6 +1,7 @@
 // Families on a lattice as stencils: the same bonds, deformation gradients, forces and tangent as by lists.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
@@ -209,6 +210,20 @@ TEST(Lattice, IsTakenWhereItIsFaster) {
   const Communicator world;
   const Body thick = lattice_body({{24, 6, 6}, 1, 3.015, 0, Influence::one, {1000, elastic(1e9, 0.3)}}, world);
   EXPECT_EQ(thick.domain.families.lattices.size(), 1U);
+}
+
+// Strips report in any order.
+TEST(StepReport, TellsTheWorstFailureOfTheFirstPointWhicheverComesFirst) {
+  using Kind = Failure::Kind;
+  std::vector<Failure> failures{{1, Kind::inverted}, {3, Kind::inverted}, {5, Kind::no_stress}, {7, Kind::no_stress}};
+  do {
+    StepReport all;
+    for (const Failure& failure : failures) all.add({.failure = failure});
+    ASSERT_TRUE(all.failure);
+    EXPECT_EQ(all.failure->point, 5);
+    EXPECT_EQ(all.failure->kind, Kind::no_stress);
+  } while (std::next_permutation(failures.begin(), failures.end(),
+                                 [](const Failure& a, const Failure& b) { return a.point < b.point; }));
 }
 
 }  // namespace
