@@ -70,6 +70,8 @@ Halo::Halo(const Communicator& communicator, std::span<const std::int64_t> owned
   plan_->distributor->createFromRecvs(view(asked), view(from), wanted, receivers);
   plan_->sent = places_of(wanted, owned);
   plan_->receivers.assign(receivers.begin(), receivers.end());
+  // A rank that has its plan must not send by it to one that has not: Tpetra 16.1 then waits for a message forever.
+  communicator.barrier();
 }
 
 Halo::Halo(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
