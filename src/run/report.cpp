@@ -107,9 +107,8 @@ std::string warning_of_cores(const Communicator& ranks) {
   const int least = static_cast<int>(ranks.min(std::min(cores(), std::max(1, of_node))));
   if (least >= threads()) return "";
   return formatted(
-      "WARNING: the %d threads of a rank have %d core%s, and wait for each other: fewer ranks, or mpirun --map-by "
-      "slot:PE=%d, "
-      "which gives each as many cores\n",
+      "WARNING: the %d threads of a rank have %d core%s, and wait for each other: fewer ranks, or mpirun "
+      "--map-by slot:PE=%d, which gives each as many cores\n",
       threads(), least, least == 1 ? "" : "s", threads());
 }
 

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "base/errors.hpp"
 #include "base/parallel/threads.hpp"
 
 namespace strut {
