@@ -10,36 +10,42 @@
 
 namespace strut {
 
+// What a loop does at an index. Heavy: a material law, a family of neighbors. Light: some sums of the index's own
+// values, which take less time than another thread takes to begin, and to fetch them from another core.
+enum class LoopWork { heavy, light };
+
 namespace chunks {
 
-// Parts of [begin, end) for threads to take up: one where that is not worth another thread's while, several a thread
-// otherwise, so that one that is held up keeps none waiting for long.
-inline int count(int begin, int end) {
-  constexpr int least = 16, each = 8;
-  return goes_alone() ? 1 : std::min((end - begin) / least, each * threads());
+// Parts of [begin, end) for threads to take up: one where that is not worth another thread's while. Of heavy work
+// several a thread, so that one that is held up keeps none waiting for long; of light work one, so that a thread mostly
+// comes to the values that it has in its cache.
+inline int count(int begin, int end, LoopWork kind) {
+  if (goes_alone()) return 1;
+  const int least = kind == LoopWork::heavy ? 16 : 1024, each = kind == LoopWork::heavy ? 8 : 1;
+  return std::min((end - begin) / least, each * threads());
 }
 
-// work(chunk, its begin, its end).
-template <class Work>
-void over(int count, int begin, int end, const Work& work) {
-  if (count < 2) return work(0, begin, end);
+// act(chunk, its begin, its end).
+template <class Act>
+void over(int count, int begin, int end, const Act& act) {
+  if (count < 2) return act(0, begin, end);
   const auto start = [=](int c) { return begin + static_cast<int>(std::int64_t{end - begin} * c / count); };
-  side_by_side(count, [&](int c) { work(c, start(c), start(c + 1)); });
+  side_by_side(count, [&](int c) { act(c, start(c), start(c + 1)); });
 }
 
 }  // namespace chunks
 
-// work(i) for every i in [begin, end), in any order.
-template <class Work>
-void for_each_point(int begin, int end, const Work& work) {
-  chunks::over(chunks::count(begin, end), begin, end, [&work](int, int first, int last) {
-    for (int i = first; i < last; ++i) work(i);
+// act(i) for every i in [begin, end), in any order.
+template <class Act>
+void for_each_point(int begin, int end, const Act& act, LoopWork kind = LoopWork::heavy) {
+  chunks::over(chunks::count(begin, end, kind), begin, end, [&act](int, int first, int last) {
+    for (int i = first; i < last; ++i) act(i);
   });
 }
 
 // The largest value(i) of [begin, end), at least `floor`.
 template <class Value>
-double largest(int begin, int end, double floor, const Value& value) {
+double largest(int begin, int end, double floor, const Value& value, LoopWork kind = LoopWork::heavy) {
   const auto of_part = [floor, &value](int first, int last) {
     double best = floor;
     for (int i = first; i < last; ++i) {
@@ -48,7 +54,7 @@ double largest(int begin, int end, double floor, const Value& value) {
     }
     return best;
   };
-  const int count = chunks::count(begin, end);
+  const int count = chunks::count(begin, end, kind);
   if (count < 2) return of_part(begin, end);
   std::vector<double> best(static_cast<std::size_t>(count));
   chunks::over(count, begin, end,
