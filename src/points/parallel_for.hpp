@@ -16,13 +16,11 @@ enum class LoopWork { heavy, light };
 
 namespace chunks {
 
-// Parts of [begin, end) for threads to take up: one where that is not worth another thread's while. Of heavy work
-// several a thread, so that one that is held up keeps none waiting for long; of light work one, so that a thread mostly
-// comes to the values that it has in its cache.
+// Parts of [begin, end), one a thread: a thread comes to the same indices in each loop, so it has their values in its
+// cache. One part alone where that is not worth another thread's while.
 inline int count(int begin, int end, LoopWork kind) {
-  if (goes_alone()) return 1;
-  const int least = kind == LoopWork::heavy ? 16 : 1024, each = kind == LoopWork::heavy ? 8 : 1;
-  return std::min((end - begin) / least, each * threads());
+  const int least = kind == LoopWork::heavy ? 16 : 1024;
+  return goes_alone() ? 1 : std::min((end - begin) / least, threads());
 }
 
 // act(chunk, its begin, its end).

@@ -58,7 +58,7 @@ void side_by_side(int count, const std::function<void(int i)>& work) {
   }
   int first = count;  // whose error it is
   std::exception_ptr error;
-#pragma omp parallel for schedule(dynamic) num_threads(thread_count)
+#pragma omp parallel for schedule(static) num_threads(thread_count)
   for (int i = 0; i < count; ++i) {
     try {
       work(i);

@@ -25,9 +25,9 @@ int cores_of_node();
 // Whether side_by_side would go one by one: there is one thread, or this is one of several already.
 bool goes_alone();
 
-// work(i), i = 0 … count − 1: each thread of this rank takes the next i that is left. Called from within such a work,
-// it runs all i on the calling thread. What is thrown reaches the caller when all is done: of several errors that of
-// the least i.
+// work(i), i = 0 … count − 1: each thread of this rank takes as many i in a row, the same ones every time, so that what
+// they use stays in its core's cache. Called from within such a work, it runs all i on the calling thread. What is
+// thrown reaches the caller when all is done: of several errors that of the least i.
 void side_by_side(int count, const std::function<void(int i)>& work);
 
 // A value for each thread, so that none waits for another.
