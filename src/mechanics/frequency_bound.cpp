@@ -10,7 +10,7 @@ namespace strut {
 
 double largest_frequency_bound(const Body& body, const MaterialBlock& block) {
   const auto of_point = [&](int k) { return frequency_bound(body, block, k) * body.share(block.points[k]); };
-  return largest(0, static_cast<int>(block.points.size()), 0, of_point, LoopWork::light);
+  return largest(0, static_cast<int>(block.points.size()), 0, of_point);
 }
 
 namespace {

@@ -129,8 +129,7 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
   const auto change_of = [&](const auto& family) { return bonds::OfField(family, directions.data()); };
   add_up(halo, ForceSum{body, Bodies::all, field, change_of, scratch, result},
          [] { return 0; });  // the estimate of the step has a time of its own
-  for_each_point(
-      0, body.owned(), [&](int i) { result[i] *= -1; }, LoopWork::light);
+  for_each_point(0, body.owned(), [&](int i) { result[i] *= -1; });
 }
 
 }  // namespace strut

@@ -240,8 +240,7 @@ void Fracture::look_at_all(const Body& body) {
 
 void Fracture::keep_start(const Body& body) {
   start_.resize(body.domain.sites.size());
-  for_each_point(
-      0, static_cast<int>(start_.size()), [&](int i) { start_[i] = body.domain.current(i); }, LoopWork::light);
+  for_each_point(0, static_cast<int>(start_.size()), [&](int i) { start_[i] = body.domain.current(i); });
   start_gradients_ = body.force_states.gradients;
 }
 

@@ -111,8 +111,7 @@ void CentralDifference::advance_velocity(double final_time) {
   add_forces(conditions_, time_, body_);
   if (steps_ == 0) start();
   const double impulse_time = 0.5 * (previous_dt_ + dt_);
-  for_each_point(
-      0, body_.owned(), [&](int i) { apply_force(i, impulse_time); }, LoopWork::light);
+  for_each_point(0, body_.owned(), [&](int i) { apply_force(i, impulse_time); });
   apply_conditions(impulse_time);
   if (steps_ == 0) initial_energy_ = 0, initial_energy_ = imbalance(ledger());
 }
@@ -172,9 +171,8 @@ Reactions CentralDifference::reactions() const {
 void CentralDifference::start() {
   previous_dt_ = dt_;
   change_initial_velocities(conditions_, time_, dt_, body_);
-  for_each_point(
-      0, body_.owned(), [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; },
-      LoopWork::light);
+  for_each_point(0, body_.owned(),
+                 [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
 // Between time() and the next: the impulses of the points of higher time-step levels. Times of level m come every
@@ -198,12 +196,10 @@ StepReport CentralDifference::substep(int level, double t) {
   const PointTimeSteps steps = point_steps();
   const std::vector<int>& moved = multi_stepping_.moved(level);
   const int count = static_cast<int>(moved.size());
-  for_each_point(
-      0, count, [&](int n) { move(moved[n], steps); }, LoopWork::light);
+  for_each_point(0, count, [&](int n) { move(moved[n], steps); });
   const double impulse_time = std::ldexp(dt_, -level);
   const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
-  for_each_point(
-      0, count, [&](int n) { apply_force(moved[n], impulse_time); }, LoopWork::light);
+  for_each_point(0, count, [&](int n) { apply_force(moved[n], impulse_time); });
   ImpulseWork work;
   change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, substep_impulses_);
   work_ = work_ + work.before + work.after;
@@ -232,8 +228,7 @@ void CentralDifference::move_points() {
   static Teuchos::Time& timer = phase("Motion and conditions");
   const Timed timed(timer);
   const PointTimeSteps steps = point_steps();
-  for_each_point(
-      0, body_.owned(), [&](int i) { move(i, steps); }, LoopWork::light);
+  for_each_point(0, body_.owned(), [&](int i) { move(i, steps); });
   time_ = next_time_;
   ++steps_;
   ++steps_since_estimate_;
