@@ -5,8 +5,8 @@
 // clang-format off
 //   step              takes a step of length dt, the old unrotated Cauchy stress (Pa) and its own State, which it
 //                     updates; it returns the new unrotated Cauchy stress. A law of the first form uses the unrotated
-//                     rate of deformation d = Rᵀ D R, one of the second form the stretch reached. A step is inline:
-//                     what a law does not ask for is not computed.
+//                     rate of deformation d = Rᵀ D R, one of the second form the stretch reached. A step is inline,
+//                     so that what a law does not ask for is not computed; not one that costs many times a call.
 //   State             a struct of doubles only; State{} is that of an undeformed point.
 //   state_names       name the members of State in their order, as they appear in output.
 //   virgin_state      optional: the state of an undeformed point as output shows it, where that is not State{}.

@@ -7,18 +7,10 @@
 namespace strut::materials {
 
 // J at the start of the step: with e = d Δt = ΔU U_mid⁻¹ the stretches at its ends are (1 ∓ ½ e) U_mid.
-inline double old_determinant(const PointStep& step) {
-  const Tensor half = 0.5 * step.dt * to_tensor(step.rate), one = Tensor::Identity();
-  return step.J * (one - half).determinant() / (one + half).determinant();
-}
+double old_determinant(const PointStep& step);
 
 // Per volume of the reference state, J/m³: ½ (P₀ + P₁) : ΔF, which is what the forces do on points that move evenly
 // through the step. `before`, `after`: unrotated Cauchy stresses at its ends, Pa.
-inline double step_work(const PointStep& step, double old_J, const Symmetric& before, const Symmetric& after) {
-  const Tensor half = 0.5 * step.dt * to_tensor(step.rate), one = Tensor::Identity();
-  const Symmetric from_old = symmetric_part(half * (one - half).inverse());
-  const Symmetric from_new = symmetric_part(half * (one + half).inverse());
-  return old_J * double_dot(before, from_old) + step.J * double_dot(after, from_new);
-}
+double step_work(const PointStep& step, double old_J, const Symmetric& before, const Symmetric& after);
 
 }  // namespace strut::materials

@@ -7,6 +7,7 @@
 
 #include "../contract/laws.hpp"
 #include "materials/laws.hpp"
+#include "materials/spectral.hpp"
 #include "materials/tangent.hpp"
 
 namespace {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "contract/laws.hpp"
+#include "materials/step_work.hpp"
 #include "point_driver.hpp"
 
 namespace strut::testing {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "materials/step_work.hpp"
 #include "materials/tangent.hpp"
 #include "point_driver.hpp"
 #include "polyurethane.hpp"

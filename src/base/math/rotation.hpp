@@ -77,17 +77,6 @@ Polar<T> polar_update(const small::Tensor3<T>& old_rotation, const small::Tensor
 // R of F = R U from F alone, wherever the rotation was before: Newton's iteration R ← ½ (R + R⁻ᵀ) (Higham 1986), which
 // converges in second order from any F of det F > 0, in half a dozen steps at moderate stretches. For a view now and
 // then; a step that follows the last one is cheaper (polar_update).
-inline Tensor polar_rotation(const Tensor& deformation_gradient) {
-  constexpr int most_iterations = 60;        // a stretch of 1e-15 takes 50
-  constexpr double nearly_converged = 1e-8;  // the next iterate is off by its square
-  Tensor R = deformation_gradient;
-  for (int n = 0; n < most_iterations; ++n) {
-    const Tensor next = 0.5 * (R + R.inverse().transpose());
-    const double change = (next - R).norm();
-    R = next;
-    if (change < nearly_converged) break;
-  }
-  return R;
-}
+Tensor polar_rotation(const Tensor& deformation_gradient);
 
 }  // namespace strut
