@@ -25,11 +25,17 @@ LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric
   return A;
 }
 
+// Sums of a group over its families. Not in the update of a block, which is compiled for every law.
+bonds::Moments<Lanes> moments(const Body& body, const LaneGroup& group, bool with_springs) {
+  return bonds::with_influence(body.influence, [&](auto weight) {
+    return moments(group, {body.domain.sites.data()}, with_springs, weight);
+  });
+}
+
 // All that the update of one block needs.
-template <class L, class Weight>
+template <class L>
 struct Update {
   LawUpdate<L> law;
-  Weight weight;
   bool with_springs;    // on their own gradient, of any point of the scene
   bool with_gradients;  // the block has springs on both ends' gradients
 
@@ -101,7 +107,7 @@ struct Update {
   double advance(const LaneGroup& group) const {
     const LawPoints g = members(group);
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
-    const auto [N, pull] = moments(group, {body().domain.sites.data()}, with_springs, weight);
+    const auto [N, pull] = moments(body(), group, with_springs);
     const LaneTensor F = deformation_gradient(group, N, shape_inverse);
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
     const Deformed now = law.advance(g, F, share);
@@ -134,17 +140,14 @@ struct Update {
 
 void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
                     StepReport& report) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    const auto advance = [&]<class L>(const L& law) {
-      WorstFailure failure;
-      const Update<L, decltype(weight)> update{{body, block, law, pass, failure},
-                                               weight,
-                                               body.has_springs(ResidualKind::own_gradient),
-                                               block.has_springs(ResidualKind::both_gradients)};
-      advance_groups(update, groups, report);
-    };
-    std::visit(advance, block.material.law);
-  });
+  const auto advance = [&]<class L>(const L& law) {
+    WorstFailure failure;
+    const Update<L> update{{body, block, law, pass, failure},
+                           body.has_springs(ResidualKind::own_gradient),
+                           block.has_springs(ResidualKind::both_gradients)};
+    advance_groups(update, groups, report);
+  };
+  std::visit(advance, block.material.law);
 }
 
 namespace {

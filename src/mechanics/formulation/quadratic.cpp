@@ -13,11 +13,18 @@ namespace strut {
 
 namespace {
 
+// Sums of a group over its families. Not in the update of a block, which is compiled for every law.
+bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group) {
+  return bonds::with_influence(body.influence, [&](auto weight) {
+    return bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, body.domain.sites.data(),
+                                   body.fits->multipliers(), weight);
+  });
+}
+
 // All that the update of one block needs.
-template <class L, class Weight>
+template <class L>
 struct Update {
   LawUpdate<L> law;
-  Weight weight;
 
   Body& body() const { return law.body; }
   MaterialBlock& block() const { return law.block; }
@@ -52,8 +59,7 @@ struct Update {
       if (law.pass.level == 0) fetch_ahead(&(*body().fits)[i], 0);
     }
     QuadraticCells cells(group, *body().fits, sites);
-    cells.take(
-        bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, sites.data(), body().fits->multipliers(), weight));
+    cells.take(moments(body(), group));
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
     const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
     const std::array<LawPoints, 4> points{places(group, 0), places(group, 1), places(group, 2), places(group, 3)};
@@ -136,28 +142,22 @@ void diagnose_cell(Body& body, const MaterialBlock& block, int k, const Tensor& 
 
 void advance_quadratic(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
                        StepReport& report) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    const auto advance = [&]<class L>(const L& law) {
-      WorstFailure failure;
-      advance_groups(Update<L, decltype(weight)>{{body, block, law, pass, failure}, weight}, groups, report);
-    };
-    std::visit(advance, block.material.law);
-  });
+  const auto advance = [&]<class L>(const L& law) {
+    WorstFailure failure;
+    advance_groups(Update<L>{{body, block, law, pass, failure}}, groups, report);
+  };
+  std::visit(advance, block.material.law);
 }
 
 void diagnose_cells(Body& body, const MaterialBlock& block, const LaneGroups& groups) {
-  bonds::with_influence(body.influence, [&](auto weight) {
-    for_each_point(0, groups.count(), [&, weight](int g) {
-      const LaneGroup group = groups[g];
-      const std::vector<Site>& sites = body.domain.sites;
-      QuadraticCells cells(group, *body.fits, sites);
-      cells.take(
-          bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, sites.data(), body.fits->multipliers(), weight));
-      for (int l = 0; l < group.count; ++l) {
-        const bool carries = (*body.fits)[group.i[l]].carries_stress();
-        diagnose_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));
-      }
-    });
+  for_each_point(0, groups.count(), [&](int g) {
+    const LaneGroup group = groups[g];
+    QuadraticCells cells(group, *body.fits, body.domain.sites);
+    cells.take(moments(body, group));
+    for (int l = 0; l < group.count; ++l) {
+      const bool carries = (*body.fits)[group.i[l]].carries_stress();
+      diagnose_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));
+    }
   });
 }
 

@@ -50,17 +50,18 @@ struct CubicDecay {
   }
 };
 
-// Calls work(ω) with the influence function as a type, so that a constant one costs nothing.
+// Calls work(ω) with the influence function as a type, so that a constant one costs nothing; returns what it returns.
 template <class Work>
-void with_influence(Influence influence, Work&& work) {
+auto with_influence(Influence influence, Work&& work) {
   switch (influence) {
     case Influence::one:
       return work(One{});
     case Influence::linear_decay:
       return work(LinearDecay{});
     case Influence::cubic_decay:
-      return work(CubicDecay{});
+      break;
   }
+  return work(CubicDecay{});
 }
 
 // ---- Whose family --------------------------------------------------------------------------------------------------
