@@ -1,5 +1,4 @@
 """The runs of a study: each in a folder of its own, several at a time, resumed where they were stopped."""
-import functools
 import glob
 import hashlib
 import json
@@ -10,20 +9,10 @@ import signal
 import subprocess
 import time
 
+from launcher import is_open_mpi, mpirun
 from strut_tools import fail, programs
 
 EARLY = 3  # the exit status of a run that a signal or its wall time has ended
-
-
-@functools.cache
-def is_open_mpi():
-    found = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
-    return "Open MPI" in found or "OpenRTE" in found
-
-
-def launcher():
-    """mpirun; Open MPI's must be asked for runs that share cores."""
-    return ["mpirun", *(["--oversubscribe", "--bind-to", "none"] if is_open_mpi() else [])]
 
 
 class Case:
@@ -86,7 +75,7 @@ class Case:
                     return self.put_state(over=True, error=last_line(self.log), seconds=0)
             command = [programs.strut, *(["--continue"] if goes_on else []), self.deck]
             if ranks > 1:
-                command = [*launcher(), "-np", str(ranks), *command]
+                command = [*mpirun(ranks), *command]
             self.started = time.monotonic()
             environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
             # A group of its own: a Ctrl-C at the terminal is handed on by this program alone.
