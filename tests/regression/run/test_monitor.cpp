@@ -85,7 +85,9 @@ TEST(Monitor, StepThatCollapsesNamesThePointThatLimitsIt) {
   expect_words(o.error,
                {"at t = ", "the critical time step has fallen to ", "Watch > Smallest Step", "the stiffest is element ",
                 " of block bar, reference position (", "now at (", "det F = 0.", "Likely causes: "});
-  if (folder.world.rank() == 0) EXPECT_EQ(o.result.times.size(), 2u);
+  if (folder.world.rank() == 0) {
+    EXPECT_EQ(o.result.times.size(), 2u);
+  }
 }
 
 // Two blocks of 3 x 3 points, the second thrown at the first. `aside`: how far, m.
@@ -140,7 +142,9 @@ TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
   for (const double aside : {0.0, 0.5e-3}) {
     const Outcome o = outcome(folder, thrown(folder, contact_of({{"block_1", "block_2"}}, "1e-3", "1e12"), aside));
     EXPECT_EQ(o.error, "");
-    if (folder.world.rank() == 0) EXPECT_EQ(o.warnings(), 0) << o.said;
+    if (folder.world.rank() == 0) {
+      EXPECT_EQ(o.warnings(), 0) << o.said;
+    }
   }
   Parts parts = thrown(folder, contact_of({{"block_1", "block_2"}}, "0.6e-3", "1e12"));
   folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {0.5e-3, 0.5e-3, 0.5e-3}, 3, 3, 3, 1e-3));
@@ -157,7 +161,9 @@ TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
   parts.watch = key("Inverted Points", "Continue") + key("Beyond Limits", "Continue");
   const Outcome o = outcome(folder, parts);
   EXPECT_EQ(o.error, "");
-  if (folder.world.rank() == 0) EXPECT_EQ(o.result.times.back(), 5e-6);
+  if (folder.world.rank() == 0) {
+    EXPECT_EQ(o.result.times.back(), 5e-6);
+  }
 }
 
 }  // namespace

@@ -69,7 +69,9 @@ TEST(SlowLoading, WritesFramesAndReactions) {
     EXPECT_NEAR(files.history.at("Reaction_Y(y)")[n], 0, most) << n;
     EXPECT_EQ(files.history.at("Kinetic_Energy")[n], 0) << n;
     EXPECT_LT(files.history.at("Balance_Error")[n], 4e-3) << n;       // of a law in rates: the strain
-    if (n > 0) EXPECT_NEAR(low[n] / low.back(), time[n], 4e-3) << n;  // linear but for the strain
+    if (n > 0) {
+      EXPECT_NEAR(low[n] / low.back(), time[n], 4e-3) << n;  // linear but for the strain
+    }
   }
   // E A ε with the 5 mm between the end layers; the held foot, which cannot spread, and the surfaces, which are softer.
   const double force = 117e9 * 16e-6 * 2e-5 / 5e-3;

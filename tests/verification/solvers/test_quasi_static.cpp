@@ -66,7 +66,9 @@ TEST_P(Tangent, IsTheDerivativeOfTheForces) {
   EXPECT_GT(scale, 0);
   EXPECT_LT(error, 1e-6 * scale);
   equilibrium.evaluate(true);
-  if (!std::holds_alternative<materials::Elastic>(GetParam().law)) EXPECT_GT(stored_energies(body).dissipated, 0);
+  if (!std::holds_alternative<materials::Elastic>(GetParam().law)) {
+    EXPECT_GT(stored_energies(body).dissipated, 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, Tangent,

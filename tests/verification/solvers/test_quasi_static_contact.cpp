@@ -215,9 +215,15 @@ TEST(QuasiStaticFriction, DragsWithItsShareOfThePressure) {
     EXPECT_LT(-force[0], friction * force[2] * (1 + 2 * most_lag)) << now.time();
     EXPECT_LT(sum_of(reactions), left_over(block, {}, 2 * force[2])) << now.time();
     EXPECT_GT(-force[0], before - most_lag * force[2]) << now.time();
-    if (now.time() < 0.26) EXPECT_LT(-force[0], 1e-6 * force[2]);  // nothing drags: the tolerance
-    if (now.time() > 0.26 && now.time() < 0.4) EXPECT_LT(-force[0], 0.5 * friction * force[2]);
-    if (now.time() > 0.9) EXPECT_NEAR(-force[0], friction * force[2], 2 * most_lag * friction * force[2]);
+    if (now.time() < 0.26) {
+      EXPECT_LT(-force[0], 1e-6 * force[2]);  // nothing drags: the tolerance
+    }
+    if (now.time() > 0.26 && now.time() < 0.4) {
+      EXPECT_LT(-force[0], 0.5 * friction * force[2]);
+    }
+    if (now.time() > 0.9) {
+      EXPECT_NEAR(-force[0], friction * force[2], 2 * most_lag * friction * force[2]);
+    }
     EXPECT_LT(now.ledger().balance_error, 0.01) << now.time();  // of a law in rates: the strain
     before = -force[0];
   });
@@ -352,9 +358,13 @@ TEST(QuasiStaticSurfaces, DragWithTheirShareOfThePressure) {
     const Reactions reactions = now.reactions(block.count);
     const double along = reactions.forces[block.drag][0], load = -reactions.forces[block.down][2];
     EXPECT_LT(sum_of(reactions), left_over(block, {}, 2 * load)) << now.time();
-    if (now.time() < 0.26) EXPECT_LT(std::abs(along), 1e-3 * load);
+    if (now.time() < 0.26) {
+      EXPECT_LT(std::abs(along), 1e-3 * load);
+    }
     if (now.time() > 0.26 && stuck == 0) stuck = along;
-    if (now.time() > 0.9) EXPECT_NEAR(along, friction * load, 0.01 * friction * load);
+    if (now.time() > 0.9) {
+      EXPECT_NEAR(along, friction * load, 0.01 * friction * load);
+    }
   });
   EXPECT_GT(stuck, 0);
   EXPECT_LT(solver.ledger().contact, 0);  // friction takes
