@@ -49,14 +49,14 @@ std::string cause_of(int code) {
 }
 
 // The library's own words for these are codes: say it plainly before it gets to see them.
-void check_that_it_may_be_read(const fs::path& path) {
+void check_that_it_may_be_read(const fs::path& path, std::int64_t frames) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail(path, "open it", "no such file");
   if (fs::is_directory(status)) fail(path, "open it", "it is a directory");
   if (!fs::is_regular_file(status)) fail(path, "open it", "not a regular file");
   if (fs::file_size(path, error) == 0) fail(path, "open it", "the file is empty");
-  const std::string problem = classic_netcdf_problem(path);
+  const std::string problem = classic_netcdf_problem(path, frames);
   if (!problem.empty()) fail(path, "open it", problem);
 }
 
@@ -125,9 +125,9 @@ std::string quoted(const std::string& name, std::int64_t id) {
 
 }  // namespace
 
-ExodusFile ExodusFile::open(const fs::path& path, Access access) {
+ExodusFile ExodusFile::open(const fs::path& path, Access access, std::int64_t frames) {
   ex_opts(0);  // errors are ours to report
-  check_that_it_may_be_read(path);
+  check_that_it_may_be_read(path, frames);
   int word_size = sizeof(double);
   int file_word_size = 0;
   float version = 0;

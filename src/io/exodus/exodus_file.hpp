@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/netcdf/classic_netcdf.hpp"
+
 namespace strut::io {
 
 class ExodusFile {
@@ -40,7 +42,9 @@ class ExodusFile {
   static constexpr std::size_t longest_name = 127;
 
   enum class Access { read, write };
-  static ExodusFile open(const std::filesystem::path& path, Access access = Access::read);
+  // `frames`: so many of a result must be whole; what is left of others is not to be read.
+  static ExodusFile open(const std::filesystem::path& path, Access access = Access::read,
+                         std::int64_t frames = all_records);
   static ExodusFile create(const std::filesystem::path& path);  // replaces a file of that name
   ~ExodusFile();
   ExodusFile(ExodusFile&& other) noexcept;

@@ -108,11 +108,12 @@ std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
   return names;
 }
 
-// Frames beyond the first `steps` are dropped: the run comes to them again.
+// Frames beyond the first `steps` are dropped: the run comes to them again. The last may be there in part: the library
+// counts a frame as it begins to write it, where it goes on with a file, and a run can be killed then.
 void ExodusWriter::File::go_on(const std::filesystem::path& path) {
   const auto [element, nodal] = names();
   const bool fits = [&] {
-    const ExodusFile found = ExodusFile::open(path);
+    const ExodusFile found = ExodusFile::open(path, ExodusFile::Access::read, steps);
     return found.sizes().nodes == slices.size() && std::ssize(found.times()) >= steps &&
            found.variable_names(ExodusFile::On::elements) == element &&
            found.variable_names(ExodusFile::On::nodes) == nodal;

@@ -27,12 +27,13 @@ class Header {
  public:
   Header(std::ifstream& file, std::int64_t file_size) : file_(file), file_size_(file_size) {}
 
-  // What the header says the file's size is.
-  std::int64_t promised_size() {
+  // What the header says the file's size is, with so many records at the most.
+  std::int64_t promised_size(std::int64_t most_records) {
     const char version = magic();
     count_bytes_ = version == 5 ? 8 : 4;
     offset_bytes_ = version == 1 ? 4 : 8;
     records_ = count();
+    if (records_ != streaming) records_ = std::min(records_, most_records);
     read_dimensions();
     skip_attributes();
     return size_of(read_variables());
@@ -147,7 +148,7 @@ class Header {
 
 }  // namespace
 
-std::string classic_netcdf_problem(const std::filesystem::path& path) {
+std::string classic_netcdf_problem(const std::filesystem::path& path, std::int64_t records) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return "it cannot be read (permissions?)";
   std::string magic(4, '\0');
@@ -159,7 +160,7 @@ std::string classic_netcdf_problem(const std::filesystem::path& path) {
   file.seekg(0);
   const auto size = static_cast<std::int64_t>(std::filesystem::file_size(path));
   try {
-    const std::int64_t promised = Header(file, size).promised_size();
+    const std::int64_t promised = Header(file, size).promised_size(records);
     if (size >= promised) return "";
     return "the file is truncated: " + std::to_string(size) + " of " + std::to_string(promised) + " bytes are there";
   } catch (const Error& error) {

@@ -245,6 +245,26 @@ TEST(Writer, FramesAreOnDiskBeforeTheFileIsClosed) {
   expect_result(folder / "as_if_killed.e", 12, {0.5});
 }
 
+// As a run leaves it that is killed while it writes a frame: that one is counted, and not all of it there.
+TEST(Writer, GoesOnAfterAFrameThatIsThereInPart) {
+  const Communicator world;
+  const TemporaryFolder folder(world);
+  const PointCloud cloud = dealt_cloud(25, world);
+  const auto write = [&](int frames, const std::vector<double>& times) {
+    ExodusWriter writer(folder / "result.e", world, cloud, all_fields, frames);
+    for (const double time : times) writer.write(time, columns_of(cloud, time));
+  };
+  write(0, {0.0, 0.25, 0.5});
+  for (const int lost : {8, 1000}) {
+    if (world.rank() == 0) fs::resize_file(folder / "result.e", fs::file_size(folder / "result.e") - lost);
+    world.barrier();
+    EXPECT_THROW(write(3, {}), Error) << "all three are asked for";
+    write(2, {0.75});
+    if (world.rank() == 0) expect_result(folder / "result.e", 25, {0.0, 0.25, 0.75});
+    world.barrier();
+  }
+}
+
 TEST(Writer, NumbersOfNamelessBlocksAndOfElementsSurvive) {
   const Communicator world;
   const TemporaryFolder folder(world);
