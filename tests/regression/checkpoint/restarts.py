@@ -216,6 +216,9 @@ SCENES = {"impact": impact, "press": press, "rubbing": rubbing, "cells": cells, 
 class Test:
     def __init__(self, strut, compare, mpirun, seed):
         self.strut, self.compare, self.mpirun = strut, compare, mpirun
+        # The status of its ranks; MPICH's mpiexec loses it now and then where it hands a signal on.
+        version = subprocess.run([mpirun[0], "--version"], capture_output=True, text=True).stdout
+        self.handed_on = (3,) if "Open MPI" in version or "OpenRTE" in version else (3, 0)
         self.random = random.Random(seed)
         self.failures = 0
 
@@ -366,7 +369,7 @@ class Test:
         while process.poll() is None and told not in (ended / "log").read_text():
             time.sleep(0.001)
         process.send_signal(signal.SIGUSR1)
-        if process.wait(timeout=30) != 3:
+        if process.wait(timeout=30) not in self.handed_on:
             self.fail(f"{ended}: SIGUSR1: exit status {process.returncode}", ended / "log")
         self.run(ended, "--continue", ranks=2)
         self.same(balanced, ended, scene)

@@ -135,18 +135,19 @@ for signal in TERM INT USR1; do
 done
 
 # mpirun has the status of its ranks. Where Open MPI's is told to end itself, it kills, after a second, ranks that may
-# still write, and SIGUSR1 it hands on; MPICH's hands all three on and waits.
-told_to_end=3
-case $("$1" --version 2> /dev/null) in *"Open MPI"* | *OpenRTE*) told_to_end=1 ;; esac
+# still write, and SIGUSR1 it hands on; MPICH's hands all three on and waits, and now and then ends with 0 then.
+told_to_end="3 0" handed_on="3 0"
+case $("$1" --version 2> /dev/null) in *"Open MPI"* | *OpenRTE*) told_to_end=1 handed_on=3 ;; esac
+is_one_of() { case " $1 " in *" $status "*) ;; *) return 1 ;; esac; }
 run_and_check "SIGTERM to the second of two ranks" rank.1 TERM "$@" -n 2 sh ./start
 [ $status -eq 3 ] || fail "SIGTERM to a rank: mpirun ends with $status, expected 3"
 run_and_check "SIGUSR1 to mpirun" pid USR1 "$@" -n 2 sh ./start
-[ $status -eq 3 ] || fail "SIGUSR1 to mpirun: mpirun ends with $status, expected 3"
+is_one_of "$handed_on" || fail "SIGUSR1 to mpirun: mpirun ends with $status, expected $handed_on"
 checkpoint=$(sed -n 's/^ended by a signal.* goes on from t = .*(\(.*\))$/\1/p' log)
 [ -s "$checkpoint" ] || { fail "SIGUSR1 to mpirun: no checkpoint is left"; cat log; }
 for signal in INT TERM; do
   run "SIG$signal to mpirun" pid $signal "$@" -n 2 sh ./start
-  [ $status -eq $told_to_end ] || fail "SIG$signal to mpirun: it ends with $status, expected $told_to_end"
+  is_one_of "$told_to_end" || fail "SIG$signal to mpirun: it ends with $status, expected $told_to_end"
 done
 
 # Wall time, of two ranks whose clocks differ by their start: both end at the same step, with what a signal leaves.
