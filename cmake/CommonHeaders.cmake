@@ -1,5 +1,5 @@
 # strut_common_headers(TARGET OWNER target MORE headers…): the headers of libraries that most sources include are compiled
-# once, for the owner (strut_base, or itself), and read from there by the others: a third of the time of a build went to them.
+# once, for the owner (strut_base, or itself), and read from there by the others: a third of a build went to them.
 # A source still includes what it names: the presets debug and asan compile each source alone.
 function(strut_common_headers target)
   cmake_parse_arguments(headers "" "OWNER" "MORE" ${ARGN})
