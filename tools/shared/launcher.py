@@ -4,8 +4,8 @@ import subprocess
 
 
 @functools.cache
-def is_open_mpi():
-    found = subprocess.run(["mpirun", "--version"], capture_output=True, text=True).stdout
+def is_open_mpi(program="mpirun"):
+    found = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
     return "Open MPI" in found or "OpenRTE" in found
 
 

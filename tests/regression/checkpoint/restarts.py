@@ -22,6 +22,9 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/shared"))
+from launcher import is_open_mpi  # noqa: E402
+
 SPACING = 0.004
 GAP = 0.0005  # between the two bars
 
@@ -217,8 +220,7 @@ class Test:
     def __init__(self, strut, compare, mpirun, seed):
         self.strut, self.compare, self.mpirun = strut, compare, mpirun
         # The status of its ranks; MPICH's mpiexec loses it now and then where it hands a signal on.
-        version = subprocess.run([mpirun[0], "--version"], capture_output=True, text=True).stdout
-        self.handed_on = (3,) if "Open MPI" in version or "OpenRTE" in version else (3, 0)
+        self.handed_on = (3,) if is_open_mpi(mpirun[0]) else (3, 0)
         self.random = random.Random(seed)
         self.failures = 0
 
