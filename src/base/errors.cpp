@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/parallel/portions.hpp"
+
 namespace strut {
 
 namespace {
@@ -30,7 +32,7 @@ void raise_together(const Communicator& communicator, const std::string& problem
   if (communicator.max(problem.empty() ? 0.0 : 1.0) == 0) return;
   const std::string framed = problem.empty() ? "" : problem + '\0';
   std::string all;
-  const std::vector<char> gathered = communicator.gather(std::span<const char>(framed));
+  const std::vector<char> gathered = gather(communicator, std::span<const char>(framed));
   std::vector<std::string> distinct;
   for (auto begin = gathered.begin(); begin != gathered.end();) {
     const auto end = std::find(begin, gathered.end(), '\0');

@@ -6,7 +6,7 @@
 #include <span>
 #include <sstream>
 
-#include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 
 namespace strut {
 
@@ -21,7 +21,7 @@ std::deque<Teuchos::Time>& phases() {  // a deque: references stay valid
 std::vector<std::string> names_on_all_ranks(const Communicator& communicator) {
   std::string mine;
   for (const Teuchos::Time& timer : phases()) mine += timer.name() + "\n";
-  const std::vector<char> gathered = communicator.gather(std::span<const char>(mine));
+  const std::vector<char> gathered = gather(communicator, std::span<const char>(mine));
   std::string all(gathered.begin(), gathered.end());
   communicator.broadcast(all);
   std::vector<std::string> names;

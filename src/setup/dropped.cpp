@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/parallel/portions.hpp"
 #include "points/pieces.hpp"
 
 namespace strut {
@@ -55,7 +56,7 @@ PiecesOfPoints pieces_of_points(const Domain& domain) {
 void take_pieces(const Domain& left, const PiecesOfPoints& before, Dropped& dropped) {
   const std::vector<Part> mine = parts_of_this_rank(left, before);
   std::map<std::int64_t, std::map<std::int64_t, std::int64_t>> pieces;
-  for (const Part& part : left.communicator.gather(std::span(mine))) pieces[part.before][part.now] += part.points;
+  for (const Part& part : gather(left.communicator, std::span(mine))) pieces[part.before][part.now] += part.points;
   Dropped cut;
   for (const auto& [piece, parts] : pieces) {
     std::int64_t all = 0, largest = 0;

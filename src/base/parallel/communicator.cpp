@@ -12,15 +12,7 @@ namespace strut {
 
 namespace {
 
-// MPI counts are ints: longer messages go in pieces.
-constexpr std::size_t largest_message = std::size_t{1} << 30;
-
-template <class Piece>
-void in_pieces(std::size_t size, Piece&& piece) {
-  for (std::size_t begin = 0; begin < size; begin += largest_message) {
-    piece(begin, static_cast<int>(std::min(largest_message, size - begin)));
-  }
-}
+constexpr std::size_t largest_message = std::size_t{1} << 30;  // bytes: MPI's counts are ints
 
 // With one thread, whatever Kokkos was built with and the environment says: those of a rank are not Kokkos'
 // (threads.hpp). Without the words of the command line: Kokkos would answer --help with a page of its own.
@@ -113,32 +105,10 @@ void Communicator::broadcast(std::string& text) const {
 }
 
 void Communicator::broadcast_bytes(void* data, std::size_t size) const {
-  in_pieces(size, [&](std::size_t begin, int count) {
+  for (std::size_t begin = 0; begin < size; begin += largest_message) {
+    const int count = static_cast<int>(std::min(largest_message, size - begin));
     MPI_Bcast(static_cast<char*>(data) + begin, count, MPI_BYTE, 0, implementation_->raw);
-  });
-}
-
-std::vector<char> Communicator::gather_bytes(const void* data, std::size_t size) const {
-  const MPI_Comm comm = implementation_->raw;
-  std::vector<std::uint64_t> sizes(size_);
-  const std::uint64_t mine = size;
-  MPI_Gather(&mine, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, 0, comm);
-  if (rank_ != 0) {
-    in_pieces(size, [&](std::size_t begin, int count) {
-      MPI_Send(static_cast<const char*>(data) + begin, count, MPI_BYTE, 0, 0, comm);
-    });
-    return {};
   }
-  const char* own = static_cast<const char*>(data);
-  std::vector<char> all(own, own + size);
-  for (int source = 1; source < size_; ++source) {
-    const std::size_t start = all.size();
-    all.resize(start + sizes[source]);
-    in_pieces(sizes[source], [&](std::size_t begin, int count) {
-      MPI_Recv(all.data() + start + begin, count, MPI_BYTE, source, 0, comm, MPI_STATUS_IGNORE);
-    });
-  }
-  return all;
 }
 
 }  // namespace strut

@@ -51,15 +51,10 @@ class Communicator {
   template <class T>
   void broadcast(std::vector<T>& values) const;  // from rank 0, resized elsewhere; T trivially copyable
 
-  // The concatenation of all ranks' values in rank order, on rank 0 (empty elsewhere). T trivially copyable.
-  template <class T>
-  std::vector<T> gather(std::span<const T> values) const;
-
   const Teuchos::RCP<const Teuchos::Comm<int>>& teuchos() const;
 
  private:
   void broadcast_bytes(void* data, std::size_t size) const;
-  std::vector<char> gather_bytes(const void* data, std::size_t size) const;
 
   struct Implementation;
   std::shared_ptr<const Implementation> implementation_;
@@ -74,14 +69,6 @@ void Communicator::broadcast(std::vector<T>& values) const {
   broadcast_bytes(&count, sizeof count);
   values.resize(count);
   broadcast_bytes(values.data(), count * sizeof(T));
-}
-
-template <class T>
-std::vector<T> Communicator::gather(std::span<const T> values) const {
-  static_assert(std::is_trivially_copyable_v<T>);
-  const std::vector<char> bytes = gather_bytes(values.data(), values.size_bytes());
-  const T* begin = reinterpret_cast<const T*>(bytes.data());
-  return {begin, begin + bytes.size() / sizeof(T)};
 }
 
 }  // namespace strut

@@ -1,5 +1,5 @@
 // Values between ranks where no rank may hold those of all: in portions to and from rank 0, and from every rank to
-// every other. All calls are collective; T trivially copyable.
+// every other; and `gather`. All calls are collective; T trivially copyable.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/parallel/communicator.hpp"
@@ -37,6 +38,15 @@ void collect(const Communicator& communicator, std::span<const T> mine, const Ta
   portions::collect(
       communicator, reinterpret_cast<const char*>(mine.data()), mine.size(), sizeof(T),
       [&take](const char* values, std::size_t count) { take(std::span(reinterpret_cast<const T*>(values), count)); });
+}
+
+// All ranks' values in the order of ranks, on rank 0 (empty elsewhere), which holds them all: for few values only.
+template <class T>
+std::vector<T> gather(const Communicator& communicator, std::span<const T> mine) {
+  std::vector<T> all;
+  collect(communicator, mine,
+          [&all](std::span<const T> portion) { all.insert(all.end(), portion.begin(), portion.end()); });
+  return all;
 }
 
 // To each rank r the next counts[r] values: give(begin, portion) fills those from number `begin` on, on rank 0.

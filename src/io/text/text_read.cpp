@@ -116,7 +116,7 @@ std::vector<int> block_numbers(const std::vector<Line>& lines, const Communicato
   std::set<int> found;
   for (const Line& line : lines) found.insert(line.block);
   const std::vector<int> own(found.begin(), found.end());
-  const std::vector<int> all = communicator.gather(std::span<const int>(own));
+  const std::vector<int> all = gather(communicator, std::span<const int>(own));
   found.insert(all.begin(), all.end());
   std::vector<int> numbers(found.begin(), found.end());
   communicator.broadcast(numbers);

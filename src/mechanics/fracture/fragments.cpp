@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include "base/parallel/portions.hpp"
 #include "points/pieces.hpp"
 
 namespace strut {
@@ -37,7 +38,7 @@ std::vector<std::int64_t> fragment_ids(const Body& body) { return piece_ids(body
 std::vector<Fragment> fragments(const Body& body) {
   const std::vector<Sums> mine = sums_of_this_rank(body);
   std::map<std::int64_t, Fragment> pieces;
-  for (const Sums& sums : body.domain.communicator.gather(std::span(mine))) {
+  for (const Sums& sums : gather(body.domain.communicator, std::span(mine))) {
     Fragment& piece = pieces[sums.id];
     piece.id = sums.id, piece.points += sums.points, piece.mass += sums.mass;
     piece.velocity += Vector(sums.momentum[0], sums.momentum[1], sums.momentum[2]);

@@ -12,6 +12,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "points/domain.hpp"
 #include "points/partition.hpp"
 
@@ -97,7 +98,7 @@ std::vector<Pair> all_bonds(const Domain& domain, const std::vector<Id>& ids, co
   for (int i = 0; i < domain.owned; ++i) {
     domain.families.for_each(i, [&](int j) { mine.insert(mine.end(), {ids[i], ids[j]}); });
   }
-  std::vector<Id> all = world.gather(std::span<const Id>(mine));
+  std::vector<Id> all = gather(world, std::span<const Id>(mine));
   world.broadcast(all);
   std::vector<Pair> bonds;
   for (std::size_t k = 0; k < all.size(); k += 2) bonds.emplace_back(all[k], all[k + 1]);
@@ -115,7 +116,7 @@ class DomainOf : public testing::TestWithParam<Case> {
 };
 
 TEST_P(DomainOf, EveryPointHasOneOwnerAndKeepsWhatItIs) {
-  std::vector<Id> all = world.gather(std::span<const Id>(domain.cloud.ids));
+  std::vector<Id> all = gather(world, std::span<const Id>(domain.cloud.ids));
   if (world.rank() == 0) {
     std::sort(all.begin(), all.end());
     EXPECT_EQ(all, whole.ids);

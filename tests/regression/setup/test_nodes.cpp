@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "base/parallel/portions.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "output/observables.hpp"
 #include "regression/bodies.hpp"
@@ -70,7 +71,7 @@ TEST(Nodes, FamiliesAreSymmetricWhereHorizonsDiffer) {
     });
   }
   EXPECT_GT(folder.world.sum(static_cast<std::int64_t>(one_sided)), 0) << "the mesh is not a test of the rule";
-  bonds = folder.world.gather(std::span<const double>(bonds));
+  bonds = gather(folder.world, std::span<const double>(bonds));
   std::set<std::pair<double, double>> pairs;
   for (std::size_t k = 0; k < bonds.size(); k += 2) pairs.emplace(bonds[k], bonds[k + 1]);
   EXPECT_EQ(2 * pairs.size(), bonds.size());

@@ -13,6 +13,7 @@
 #include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "base/parallel/reproducible_sum.hpp"
 #include "base/timing.hpp"
 
@@ -62,7 +63,7 @@ TEST(Errors, NearestName) {
 TEST(Communicator, GatherKeepsTheOrderOfRanks) {
   const Communicator world;
   const std::vector<int> mine(world.rank() + 1, world.rank());  // rank r holds r, r + 1 times
-  const std::vector<int> all = world.gather(std::span<const int>(mine));
+  const std::vector<int> all = gather(world, std::span<const int>(mine));
   std::vector<int> expected;
   for (int r = 0; world.rank() == 0 && r < world.size(); ++r) expected.insert(expected.end(), r + 1, r);
   EXPECT_EQ(all, expected);

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "bricks.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
@@ -126,8 +127,8 @@ class Cells : public ::testing::Test {
     std::vector<ShapeNumbers> mine;
     for (const CellShape& shape : cloud.shapes) mine.push_back(numbers_of(shape));
     EXPECT_EQ(mine.size(), cloud.size());
-    std::vector<std::int64_t> ids = world.gather(std::span<const std::int64_t>(cloud.ids));
-    std::vector<ShapeNumbers> all = world.gather(std::span<const ShapeNumbers>(mine));
+    std::vector<std::int64_t> ids = gather(world, std::span<const std::int64_t>(cloud.ids));
+    std::vector<ShapeNumbers> all = gather(world, std::span<const ShapeNumbers>(mine));
     world.broadcast(ids);
     world.broadcast(all);
     std::map<std::int64_t, CellShape> result;

@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/text/history.hpp"
@@ -23,7 +24,7 @@ const Vector cube[8] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {
 
 template <class T>
 std::vector<T> gathered(const std::vector<T>& values, const Communicator& world) {
-  return world.gather(std::span<const T>(values));
+  return gather(world, std::span<const T>(values));
 }
 
 // The whole cloud, on rank 0.

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "bricks.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
@@ -39,8 +40,8 @@ class NodePoints : public ::testing::Test {
   // Of all ranks, by id.
   template <class T>
   std::map<std::int64_t, T> by_id(const PointCloud& cloud, const std::vector<T>& values) const {
-    std::vector<std::int64_t> ids = world.gather(std::span<const std::int64_t>(cloud.ids));
-    std::vector<T> all = world.gather(std::span<const T>(values));
+    std::vector<std::int64_t> ids = gather(world, std::span<const std::int64_t>(cloud.ids));
+    std::vector<T> all = gather(world, std::span<const T>(values));
     world.broadcast(ids);
     world.broadcast(all);
     std::map<std::int64_t, T> result;
