@@ -21,6 +21,7 @@ says() {
   esac
 }
 
+unset OMPI_COMM_WORLD_SIZE PMI_SIZE SLURM_STEP_NUM_TASKS
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 page=$("$strut" --help)
 case $page in
@@ -54,5 +55,15 @@ says 0 "strut 0" --log "$log" --version
 [ "$(cat "$log")" = "$said" ] || fail "the log of --version has: $(cat "$log")"
 rm -f "$log"
 says 1 "/nowhere/log: cannot create it" --log /nowhere/log nothere.xml
+says 1 "nothere.xml: the deck does not exist" nothere.xml
+
+# Two processes that a launcher of another MPI made two runs: the first tells and fails, and neither does anything.
+export SLURM_STEP_NUM_TASKS=2 SLURM_PROCID=0
+says 1 "one of 2 processes (SLURM_STEP_NUM_TASKS), but each is a run of one rank" nothere.xml
+says 0 "strut 0" --version
+SLURM_PROCID=1
+says 0 "" nothere.xml
+[ -z "$said" ] || fail "the second of two such processes says: $said"
+SLURM_STEP_NUM_TASKS=1
 says 1 "nothere.xml: the deck does not exist" nothere.xml
 exit $failed
