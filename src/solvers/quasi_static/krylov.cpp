@@ -5,6 +5,10 @@
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
+#if __has_include(<Tpetra_Details_Random.hpp>)
+#include <Tpetra_Details_Random.hpp>
+#endif
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <sstream>
@@ -132,12 +136,23 @@ class QuietErrors {
   std::streambuf* before_;
 };
 
+// Trilinos estimates eigenvalues from random vectors. MueLu seeds std::rand for each hierarchy, from which
+// Trilinos 13.2 takes them; later ones go on with one generator, so that what a run finds would depend on where it was
+// resumed.
+void seed_random_vectors([[maybe_unused]] int rank) {
+#if __has_include(<Tpetra_Details_Random.hpp>)
+  std::srand(1);
+  Tpetra::Details::Static_Random_XorShift64_Pool<Map::execution_space>::resetPool(rank);
+#endif
+}
+
 // Null where Trilinos finds none on some rank; `trouble` is then what it says. The coarsest grid is factorized when it
 // is first used: here.
 RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList options, std::string& trouble) {
   RCP<Operator> hierarchy;
   try {
     const QuietErrors quiet;
+    seed_random_vectors(matrix->getDomainMap()->getComm()->getRank());
     hierarchy = MueLu::CreateTpetraPreconditioner(matrix, options);
     Vectors ones(matrix->getDomainMap(), 1), result(matrix->getRangeMap(), 1);
     ones.putScalar(1);
