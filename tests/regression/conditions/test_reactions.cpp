@@ -7,7 +7,6 @@
 namespace strut::regression {
 namespace {
 
-constexpr double step = 1e-7;                        // s
 constexpr double weight = 1e9 * 4e-3 * 4e-3 * 6e-3;  // N, of the block under a force of 1e9 N/m³
 const std::string pull = along("weight", "Body Force", "all", "z", "-1e9");
 
