@@ -1,6 +1,6 @@
 # strut_common_headers(TARGET OWNER target MORE headers…): the headers of libraries that most sources include are compiled
 # once, for the owner (strut_base, or itself), and read from there by the others: a third of a build went to them.
-# A source still includes what it names: the presets debug and asan compile each source alone.
+# A source still includes what it names: the presets debug, asan and tsan compile each source alone.
 function(strut_common_headers target)
   cmake_parse_arguments(headers "" "OWNER" "MORE" ${ARGN})
   set(owner strut_base)

@@ -14,6 +14,7 @@ for file in README.md LICENSE docs/cluster.md docs/theory.md inputs/KEYS.md inpu
 done
 [ -x "$share/inputs/taylor/table" ] || fail "inputs/taylor/table cannot be started"
 [ ! -e "$share/tools/prepare" ] || fail "tools/prepare is there: it would look for sources"
+[ -z "$(find $share/tools -name 'packages*')" ] || fail "lists of packages for builds are installed"
 find prefix -name '*.cpp' -o -name '*.hpp' > log
 [ ! -s log ] || fail "sources are installed"
 
