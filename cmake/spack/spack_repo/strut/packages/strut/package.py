@@ -1,4 +1,7 @@
-"""strut for Spack, from a working copy: `spack repo add cmake/spack && spack dev-build strut@main`."""
+"""strut for Spack from 1.0 on, from a working copy:
+`spack repo add cmake/spack/spack_repo/strut && spack dev-build strut@main`."""
+from spack_repo.builtin.build_systems.cmake import CMakePackage
+
 from spack.package import *
 
 
@@ -15,7 +18,7 @@ class Strut(CMakePackage):
     depends_on("mpi")
     depends_on("eigen@3.4:")
     depends_on("netcdf-c")
-    depends_on("trilinos@14: cxxstd=17 +mpi +kokkos +tpetra +amesos2 +belos +ifpack2 +muelu +zoltan +exodus ~openmp")
+    depends_on("trilinos@14:16 cxxstd=17 +mpi +kokkos +tpetra +amesos2 +belos +ifpack2 +muelu +zoltan +exodus ~openmp")
     depends_on("voropp", when="+tools")
 
     conflicts("%gcc@:11")
