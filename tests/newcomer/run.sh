@@ -10,7 +10,7 @@ cp "$root/tools/run" tools
 printf '#!/bin/sh\n' > tools/prepare
 cat > build/release/strut <<'END'
 #!/bin/bash
-rank=$OMPI_COMM_WORLD_RANK
+rank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK}
 case $1 in
   wrong.xml) [ "$rank" != 0 ] || echo "strut: wrong.xml: 1 problem" >&2; exit 1 ;;
   done.xml) exit 0 ;;
@@ -25,7 +25,9 @@ chmod +x tools/prepare build/release/strut
 tools/run -np 2 wrong.xml > log 2>&1
 status=$?
 [ $status -eq 1 ] || fail "an error: exit status $status, expected 1"
-[ "$(cat log)" = "strut: wrong.xml: 1 problem" ] || fail "an error: expected one line"
+said=$(cat log)
+case $(mpirun --version 2> /dev/null) in *"Open MPI) "[5-9]*) said=$(grep '^strut: ' log) ;; esac  # tells it again, in its own words
+[ "$said" = "strut: wrong.xml: 1 problem" ] || fail "an error: expected one line"
 tools/run -np 2 done.xml > log 2>&1 || fail "a run that is done fails"
 
 for signal in TERM USR1; do
