@@ -55,8 +55,7 @@ bool started_as_ranks(const strut::Launch& launch, const strut::Communicator& wo
   return launch.processes <= 1 || world.size() > 1;
 }
 
-// The first process tells, and its status is that of the job: one that fails at once may have it killed before it
-// tells.
+// The first process tells, and its status is the job's: another that failed might have it killed before it tells.
 int refuse(const strut::Launch& launch) {
   if (launch.number != 0) return 0;
   std::cerr << "strut: one of " << launch.processes << " processes (" << launch.variable

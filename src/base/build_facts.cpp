@@ -10,8 +10,7 @@ namespace strut {
 
 std::string strut_version() { return STRUT_VERSION; }
 
-// Open MPI v4.1.4, package: … | MPICH Version:\t4.0.2 | Intel(R) MPI Library 2021.6 for Linux* OS | MPI VERSION    :
-// CRAY MPICH …
+// "Open MPI v4.1.4, package: …", "MPICH Version:\t4.0.2", "MPI VERSION    : CRAY MPICH version 8.1 …", and more lines.
 std::string mpi_library(std::string_view said) {
   std::istringstream words(std::string(said.substr(0, said.find_first_of(",\n"))));
   std::string name;

@@ -1,4 +1,4 @@
-"""strut for Spack from 1.0 on, from a working copy:
+"""strut for Spack from 1.0 on (checked against its documentation, not run), from a working copy:
 `spack repo add cmake/spack/spack_repo/strut && spack dev-build strut@main`."""
 from spack_repo.builtin.build_systems.cmake import CMakePackage
 
