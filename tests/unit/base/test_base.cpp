@@ -8,17 +8,48 @@
 #include <string>
 #include <thread>
 
+#include "base/build_facts.hpp"
 #include "base/deduplicated.hpp"
 #include "base/errors.hpp"
 #include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/launch.hpp"
 #include "base/parallel/portions.hpp"
 #include "base/parallel/reproducible_sum.hpp"
 #include "base/timing.hpp"
 
 namespace strut {
 namespace {
+
+// As these libraries say it.
+TEST(BuildFacts, NameTheMpiLibrary) {
+  EXPECT_EQ(mpi_library("Open MPI v4.1.4, package: Debian OpenMPI, ident: 4.1.4"), "Open MPI 4.1.4");
+  EXPECT_EQ(mpi_library("MPICH Version:\t4.0.2\nMPICH Release date:\tThu Apr  7"), "MPICH Version 4.0.2");
+  EXPECT_EQ(mpi_library("MPI VERSION    : CRAY MPICH version 8.1.25.17 (ANL base 3.4a2)\nMPI BUILD INFO : Sun"),
+            "MPI VERSION CRAY MPICH version 8.1.25.17 (ANL base 3.4a2)");
+}
+
+// mpirun may be started by srun, whose tasks are then not the ranks.
+TEST(Launch, IsWhatTheNearestLauncherSays) {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK"}) unsetenv(name);
+  unsetenv("SLURM_STEP_NUM_TASKS");
+  EXPECT_EQ(launch_of_process().processes, 1);
+  EXPECT_EQ(launch_of_process().variable, "");
+  setenv("SLURM_STEP_NUM_TASKS", "3", 1);
+  setenv("SLURM_PROCID", "2", 1);
+  EXPECT_EQ(launch_of_process().processes, 3);
+  EXPECT_EQ(launch_of_process().number, 2);
+  setenv("PMI_SIZE", "4 ranks", 1);  // no number: not what MPICH says
+  EXPECT_EQ(launch_of_process().variable, "SLURM_STEP_NUM_TASKS");
+  setenv("PMI_SIZE", "8", 1);
+  setenv("PMI_RANK", "7", 1);
+  EXPECT_EQ(launch_of_process().processes, 8);
+  EXPECT_EQ(launch_of_process().number, 7);
+  setenv("OMPI_COMM_WORLD_SIZE", "1", 1);
+  EXPECT_EQ(launch_of_process().processes, 1);
+  EXPECT_EQ(launch_of_process().variable, "OMPI_COMM_WORLD_SIZE");
+}
 
 TEST(Errors, OneRanksProblemIsEveryRanksError) {
   const Communicator world;
