@@ -1,7 +1,6 @@
 // strut: correspondence peridynamics of foams and bars under impact.
 // What it can be told stands in `help`.
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/launch.hpp"
 #include "base/parallel/threads.hpp"
+#include "base/whole_number.hpp"
 #include "deck/deck.hpp"
 #include "run/log.hpp"
 #include "run/simulation.hpp"
@@ -73,11 +73,8 @@ int run(const std::string& deck, const strut::Communicator& world, strut::Start 
 }
 
 std::optional<int> number_of_threads(const std::string& word) {
-  int number = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool is_number = problem == std::errc() && end == word.data() + word.size();
-  if (!is_number || number < 1 || number > strut::most_threads) return std::nullopt;
-  return number;
+  const std::optional<int> number = strut::whole_number(word);
+  return number >= 1 && number <= strut::most_threads ? number : std::nullopt;  // nothing is less than any number
 }
 
 // Of words that ask for nothing that there is.

@@ -1,9 +1,9 @@
 #include "base/parallel/launch.hpp"
 
-#include <charconv>
 #include <cstdlib>
 #include <optional>
-#include <string_view>
+
+#include "base/whole_number.hpp"
 
 namespace strut {
 
@@ -11,12 +11,7 @@ namespace {
 
 std::optional<int> number_in(const char* variable) {
   const char* text = std::getenv(variable);
-  if (!text) return std::nullopt;
-  const std::string_view digits(text);
-  int number = 0;
-  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (problem != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
-  return number;
+  return text ? whole_number(text) : std::nullopt;
 }
 
 }  // namespace
