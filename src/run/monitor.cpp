@@ -1,10 +1,12 @@
 #include "run/monitor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "contact/passing.hpp"
+#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -12,6 +14,13 @@ namespace {
 
 // Ledgers at the start of a run: its energies are still small, and what is small beside later ones is a large part.
 constexpr int first_ledgers = 10;
+
+// Above this part of the internal energy at the end the springs of the stabilization bear what the law should: users of
+// explicit finite elements look at 5 to 10 % of hourglass energy. In the first microseconds of an impact it is more.
+constexpr double much_in_springs = 0.1;
+
+// Neighbors that have been drawn so many spacings apart: what lies between them is not resolved any more.
+constexpr double far_stretched = 8;
 
 // Where the rank has what is largest of all ranks: `text`, else nothing.
 std::string of_largest(const Body& body, double own, const std::string& text) {
@@ -46,6 +55,10 @@ std::string at(double time) {
 
 void Monitor::passed(What what, const std::string& text) {
   if (limits_.stops) raise_together(body_.domain.communicator, text);
+  warn_once(what, text);
+}
+
+void Monitor::warn_once(What what, const std::string& text) {
   if (!told_[what] && !text.empty()) tell_("WARNING: " + text + " (told once)");
   told_[what] = true;
 }
@@ -114,6 +127,43 @@ void Monitor::check_energy(const Ledger& ledger) {
           "frame shows where points fly off";
   passed(energy, text.str());
   if (!std::isfinite(ledger.balance_error)) raise_together(body_.domain.communicator, text.str());
+}
+
+void Monitor::check_resolution(const Ledger& ledger, bool last) {
+  if (last) check_springs(ledger);
+  if (!told_[stretch]) check_stretch(ledger.time);
+}
+
+void Monitor::check_springs(const Ledger& ledger) {
+  const double internal = ledger.elastic + ledger.dissipated;
+  if (!(ledger.dissipated > ledger.elastic && ledger.stabilization > much_in_springs * internal)) return;
+  std::ostringstream text;
+  text << at(ledger.time) << "the springs of the stabilization hold " << 100 * ledger.stabilization / internal
+       << " % of what the body has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
+          "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
+          "Stabilization Coefficient than the default";
+  warn_once(springs, body_.domain.communicator.rank() == 0 ? text.str() : "");
+}
+
+// The largest stretch of a point with all its bonds is at most the norm of F.
+void Monitor::check_stretch(double time) {
+  double largest = 0;
+  int point = -1;
+  for (int i = 0; i < body_.owned(); ++i) {
+    const double here = has_lost_bonds(body_, i) ? 0 : body_.points[i].deformation_gradient.norm();
+    if (here > largest) largest = here, point = i;
+  }
+  if (!(body_.domain.communicator.max(largest) > far_stretched)) return;
+  std::ostringstream text;
+  if (point >= 0) {
+    text << at(time) << "neighbors have been drawn " << largest
+         << " spacings apart: the shape between them is not resolved, and nothing tears where the deck has no Damage "
+            "Model: "
+         << locate(body_, point)
+         << ". Likely causes: metal near its melting temperature, a speed far above what the metal bears, a load that "
+            "pulls without an end";
+  }
+  warn_once(stretch, of_largest(body_, largest, text.str()));
 }
 
 }  // namespace strut

@@ -24,13 +24,18 @@ class Monitor {
   void check_step(const CentralDifference& solver);  // after advance_velocity()
   void check_energy(const Ledger& ledger);
   void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
+  // What the points do not resolve, after a step with diagnostics: told once, and never the end of a run.
+  void check_resolution(const Ledger& ledger, bool last);
 
   void serialize(Archive& archive);
 
  private:
-  enum What { step, energy, penetration, passing, point, count };
+  enum What { step, energy, penetration, passing, point, springs, stretch, count };
   static constexpr double looks = 200;  // in a run, for bodies inside each other
   void passed(What what, const std::string& text);
+  void warn_once(What what, const std::string& text);
+  void check_springs(const Ledger& ledger);
+  void check_stretch(double time);
 
   deck::Watch limits_;
   double pause_;                                              // s, between looks

@@ -166,5 +166,25 @@ TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
   }
 }
 
+// Copper that flows at 50 MPa is drawn along z at 1e5 1/s: F_zz = 1 + 1e5 t, which the deck prescribes at every point;
+// its width shrinks to 1/√F_zz, which adds 0.016 to |F|: it passes 8 at 6.98e-5 s.
+TEST(Monitor, PointsThatAreDrawnApartWithoutTearingAreToldOf) {
+  const RunFolder folder;
+  Parts parts;
+  parts.materials = copper(key("Yield Stress", "50e6"));
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "1e5*z") +
+                     along("pull", "Prescribed Velocity", "all", "z", "1e5*z");
+  parts.times = key("Final Time", "6.9e-5");
+  const Outcome before = outcome(folder, parts);
+  EXPECT_EQ(before.error, "");
+  parts.times = key("Final Time", "7.2e-5");
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error, "");
+  if (folder.world.rank() != 0) return;
+  EXPECT_EQ(before.said.find("drawn"), std::string::npos) << before.said;
+  expect_words(o.said, {"WARNING: at t = ", "neighbors have been drawn 8.0", "spacings apart", "element ",
+                        " of block bar, reference position (", "no Damage Model", "told once"});
+}
+
 }  // namespace
 }  // namespace strut::regression
