@@ -34,4 +34,7 @@ std::string thin_members(const Body& body);
 // A line for each block whose points fail without softening, as its fracture energy is too small for its spacing.
 std::string sudden_failure(const Body& body);
 
+// A warning for each block whose bonds break by quadratic correspondence.
+std::string noisy_cracks(const Body& body);
+
 }  // namespace strut

@@ -96,6 +96,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
+  scene.warnings += noisy_cracks(scene.body);
   scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
   scene.warnings += weak_contacts(deck, scene, interactions, ways, spacing);
   return scene;
