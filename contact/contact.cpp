@@ -221,8 +221,12 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
                              Vector::Zero());  // the solver has them; here are pairs and friction
   for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.due = true;
   add_forces(kinematics, dt, forces);
-  for (ContactPair& contact_pair : contact_pairs_)
+  for (ContactPair& contact_pair : contact_pairs_) {
     contact_pair.due = true;  // how far points may go in the next step, nobody has asked
+    // An equilibrium has no step whose friction could be made anew: it is that of the last commit.
+    const bool rubs = contact_pair.surfaces && contact_pair.model.friction > 0;
+    if (rubs && dt == 0) contact_pair.friction = contact_pair.surfaces->committed_friction();
+  }
 }
 
 double Contact::energy() const {

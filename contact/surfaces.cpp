@@ -361,6 +361,12 @@ void Surfaces::commit(const std::vector<Vector>& friction) {
   for (std::size_t k = 0; k < friction.size(); ++k) friction_before_[places_[k]] = friction[k];
 }
 
+std::vector<Vector> Surfaces::committed_friction() const {
+  std::vector<Vector> friction;
+  for (const int place : places_) friction.push_back(friction_before_[place]);
+  return friction;
+}
+
 double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
                                std::span<const Vector> way) const {
   double work = 0;

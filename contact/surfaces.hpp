@@ -55,6 +55,7 @@ class Surfaces {
   // What the last trial has come to is where the next ones start. Before that: the work of friction since the last
   // time, by the mean of the forces at both ends, J; `way`: of owned points since then, m.
   void commit(const std::vector<Vector>& friction);
+  std::vector<Vector> committed_friction() const;  // on the owned points of the last search, N
   double friction_work(const Pairs& pairs, const std::vector<Vector>& friction, std::span<const Vector> way) const;
 
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;

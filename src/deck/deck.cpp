@@ -41,15 +41,36 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   return deck;
 }
 
+std::vector<WrittenFile> written_files(const Deck& deck) {
+  std::vector<WrittenFile> written;
+  if (deck.output.enabled) {
+    written.push_back({"Output > Output Filename", "Output", deck.output.file, FileKind::result});
+  }
+  if (deck.history.enabled) written.push_back({"History > Filename", "History", deck.history.file, FileKind::history});
+  if (!deck.restart.enabled) return written;
+  const fs::path& checkpoint = deck.restart.file;
+  for (const auto& [file, kind] : {std::pair(checkpoint, FileKind::unchecked),
+                                   {before_of(checkpoint), FileKind::unchecked},
+                                   {part_of(checkpoint), FileKind::checkpoint},
+                                   {lock_of(checkpoint), FileKind::lock}}) {
+    written.push_back({"Restart > Filename", "Restart", file, kind});
+  }
+  return written;
+}
+
+std::vector<ReadFile> read_files(const Deck& deck) {
+  std::vector<ReadFile> read{{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}};
+  for (const NodeSet& set : deck.node_sets) {
+    if (!set.file.empty()) read.push_back({"the file of node set '" + set.name + "'", set.file});
+  }
+  return read;
+}
+
 // Files are looked at on one rank only: the others may not see them, and need not.
 void look_at_files(Deck& deck, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   read_numbers(deck.node_sets, problems);
-  std::vector<WrittenFile> written;
-  if (deck.output.enabled) written.push_back({"Output > Output Filename", "Output", deck.output.file});
-  if (deck.history.enabled) written.push_back({"History > Filename", "History", deck.history.file});
-  if (deck.restart.enabled) written.push_back({"Restart > Filename", "Restart", deck.restart.file});
-  check_files(written, {{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}}, problems);
+  check_files(written_files(deck), read_files(deck), problems);
 }
 
 bool is_xml(const std::string& text) {

@@ -39,6 +39,7 @@ class FieldWriter {
   std::vector<Observable> variables_;
   std::vector<std::vector<double>> columns_;
   int before_ = 0;  // frames that a restored run finds
+  double sum_ = 0;  // their check sum
   std::optional<io::ExodusWriter> writer_;
 };
 
@@ -70,6 +71,7 @@ class History {
   std::vector<Mean> means_;
   std::vector<ContactComponent> contacts_;
   std::int64_t before_ = 0;  // bytes that a restored run finds
+  double sum_ = 0;           // their check sum
   std::optional<io::HistoryFile> file_;
 };
 

@@ -13,7 +13,10 @@ std::atomic<int> signalled = 0;  // the handler may be called by any thread
 }  // namespace
 
 void catch_signals(std::initializer_list<int> signals) {
-  for (const int signal : signals) std::signal(signal, [](int) { signalled = 1; });
+  for (const int signal : signals) {
+    const auto before = std::signal(signal, [](int) { signalled = 1; });
+    if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // by nohup
+  }
 }
 
 bool is_signalled() { return signalled != 0; }
