@@ -58,6 +58,14 @@ def image():
     return solid
 
 
+def noisy():
+    """Two struts that cross, blurred, and the noise of a scan."""
+    solid = np.zeros((16, 16, 16))
+    solid[6:10, 6:10] = solid[:, 6:10, 5:9] = 8000
+    grey = scipy.ndimage.gaussian_filter(solid, 0.7) + np.random.default_rng(1).normal(0, 2000, solid.shape)
+    return grey.astype("<i2")
+
+
 def vtk_image():
     values = image()
     data = vtkImageData()
@@ -132,6 +140,10 @@ def samples(folder):
                                                  "image.nrrd", "packed.nrrd", "list.pts", "list.pts.gz",
                                                  "image.aim", "packed.aim")}
     found["image.raw"] = ("voxels", (*size, "--shape", "12", "6", "5", "--type", "uint8"))
+    for name, words in (("noisy-spurs.raw", ("--cells", "2", "--spurs", "drop")), ("noisy-all.raw", ("--cells", "3", "--pieces", "0")),
+                        ("noisy-one.raw", ("--cells", "1"))):
+        put(name, noisy().tobytes())
+        found[name] = ("voxels", (*size, "--shape", "16", "16", "16", "--type", "int16", "--grey", *words))
     for name, form, words in (("mesh.msh", "gmsh", {}), ("text.msh", "gmsh", {"binary": False}),
                               ("old.msh", "gmsh22", {"binary": False}), ("mesh.vtu", "vtu", {}), ("mesh.vtk", "vtk", {}),
                               ("mesh.mesh", "medit", {}), ("mesh.med", "med", {})):

@@ -159,12 +159,48 @@ std::string cells_sample() {
          "end\n";
 }
 
+// A grey image with noise, as a scan has: pieces that are dropped beside others that are kept.
+std::string noisy_sample(int factor) {
+  constexpr int edge = 8;
+  std::vector<std::int32_t> places;
+  std::vector<double> fills;
+  Random random(1);
+  for (int v = 0; v < edge * edge * edge; ++v) {
+    const int i = v % edge, j = v / edge % edge, k = v / edge / edge;
+    const double strut = i > 2 && i < 6 && j > 2 && j < 6 ? 0.8 : 0;
+    const double fill = std::min(1.0, strut + 0.5 * (static_cast<double>(random.below(1000)) / 1000 - 0.5));
+    if (fill <= 0) continue;
+    places.insert(places.end(), {i, j, k});
+    fills.push_back(fill);
+  }
+  return "strut-mesh arrays 1\nnodes 0\nvoxels foam " + std::to_string(fills.size()) + " 8 8 8 " +
+         std::to_string(factor) + " 0.3 grey\n" + raw(std::vector<double>{0.1, 0.1, 0.1, 0, 0, 0}) + raw(places) +
+         raw(fills) + "end\n";
+}
+
+// Which parts of a noisy image are solid, and how much: other pieces are dropped, merged and cut.
+std::string change_fills(const std::string& sample, Random& random) {
+  std::string changed = sample;
+  const std::size_t header = sample.find("grey\n") + 5, end = sample.size() - 4;
+  const std::size_t first = header + 48 + (end - header - 48) * 12 / 20;  // edges and corner, places (12), fills (8)
+  for (std::size_t at = first; at + 8 <= end; at += 8) {
+    const double fill = random.chance(0.3) ? 1 : (1 + static_cast<double>(random.below(999))) / 1000;
+    changed.replace(at, 8, raw(std::vector<double>{fill}));
+  }
+  return changed;
+}
+
 Subject arrays() {
   const auto read = [](const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     mesh::read_arrays(stream, "arrays");
   };
-  return {"arrays", "mesh.arrays", {arrays_sample(), cells_sample()}, change_text, read};
+  const auto change = [](const std::string& sample, const std::string& other, Random& random) {
+    const bool noisy = sample.find(" grey\n") != std::string::npos && sample.starts_with("strut-mesh arrays 1\nnodes 0");
+    return noisy && random.chance(0.7) ? change_fills(sample, random) : change_text(sample, other, random);
+  };
+  const std::vector<std::string> samples = {arrays_sample(), cells_sample(), noisy_sample(1), noisy_sample(2)};
+  return {"arrays", "mesh.arrays", samples, change, read};
 }
 
 Subject histories() {

@@ -1,6 +1,8 @@
 """How large the body of a mesh (Exodus II) is, by its elements: their points are inside of it, and gathered cells reach
 beyond it."""
-import netCDF4
+import os
+
+import classic_netcdf
 import numpy as np
 
 SOLIDS = ("HEX", "TET")
@@ -9,9 +11,10 @@ NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "
 
 def size_of(path, block):
     """Edges (m) of the box around the elements of a block, or of all; None where the mesh does not say."""
+    if not os.path.isfile(path):
+        return None
     try:
-        with netCDF4.Dataset(path) as file:
-            file.set_auto_mask(False)
+        with classic_netcdf.opened(path) as file:
             boxes = [box_of(file, n) for n, name in enumerate(names_of(file, "eb_names"), 1) if block in (None, name)]
     except (OSError, KeyError, AttributeError):
         return None

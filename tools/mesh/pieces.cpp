@@ -108,6 +108,7 @@ void set_volumes(const Material& material, const VoxelGrid& coarse, int factor, 
 }
 
 // Of two voxels that are filled differently, the emptier one has the surface between them: it runs through that one.
+// Dropped voxels are void: grey ones that hang on nothing can have faces in common with kept ones.
 void add_surfaces(const Material& material, Pieces& pieces) {
   const Vector h = material.grid.spacing();
   std::vector<std::array<bool, 3>> has_lower(material.voxels.size(), {false, false, false});
@@ -121,14 +122,15 @@ void add_surfaces(const Material& material, Pieces& pieces) {
     part.surface_moments.row(axis) += area * (at.cwiseProduct(h) - part.centroid).transpose();
   };
   for (int v = 0; v < material.size(); ++v) {
-    if (pieces.of[v] < 0) continue;  // a dropped one has no neighbors
+    if (pieces.of[v] < 0) continue;
     const double fill = material.fill(v);
     for (int axis = 0; axis < 3; ++axis) {
       if (!has_lower[v][axis]) add(v, axis, -fill, 0);
       const int w = material.upper[v][axis];
-      if (w >= 0) has_lower[w][axis] = true;
-      const double beyond = w < 0 ? 0 : material.fill(w);
-      const bool is_in_upper = w >= 0 && beyond < fill;
+      const bool is_kept = w >= 0 && pieces.of[w] >= 0;
+      if (is_kept) has_lower[w][axis] = true;
+      const double beyond = is_kept ? material.fill(w) : 0;
+      const bool is_in_upper = is_kept && beyond < fill;
       add(is_in_upper ? w : v, axis, fill - beyond, is_in_upper ? 0 : 1);
     }
   }

@@ -2,7 +2,7 @@
 import difflib
 import os
 
-import netCDF4
+import classic_netcdf
 import numpy as np
 from strut_tools import fail
 
@@ -102,13 +102,11 @@ class Result:
 
 
 def opened(path):
-    if not os.path.isfile(path):
-        fail(f"{path} does not exist")
-    try:
-        file = netCDF4.Dataset(path)
-        file.set_auto_mask(False)
-    except OSError as error:
-        fail(f"{path} is not an Exodus file: {error}")
+    file = classic_netcdf.opened(path)
     if "num_nodes" not in file.dimensions or len(file.variables.get("time_whole", [])) == 0:
         fail(f"{path} is not a result: it has no nodes or no frames")
+    times = file.variables["time_whole"][:]
+    if not (np.diff(times) > 0).all():
+        late = 1 + int(np.argmin(np.diff(times) > 0))
+        fail(f"{path} is damaged: frame {late + 1} of {len(times)} is at t = {times[late]:g} s, the one before at {times[late - 1]:g} s")
     return file

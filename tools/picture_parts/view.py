@@ -287,8 +287,8 @@ def picture(path, out, wanted):
     save(figure_of(scene, scene.rows), out)
 
 
-def pictures(path, start, wanted):
-    """A picture for each variable; gives their names one by one."""
+def pictures(path, file_of, wanted):
+    """A picture for each variable, file_of(its name); gives their names one by one."""
     scene = Scene(Result(path), wanted)
     for row in scene.rows:
-        yield save(figure_of(scene, [row]), f"{start}-{row.name}.png")
+        yield save(figure_of(scene, [row]), file_of(row.name))

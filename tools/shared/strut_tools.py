@@ -31,9 +31,9 @@ def install_missing(packages):
     print("installing", *missing, flush=True)
     root = [] if os.geteuid() == 0 else ["sudo"]
     command = ("export DEBIAN_FRONTEND=noninteractive; apt-get -qq update && "
-               "apt-get -qq install -y --no-install-recommends \"$@\" >/dev/null")
+               "apt-get -qq install -y --no-remove --no-install-recommends \"$@\" >/dev/null")
     if subprocess.run([*root, "sh", "-c", command, "sh", *missing]).returncode != 0:
-        fail(f"these packages could not be installed: {' '.join(missing)}")
+        fail(f"these packages could not be installed, or not without removing others: {' '.join(missing)}")
     os.environ["STRUT_TOOLS_INSTALLED"] = "1"
     os.execv(sys.executable, [sys.executable, *sys.argv])
 
@@ -99,13 +99,39 @@ class Parser(argparse.ArgumentParser):
         fail(f"{message}; --help has all options")
 
 
-def check_output(path):
-    """Before the work is done rather than after it."""
+# What is written. A file that the user names is replaced, unless it is one that is read; one that a tool names by itself is
+# made anew, never written through a link
+
+
+def same_file(one, other):
+    """By whatever name, link or hard link."""
+    try:
+        return os.path.samefile(one, other)
+    except OSError:  # one of them is not there
+        return False
+
+
+def check_output(path, *read):
+    """Before the work is done rather than after it. `read`: the files that it is done from."""
     folder = os.path.dirname(path) or "."
     if os.path.isdir(path):
-        fail(f"{path} is a folder, expected the name of the mesh to write")
+        fail(f"{path} is a folder, expected the name of a file to write")
     if not os.path.isdir(folder):
         fail(f"{path} cannot be written: there is no folder {folder}")
+    for file in read:
+        if same_file(path, file):
+            fail(f"{path} is {file}, which is read: expected another file to write" if path != file else
+                 f"{path} is read: expected another file to write")
+
+
+def own_file(folder, name, *read):
+    """The path of a file that a tool names by itself, ready to be written: what is there is no file that is read, and if it is
+    a link to anything, that stays."""
+    path = os.path.join(folder, name)
+    check_output(path, *read)
+    if os.path.islink(path) or (os.path.isfile(path) and os.stat(path).st_nlink > 1):
+        os.unlink(path)
+    return path
 
 
 # Libraries that crash, and those that print
@@ -247,9 +273,18 @@ def run_deck(deck, folder, ranks=None, limit=None):
 
 
 def rows_of(path):
-    """The rows of a history, as text by column; lines that begin with # say who wrote it, and the units."""
+    """The rows of a history, as text by column; lines that begin with # say who wrote it, and the units. Ends the tool where
+    one is cut off, of which a number may be another one."""
     with open(path, newline="") as history:
-        return list(csv.DictReader(line for line in history if not line.startswith("#")))
+        lines = history.readlines()
+    if lines and not lines[-1].endswith("\n"):
+        fail(f"{path} is cut off in line {len(lines)}, '{lines[-1][-30:]}' (or a run is about to write it: try again)")
+    numbers = [number for number, line in enumerate(lines, 1) if not line.startswith("#")]
+    header, *rows = csv.reader(lines[number - 1] for number in numbers) if numbers else [[]]
+    for number, row in zip(numbers[1:], rows):
+        if len(row) != len(header):
+            fail(f"{path} is damaged: line {number} has {len(row)} values, expected {len(header)} as in its head")
+    return [dict(zip(header, row)) for row in rows]
 
 
 def history_of(path):

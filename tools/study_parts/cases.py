@@ -12,18 +12,19 @@ import time
 from launcher import is_open_mpi, mpirun
 from strut_tools import fail, programs
 
+from . import inputs
+
 EARLY = 3  # the exit status of a run that a signal or its wall time has ended
 
 
 class Case:
     def __init__(self, values, folder, deck, recipe):
         self.values, self.folder, self.deck = values, folder, os.path.basename(deck.path)
-        self.texts = {self.deck: deck.text}
-        if recipe is not None:
-            self.texts[os.path.basename(recipe.path)] = recipe.text
+        self.source, text, self.mesh, self.links = inputs.of(deck, recipe)
+        self.texts = {self.deck: self.source.text}
         self.recipe = recipe and os.path.basename(recipe.path)
-        self.mesh = deck.get("Discretization", "Input Mesh File") or ""
-        self.source = deck
+        if recipe is not None:
+            self.texts[self.recipe] = text
         self.process, self.started = None, 0.0
 
     @property
@@ -31,8 +32,9 @@ class Case:
         return os.path.join(self.folder, "log")
 
     def mark(self):
-        """Of what is run: another deck or recipe is another run."""
-        return hashlib.sha256(json.dumps(self.texts, sort_keys=True).encode()).hexdigest()
+        """Of what is run: another deck or recipe is another run, or another file that they read."""
+        read = {name: [os.path.getsize(file), os.path.getmtime(file)] for name, file in self.links.items()}
+        return hashlib.sha256(json.dumps([self.texts, read], sort_keys=True).encode()).hexdigest()
 
     def state(self):
         """What is known of the run: {mark, over, error, seconds}; empty where there is none of this deck."""
@@ -61,8 +63,10 @@ class Case:
         for name, text in self.texts.items():
             with open(os.path.join(self.folder, name), "w") as file:
                 file.write(text)
-        os.makedirs(os.path.join(self.folder, os.path.dirname(self.mesh)), exist_ok=True)
-        link_files(self.source, self.texts, self.folder, self.mesh if self.recipe else None)
+        for name in [*self.links, *([self.mesh] if self.mesh else [])]:
+            os.makedirs(os.path.join(self.folder, os.path.dirname(name)), exist_ok=True)
+        for name, file in self.links.items():
+            os.symlink(file, os.path.join(self.folder, name))
         self.put_state(over=False)
         return False
 
@@ -114,15 +118,26 @@ class Case:
             return 0
 
 
-def link_files(deck, texts, folder, made):
-    """Links to the files beside deck that deck and recipe name; `made`: the mesh that is made anew."""
-    here = os.path.dirname(os.path.abspath(deck.path))
-    for word in set(re.findall(r'value="([^"]+)"|^\s*file\s*=\s*(\S+)', "\n".join(texts.values()), re.M)):
-        name = word[0] or word[1]
-        target = os.path.join(folder, name)
-        if name != made and not os.path.isabs(name) and os.path.isfile(os.path.join(here, name)) and not os.path.exists(target):
-            os.makedirs(os.path.dirname(target), exist_ok=True)
-            os.symlink(os.path.join(here, name), target)
+def claim(out, path, *written):
+    """The folder `out` is that of one study or deck: makes it, and refuses that of another one. `written`: what is put there
+    beside the runs."""
+    os.makedirs(out, exist_ok=True)
+    note, own = os.path.join(out, "runs-of.json"), os.path.realpath(path)
+    try:
+        with open(note) as file:
+            found = json.load(file).get("path")
+    except FileNotFoundError:
+        found = None
+    except (ValueError, AttributeError):
+        fail(f"{note} is damaged: remove it, or name another folder")
+    if found not in (None, own):
+        fail(f"{out} has the runs of {found}: name another folder (or remove {note}, if it is the same one in another place)")
+    of_runs = glob.glob(os.path.join(glob.escape(out), "*", "state.json"))
+    there = [name for name in written if os.path.lexists(os.path.join(out, name))]
+    if found is None and there and not of_runs:
+        fail(f"{os.path.join(out, there[0])} is there, and not of runs in this folder: name another folder")
+    with open(note, "w") as file:
+        json.dump({"path": own}, file)
 
 
 def last_line(path):

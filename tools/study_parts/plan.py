@@ -117,6 +117,17 @@ def files_of(study, case):
     return deck, recipe
 
 
+def check_names(study):
+    """Each run has a folder of its own."""
+    found = {}
+    for case in study.cases():
+        said = ", ".join(f"{k} = {v}" for k, v in case.items())
+        other = found.setdefault(name_of(case), said)
+        if other is not said:
+            fail(f"{study.path}: the runs '{other}' and '{said}' would both be in the folder {name_of(case)}: expected values "
+                 "that differ in letters, digits, '.', '+' or '-'")
+
+
 def name_of(case):
     """Of its folder."""
     return ",".join(f"{k}={re.sub(r'[^A-Za-z0-9.+-]+', '-', v) or 'none'}" for k, v in case.items())

@@ -39,6 +39,22 @@ class Image:
     kind: str
 
 
+def files_of(path):
+    """The files that read() reads, or may read."""
+    if re.search(r"[*?\[]", path) and not os.path.exists(path):
+        return glob.glob(path)
+    if os.path.isdir(path):
+        return [os.path.join(path, name) for name in os.listdir(path)]
+    if ending_of(path) not in (".mhd", ".nhdr", ".mha", ".nrrd") or not os.path.isfile(path):
+        return [path]
+    with open(path, "rb") as file:  # a header names its data: a file a line, or a pattern with %03d
+        lines = file.read(2**20).decode("latin-1").splitlines()
+    named = [re.split(r"[:=]\s*", line, maxsplit=1)[-1].strip() for line in lines[:10000]]
+    patterns = [re.sub(r"%\d*d", "*", glob.escape(name.split(" ")[0] if "%" in name else name)) for name in named if name]
+    folder = glob.escape(os.path.dirname(path))
+    return [path, *(file for pattern in patterns for file in glob.glob(os.path.join(folder, pattern)) if "\0" not in pattern)]
+
+
 def read(path, raw=None, array=None, unit=None):
     """raw: how to read bare numbers; unit: of the file's lengths, in place of what it says, as a word."""
     if re.search(r"[*?\[]", path) and not os.path.exists(path):

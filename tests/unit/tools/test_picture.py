@@ -89,6 +89,41 @@ class Pictures(InFolder):
                      {"Equivalent_Plastic_Strain": both[0], "Von_Mises_Stress": both[1]})
         return places, after, dict(zip(("Equivalent_Plastic_Strain", "Von_Mises_Stress"), both))
 
+    def test_a_result_that_is_cut_off_is_no_picture_of_zeros(self):
+        self.bar()
+        whole = (self.folder / "bar.e").read_bytes()
+        for part in (5, 50, 95, 99.9):
+            (self.folder / "cut.e").write_bytes(whole[:int(len(whole) * part / 100)])
+            self.assertRegex(self.error("cut.e", "cut.png"), "cut.e is damaged: (its header|it) is cut off")
+            self.assertRegex(self.error("--cut", "cut.e", "cut.png"), "cut.e is damaged: (its header|it) is cut off")
+        # Filled up with zeros, as by a copy that broke off: the last frame is at t = 0 as is the first.
+        (self.folder / "cut.e").write_bytes(whole[:len(whole) // 2].ljust(len(whole), b"\0"))
+        self.assertIn("cut.e is damaged: frame 2 of 2 is at t = 0 s, the one before at 0 s", self.error("cut.e", "cut.png"))
+        self.assertFalse((self.folder / "cut.png").exists())
+
+    def test_a_history_that_is_cut_off_is_told_as_such(self):
+        lines = ["# units: s, J, J, 1", "Time,Kinetic_Energy,External_Work,Balance_Error", "0,1,0,0", "1,2,1,0.5"]
+        for cut, said in (("\n".join(lines)[:-6], "h.csv is cut off in line 4, '1,2"), ("\n".join(lines)[:-1], "cut off in line 4"),
+                          ("\n".join([*lines[:3], "1,2", "2,3,1,0", ""]), "h.csv is damaged: line 4 has 2 values, expected 4")):
+            (self.folder / "h.csv").write_text(cut)
+            self.assertIn(said, self.error("h.csv", "h.png"))
+
+    def test_what_is_read_is_never_written(self):
+        self.bar()
+        (self.folder / "h.csv").write_text("Time,Kinetic_Energy,Balance_Error\n0,1,0\n1,2,0\n")
+        for name in ("bar.e", "h.csv"):
+            before = (self.folder / name).read_bytes()
+            (self.folder / "out.png").unlink(missing_ok=True)
+            (self.folder / "out.png").symlink_to(name)
+            self.assertIn(f"out.png is {name}, which is read", self.error(name, "out.png"))
+            self.assertEqual((self.folder / name).read_bytes(), before)
+        (self.folder / "pictures").mkdir()
+        (self.folder / "pictures/h-energies.png").symlink_to("../bar.e")  # a name of ours: made anew, not written through
+        before = (self.folder / "bar.e").read_bytes()
+        self.made("h.csv", "pictures/")
+        self.assertEqual((self.folder / "bar.e").read_bytes(), before)
+        self.assertGreater((self.folder / "pictures/h-energies.png").stat().st_size, 5000)
+
     def scene(self, name, **wanted):
         return view.Scene(Result(str(self.folder / name)), view.Wanted(**wanted))
 

@@ -106,7 +106,7 @@ class Samples(InFolder):
             return done.stderr
         self.assertIn("a.g does not exist", error("a.xml", "out"))
         (self.folder / "a.g").write_text("no mesh")
-        self.assertIn("a.g is not an Exodus mesh", error("a.xml", "out"))
+        self.assertIn("a.g is not an Exodus file", error("a.xml", "out"))
         self.assertIn("unknown option '--strin' (did you mean '--strain'?)", error("a.xml", "out", "--strin", 1))
         self.assertIn("expected --strain in (0, 0.01)", error("a.xml", "out", "--strain", 1))
 

@@ -131,6 +131,82 @@ class Studies(InFolder):
         self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
                          [("2", ""), ("", "deck.xml: error: it was expected")])
 
+    def programs(self, strut="#!/bin/sh\nprintf 'Time,Mean_Displacement_Z,Mean_Velocity_Z\\n0,2,1\\n' > bar.csv\n"):
+        """Stand for strut, here one that writes a history, and for strut-mesh."""
+        found = {}
+        for name, variable, text in (("strut", "STRUT", strut), ("mesh", "STRUT_MESH", '#!/bin/sh\necho made > "$2"\n')):
+            (self.folder / name).write_text(text)
+            (self.folder / name).chmod(0o755)
+            found[variable] = str(self.folder / name)
+        return found
+
+    def test_results_that_lie_beside_the_deck_stay_as_they_are(self):
+        mine = {"bar.csv": "Time,Mean_Velocity_Z\n0,7\n", "bar.e": "mine", "bar.restart": "mine", "bar.g": "mine"}
+        for name, text in mine.items():
+            (self.folder / name).write_text(text)
+        status, out, errors = self.study("bar.study", "out", **self.programs())
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertEqual(mine, {name: (self.folder / name).read_text() for name in mine})
+        self.assertEqual([path for path in self.folder.glob("out/*/*") if path.is_symlink()], [])
+        self.assertEqual([float(row["Mean_Velocity_Z"]) for row in self.rows()], [1] * 4)
+
+    def test_a_run_reads_the_files_that_its_deck_and_recipe_name_wherever_they_are(self):
+        deck = DECK.replace('value="bar.g"', 'value="../meshes/bar.g"').replace(
+            '<ParameterList name="Boundary Conditions">', '<ParameterList name="Boundary Conditions">\n'
+            '<Parameter name="Node Set Foot" type="string" value="sets/foot"/>')
+        (self.folder / "bar.recipe").unlink()
+        for folder in ("meshes", "decks/sets"):
+            (self.folder / folder).mkdir(parents=True)
+        for name, text in (("decks/bar.xml", deck), ("decks/sets/foot", "1 2"), ("meshes/bar.g", "a mesh"),
+                           ("decks/bar.study", "deck = bar.xml\nvary v = 1 2\nset Boundary Conditions > flight > Value = {v}\n")):
+            (self.folder / name).write_text(text)
+        programs = self.programs("#!/bin/sh\ncat bar.g sets/foot && grep -q 'value=\"bar.g\"' bar.xml || exit 1\n")
+        status, out, errors = self.study("decks/bar.study", "out", **programs)
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertEqual(sorted(path.name for path in (self.folder / "out").iterdir()),
+                         ["runs-of.json", "study.csv", "v=1", "v=2"])
+        (self.folder / "meshes/bar.g").write_text("another mesh")  # is another run
+        self.assertNotIn("done", self.study("decks/bar.study", "out", "--list")[1])
+        # With a recipe each run makes its own mesh, and the one that is there stays.
+        (self.folder / "meshes/bar.recipe").write_text(RECIPE + "shape = file\nfile = ../decks/sets/foot\n")
+        status, out, errors = self.study("decks/bar.study", "out", **self.programs("#!/bin/sh\ngrep -q made bar.g && cat foot\n"))
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertEqual((self.folder / "meshes/bar.g").read_text(), "another mesh")
+
+    def test_runs_never_write_into_one_file_or_over_what_they_read(self):
+        def error(old, new, study=STUDY):
+            (self.folder / "bar.xml").write_text(DECK.replace(old, new))
+            (self.folder / "bar.study").write_text(study)
+            status, _, errors = self.study("bar.study", "out", **self.programs())
+            self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+            return errors
+        self.assertIn("History > Filename '../bar.csv' leads out of the folder of a run", error("bar.csv", "../bar.csv"))
+        self.assertIn(f"'{self.folder}/bar.csv' leads out", error("bar.csv", f"{self.folder}/bar.csv"))
+        self.assertIn("History > Filename 'bar.g' is also the name of a file that a run needs", error("bar.csv", "bar.g"))
+        self.assertIn("History > Filename './log' is also the name", error("bar.csv", "./log"))
+        self.assertIn("the runs 'speed = 1, spacing = a b' and 'speed = 1, spacing = a/b' would both be in the folder speed=1,spacing=a-b",
+                      error("", "", STUDY.replace("10 20", "1").replace("1e-3 2e-3", "a b | a/b")))
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_two_studies_have_two_folders(self):
+        programs = self.programs()
+        (self.folder / "other.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3").replace("{1e-5/speed}", "{2e-5/speed}"))
+        self.assertEqual(self.study("bar.study", "out", **programs)[0], 0)
+        before = {path: path.read_bytes() for path in self.folder.glob("out/**/*") if path.is_file()}
+        status, _, errors = self.study("other.study", "out", **programs)
+        self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+        self.assertIn(f"out has the runs of {self.folder.resolve()}/bar.study: name another folder", errors)
+        self.assertEqual(before, {path: path.read_bytes() for path in self.folder.glob("out/**/*") if path.is_file()})
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/study.csv").write_text("mine")
+        self.assertIn("mine/study.csv is there, and not of runs in this folder", self.study("bar.study", "mine", **programs)[2])
+        # A table that is a link is made anew; what it was linked to stays.
+        (self.folder / "out/study.csv").unlink()
+        (self.folder / "kept").write_text("mine")
+        (self.folder / "out/study.csv").symlink_to("../kept")
+        self.assertEqual(self.study("bar.study", "out", **programs)[0], 0)
+        self.assertEqual((self.folder / "kept").read_text(), "mine")
+
     def test_errors_are_one_line_that_helps(self):
         def error(old, new):
             (self.folder / "bar.study").write_text(STUDY.replace(old, new))

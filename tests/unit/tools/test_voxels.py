@@ -379,6 +379,12 @@ class CtFoam(ToolTest):
 # Formats
 
 
+def image_in_grey():
+    values = np.zeros((4, 5, 6), np.uint8)
+    values[1:3, 1:4, 1:5] = np.arange(24).reshape(2, 3, 4) + 100
+    return values
+
+
 def vtk_image(values, spacing):
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -682,6 +688,35 @@ class Damaged(ToolTest):
         self.refused("voxels", "every voxel is void", self.path("a.tif"), "--size", 1, "--threshold", 200)
         tifffile.imwrite(self.path("a.tif"), np.where(self.image, np.nan, 0).astype("f4"))
         self.refused("voxels", "not finite", self.path("a.tif"), "--size", 1)
+
+    def test_what_is_read_is_never_written(self):
+        def kept(tool, source, *outs, words=()):
+            with open(source, "rb") as file:
+                before = file.read()
+            for out in (source, *outs):
+                done = self.run_tool(tool, source, out, *words)
+                self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+                self.assertRegex(done.stderr, "is read: expected another file to write")
+                with open(source, "rb") as file:
+                    self.assertEqual(file.read(), before)
+
+        raw = self.write("a.raw", image_in_grey().tobytes())
+        os.symlink("a.raw", self.path("link.g"))
+        os.link(raw, self.path("hard.g"))
+        shape = ("--shape", 6, 5, 4, "--type", "uint8", "--size", 1)
+        kept("voxels", raw, self.path("link.g"), self.path("hard.g"), os.path.join(self.folder, ".", "a.raw"), words=shape)
+        os.symlink("a.raw", self.path("slices.png"))
+        self.refused("voxels", "slices.png is .*a.raw, which is read", raw, *shape, "--slices", self.path("slices.png"))
+        header = self.write("a.mhd", "ObjectType = Image\nNDims = 3\nDimSize = 6 5 4\nElementType = MET_UCHAR\nElementDataFile = a.raw\n")
+        kept("voxels", header, raw, words=("--size", 1))
+        os.mkdir(self.path("slices"))
+        tifffile.imwrite(self.path("slices/a.tif"), image_in_grey(), photometric="minisblack")
+        for source in (self.path("slices"), self.path("slices/*.tif")):
+            done = self.run_tool("voxels", source, self.path("slices/a.tif"), "--size", 1)
+            self.assertIn("a.tif is read: expected another file", done.stderr)
+        mesh = self.write("a.msh", GMSH_4)
+        os.link(mesh, self.path("mesh.g"))
+        kept("tetrahedra", mesh, self.path("mesh.g"))
 
     def test_options_that_are_wrong(self):
         tifffile.imwrite(self.path("a.tif"), self.image)

@@ -1,0 +1,71 @@
+"""The files of a run: those that its deck and its recipe read are linked into its folder, those that it writes stay there.
+Nothing else that lies beside the deck belongs to it, results of other runs least of all."""
+import os
+import re
+
+from decks import Deck, value_in
+from strut_tools import fail
+
+WRITTEN = (("Output", "Output Filename"), ("History", "Filename"), ("Restart", "Filename"))
+OWN = ("log", "curve.log", "state.json")  # that a study writes into the folder of each run
+
+
+def of(deck, recipe):
+    """The deck and the text of its recipe (None: it has none), both as they are in the folder of a run; the name of the mesh
+    that is made there (None: none); and {name in the folder: file} of what they read."""
+    links, here = {}, os.path.dirname(os.path.abspath(deck.path))
+    mesh, made = deck.get("Discretization", "Input Mesh File"), None
+    if mesh and recipe is not None:
+        made = name_within(mesh)
+        deck = with_value(deck, "Discretization > Input Mesh File", mesh, made)
+    elif mesh:
+        deck = linked(deck, "Discretization > Input Mesh File", mesh, here, links)
+    conditions = deck.section("Boundary Conditions")
+    for element in [] if conditions is None else conditions.findall("Parameter"):  # Peridigm's sets, by a file of numbers
+        if "Node Set" in element.get("name"):
+            deck = linked(deck, f"Boundary Conditions > {element.get('name')}", element.get("value"), here, links)
+    text = recipe and re.sub(r"(?m)^(\s*file\s*=\s*)([^#\n]*[^#\s])", lambda m: m[1] + link(m[2], here, links), recipe.text)
+    check_written(deck, [*links, *OWN, os.path.basename(deck.path), *([made, os.path.basename(recipe.path)] if made else [])])
+    return deck, text, made, links
+
+
+def name_within(path):
+    """Within the folder of a run, wherever the file is."""
+    return os.path.basename(path) if leads_out(path) else os.path.normpath(path)
+
+
+def leads_out(path):
+    return os.path.isabs(path) or os.path.normpath(path).split(os.sep)[0] == os.pardir
+
+
+def with_value(deck, key, old, new):
+    return deck if old == new else Deck.of(deck.path, deck.changed(key, new))
+
+
+def linked(deck, key, path, here, links):
+    return with_value(deck, key, path, link(path, here, links))
+
+
+def link(path, here, links):
+    """Its name in the folder; what is no file, as a list of numbers, stays as it is."""
+    file = os.path.join(here, path)
+    if not os.path.isfile(file):
+        return path
+    name = name_within(path)
+    if name in links and not os.path.samefile(links[name], file):
+        fail(f"{links[name]} and {file} would have one name in the folder of a run: expected two")
+    links[name] = file
+    return name
+
+
+def check_written(deck, taken):
+    """Runs write into their own folders, and not over what they read."""
+    for section, key in WRITTEN:
+        for element in (e for e in deck.root.findall("ParameterList") if (e.get("name") or "").startswith(section)):
+            name = value_in(element, key)
+            where = f"{deck.path}: {element.get('name')} > {key}"
+            if name and leads_out(name):
+                fail(f"{where} '{name}' leads out of the folder of a run, where all runs would write it: expected a name within")
+            suffix = ".e" if section == "Output" and name and not os.path.splitext(name)[1] else ""
+            if name and os.path.normpath(name + suffix) in taken:
+                fail(f"{where} '{name}' is also the name of a file that a run needs: expected another one")
