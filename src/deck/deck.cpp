@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "deck/check.hpp"
 #include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
@@ -80,17 +81,14 @@ bool is_xml(const std::string& text) {
 
 enum class FileCheck { no, yes };
 
-Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) {
-  Problems problems;
-  Deck deck;
-  if (auto list = is_xml(text) ? parse_xml(text, problems) : parse_yaml(text, problems)) {
-    translate_peridigm(*list, problems);
-    const Values values = check(*list, schema(), "", problems);
-    deck = build(values, file, problems);
-    deck.text = text;
-    if (file_check == FileCheck::yes) look_at_files(deck, problems);
-  }
-  problems.raise(file.string());
+Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
+  auto list = is_xml(text) ? parse_xml(text, problems) : parse_yaml(text, problems);
+  if (!list) problems.raise(file.string());
+  translate_peridigm(*list, problems);
+  const Values values = check(*list, schema(), "", problems);
+  Deck deck = build(values, file, problems);
+  deck.text = text;
+  if (file_check == FileCheck::yes) look_at_files(deck, problems);
   deck.notes = problems.notes();
   return deck;
 }
@@ -113,18 +111,26 @@ std::string contents(const fs::path& file) {
 
 }  // namespace
 
-Deck read(const fs::path& file, const Communicator& communicator) {
+Deck read(const fs::path& file, const Communicator& communicator, Problems& problems) {
   std::string text;
   Deck deck;
   run_on_root(communicator, [&] {
     text = contents(file);
-    deck = parse(text, file, FileCheck::yes);
+    deck = parse(text, file, FileCheck::yes, problems);
   });
   communicator.broadcast(text);
-  if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no);
+  if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no, problems);
+  for (const std::string& line : broadcast_names(problems.lines(), communicator)) problems.add(line);
   for (NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) communicator.broadcast(*set.numbers);
   }
+  return deck;
+}
+
+Deck read(const fs::path& file, const Communicator& communicator) {
+  Problems problems;
+  Deck deck = read(file, communicator, problems);
+  problems.raise(file.string());
   return deck;
 }
 

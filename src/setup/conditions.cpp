@@ -7,23 +7,19 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "points/point_group.hpp"
 #include "setup/finite_value.hpp"
 
 namespace strut {
 
 namespace {
 
-// The points of this rank in a node set, a block, or all; none where there is no such set.
+// The points of this rank in a node set, a block, or all, by a name that has been checked.
 std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
-  const auto position = [&set](const std::vector<std::string>& names) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), set) - names.begin());
-  };
-  const std::size_t bit = position(cloud.set_names), block = position(cloud.block_names);
+  const PointGroup group(cloud, set, "Node Set");
   std::vector<int> points;
   for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-    const bool in = set == "all" || (bit < cloud.set_names.size() ? (cloud.sets[i] >> bit & 1) != 0
-                                                                  : cloud.blocks[i] == static_cast<int>(block));
-    if (in) points.push_back(i);
+    if (group.counts(cloud, i)) points.push_back(i);
   }
   return points;
 }
@@ -64,23 +60,24 @@ void add_condition(const deck::Condition& condition, int place, double t, Scene&
 
 void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems) {
-  std::vector<std::string> valid{"all"};
-  valid.insert(valid.end(), cloud.set_names.begin(), cloud.set_names.end());
-  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
+  const auto path = [](const deck::Condition& one) { return "Boundary Conditions > " + one.name + " > Node Set"; };
+  std::vector<const deck::Condition*> known;
   std::vector<double> counts;
   for (const deck::Condition& condition : deck.conditions) {
-    counts.push_back(static_cast<double>(points_of(cloud, condition.node_set).size()));
+    try {
+      const PointGroup group(cloud, condition.node_set, path(condition));
+      counts.push_back(static_cast<double>(group.points(cloud)));
+      known.push_back(&condition);
+    } catch (const Error& error) {
+      problems.add(error.what());
+    }
   }
   communicator.sum(counts);
   for (std::size_t c = 0; c < counts.size(); ++c) {
-    const std::string& set = deck.conditions[c].node_set;
-    const std::string path = "Boundary Conditions > " + deck.conditions[c].name + " > Node Set";
-    if (std::find(valid.begin(), valid.end(), set) == valid.end()) {
-      problems.add(path, "there is no node set or block '" + set + "'" + did_you_mean(set, valid) + "; there are " +
-                             joined(valid));
-    } else if (counts[c] == 0) {
-      problems.add(path, "'" + set + "' holds no point");
-    }
+    const std::string& set = known[c]->node_set;  // whose expression may be among the problems
+    if (counts[c] > 0 || problems.about("Node Sets > " + set) || problems.about("Boundary Conditions > " + set))
+      continue;
+    problems.add(path(*known[c]), "'" + set + "' holds no point");
   }
 }
 
