@@ -51,7 +51,7 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   const bool last = ends_here(solver);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
-  if (ledger) services_.monitor.check_energy(*ledger);
+  if (ledger || last) services_.monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
   progress_.show(solver.steps(), solver.time(), solver.dt());
   return last;
 }
