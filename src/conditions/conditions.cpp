@@ -39,17 +39,6 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
   });
 }
 
-void change_initial_velocities(const Conditions& conditions, double t, double dt, Body& body) {
-  ReactionImpulses none;
-  const PointTimeSteps steps{dt};
-  VelocityUpdate update{t, steps, body, none};
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage != Stage::forces) {
-      if constexpr (Type::acts_at_start) take_turn(one, update);
-    }
-  });
-}
-
 void change_velocities(const Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
                        ImpulseWork& work, ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};

@@ -34,9 +34,6 @@ void add_forces(const Conditions& conditions, double t, Body& body);
 void add_work_of_forces(const Conditions& conditions, double t, double impulse_time, const Body& body,
                         ImpulseWork& work);
 
-// Changes the initial velocities to what conditions impose on them at time t, so that the first step needs no impulse.
-void change_initial_velocities(const Conditions& conditions, double t, double dt, Body& body);
-
 // Changes the velocities after the impulse of forces at time t, which carry each point on for its step, to what the
 // conditions allow. Adds the work of these changes, and the impulses of conditions that have a reaction.
 void change_velocities(const Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,

@@ -34,7 +34,7 @@ NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int, const Body& 
 void NonReflectingEnd::change_velocities(VelocityUpdate& update) const {
   for (const auto& [i, along, across, gain] : drags) {
     const Vector before = update.body.previous_velocity[i], change = gain * (update.body.velocity[i] - before);
-    const double speed = normal.dot(before), push = normal.dot(change), dt = update.steps.of(i);
+    const double speed = normal.dot(before), push = normal.dot(change), dt = update.steps.of_impulse(i);
     const Vector sliding = before - speed * normal, shear = change - push * normal;
     Vector& v = update.body.velocity[i];
     const Vector before_end = v;

@@ -16,6 +16,10 @@ std::optional<SymmetryPlane> SymmetryPlane::in_substeps(const MovingPoints& movi
   return SymmetryPlane{moving.among(points), normal, reaction_place};
 }
 
+void SymmetryPlane::predict_velocities(double, double, const Body&, std::vector<Vector>& velocities) const {
+  for (const int i : points) velocities[i] -= normal.dot(velocities[i]) * normal;
+}
+
 std::vector<HeldDirection> SymmetryPlane::held_directions(const Body& body, double, double) const {
   std::vector<HeldDirection> all;
   for (const int i : points) all.push_back({reaction_place, i, normal, normal.dot(body.current(i))});

@@ -25,8 +25,7 @@ struct SymmetryPlane {
   void change_velocities(VelocityUpdate& update) const;
   std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = true;
-  // Nothing: the plane sets nothing in motion.
-  void predict_velocities(double, double, const Body&, std::vector<Vector>&) const {}
+  void predict_velocities(double t, double moment, const Body& body, std::vector<Vector>& velocities) const;
   std::vector<HeldDirection> held_directions(const Body& body, double t, double dt) const;
 };
 

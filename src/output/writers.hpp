@@ -93,17 +93,18 @@ struct OutputWriters {
     history.serialize(archive, time);
   }
   // Collective. Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked
-  // where a line is written. Returns its ledger.
+  // where a line is written. Returns the ledger where there is either.
   template <class Solver, class OfConditions>
   std::optional<Ledger> write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
     const double now = solver.time();
     const auto wanted = [&](const auto& sink) {
       return sink.enabled() && !sink.has(now) && (last || sink.schedule.due(solver.steps(), now));
     };
-    if (wanted(frames)) frames.write(now, body);
-    if (!wanted(history)) return std::nullopt;
+    const bool frame = wanted(frames), line = wanted(history);
+    if (!frame && !line) return std::nullopt;
+    if (frame) frames.write(now, body);
     const Ledger ledger = solver.ledger();
-    history.write(ledger, reactions(), solver.contact(), body);
+    if (line) history.write(ledger, reactions(), solver.contact(), body);
     return ledger;
   }
 

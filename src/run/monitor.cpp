@@ -22,6 +22,9 @@ constexpr double much_in_springs = 0.1;
 // Neighbors that have been drawn so many spacings apart: what lies between them is not resolved any more.
 constexpr double far_stretched = 8;
 
+// As parts of the largest energy. What is gained out of nothing ends the run where it is this part of what may be lost.
+constexpr double worth_telling = 0.01, of_gains = 0.2;
+
 // Where the rank has what is largest of all ranks: `text`, else nothing.
 std::string of_largest(const Body& body, double own, const std::string& text) {
   return own == body.domain.communicator.max(own) ? text : "";
@@ -48,6 +51,16 @@ std::string fastest_point(const Body& body) {
 std::string at(double time) {
   std::ostringstream text;
   text << "at t = " << time << " s ";
+  return text.str();
+}
+
+std::string balance_of(const Ledger& ledger) {
+  std::ostringstream text;
+  text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
+       << std::abs(ledger.gained) << " J "
+       << (ledger.gained > 0 ? "out of nothing: the run is unstable, or" : "that nothing accounts for: the run")
+       << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
+          "load too sudden, too few load steps; the last frame shows where points fly off";
   return text.str();
 }
 
@@ -113,20 +126,36 @@ void Monitor::serialize(Archive& archive) {
   archive.number("first_step", first_step_);
   archive.number("ledgers", ledgers_);
   archive.number("next_look", next_look_);
+  archive.number("told_error", told_error_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
 }
 
-void Monitor::check_energy(const Ledger& ledger) {
-  const bool early = ++ledgers_ <= first_ledgers && std::isfinite(ledger.balance_error);
-  if (early || ledger.balance_error <= limits_.balance_error) return;
-  std::ostringstream text;
-  text << at(ledger.time) << "the balance of energy has an error of " << 100 * ledger.balance_error
-       << " % of the largest energy (Watch > Balance Error): the run has become unstable or is far too coarse in "
-          "time. Likely causes: a Fixed dt above the critical time step, a load too sudden, too few load steps; the "
-          "last "
-          "frame shows where points fly off";
-  passed(energy, text.str());
-  if (!std::isfinite(ledger.balance_error)) raise_together(body_.domain.communicator, text.str());
+// Known to all ranks, so told by the first one.
+void Monitor::warn(What what, const std::string& text) {
+  warn_once(what, body_.domain.communicator.rank() == 0 ? text : "");
+}
+
+void Monitor::check_energy(const Ledger& ledger, bool last) {
+  const double error = ledger.balance_error;
+  if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
+  const std::string text = at(ledger.time) + balance_of(ledger);
+  const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
+  if (!(error <= limit)) {
+    const std::string once = body_.domain.communicator.rank() == 0 ? text : "";
+    passed(energy, once);
+    if (!std::isfinite(error)) raise_together(body_.domain.communicator, once);
+  } else if (error > worth_telling) {
+    if (last && error > 2 * told_error_) told_[imbalance] = false;
+    if (!told_[imbalance]) told_error_ = error;
+    warn(imbalance, text);
+  }
+  if (ledger.kinetic < -worth_telling * ledger.largest) {
+    std::ostringstream negative;
+    negative << at(ledger.time) << "the kinetic energy is negative, " << ledger.kinetic
+             << " J: velocities turn round from one step to the next. Likely causes: noise whose periods are of a few "
+                "steps, or a load too sudden; a smaller Safety Factor follows it";
+    warn(turning, negative.str());
+  }
 }
 
 void Monitor::check_resolution(const Ledger& ledger, bool last) {
@@ -142,7 +171,7 @@ void Monitor::check_springs(const Ledger& ledger) {
        << " % of what the body has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
           "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
           "Stabilization Coefficient than the default";
-  warn_once(springs, body_.domain.communicator.rank() == 0 ? text.str() : "");
+  warn(springs, text.str());
 }
 
 // The largest stretch of a point with all its bonds is at most the norm of F.

@@ -21,8 +21,8 @@ class Monitor {
 
   // Where a limit is passed each throws Error on all ranks, or tells of it once where the deck says that the run goes
   // on; else they are free.
-  void check_step(const CentralDifference& solver);  // after advance_velocity()
-  void check_energy(const Ledger& ledger);
+  void check_step(const CentralDifference& solver);    // after advance_velocity()
+  void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
   void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
   // What the points do not resolve, after a step with diagnostics: told once, and never the end of a run.
   void check_resolution(const Ledger& ledger, bool last);
@@ -30,10 +30,11 @@ class Monitor {
   void serialize(Archive& archive);
 
  private:
-  enum What { step, energy, penetration, passing, point, springs, stretch, count };
+  enum What { step, energy, penetration, passing, point, imbalance, turning, springs, stretch, count };
   static constexpr double looks = 200;  // in a run, for bodies inside each other
   void passed(What what, const std::string& text);
   void warn_once(What what, const std::string& text);
+  void warn(What what, const std::string& text);
   void check_springs(const Ledger& ledger);
   void check_stretch(double time);
 
@@ -44,6 +45,7 @@ class Monitor {
   std::function<void(const std::string&)> tell_;
   double first_step_ = 0;  // s, stable
   int ledgers_ = 0;
+  double told_error_ = 0;  // of the balance
   bool told_[count] = {};
 };
 

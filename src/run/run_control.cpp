@@ -54,9 +54,10 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   const bool last = ends_here(solver);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
-  if (ledger) {
-    services_.monitor.check_energy(*ledger);
-    services_.monitor.check_resolution(*ledger, last);
+  if (ledger || last) {
+    const Ledger now = ledger ? *ledger : solver.ledger();
+    services_.monitor.check_energy(now, last);
+    services_.monitor.check_resolution(now, last);
   }
   progress_.show(solver.steps(), solver.time(), solver.dt());
   return last;

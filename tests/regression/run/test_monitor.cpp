@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "regression/bodies.hpp"
+#include "run/monitor.hpp"
 #include "run/simulation.hpp"
 
 namespace strut::regression {
@@ -69,7 +70,79 @@ TEST(Monitor, GoesOnWhereTheDeckSaysSoAndIsToldOnce) {
   expect_words(o.error, {"determinant"});  // what comes in the end
   if (folder.world.rank() != 0) return;
   expect_words(o.said, {"WARNING: at t = ", "balance of energy", "told once"});
-  EXPECT_EQ(o.warnings(), 2) << "of the fixed step, and of this: " << o.said;
+  EXPECT_LE(o.warnings(), 4) << "of the fixed step, the first percent, the limit, kinetic energy: " << o.said;
+}
+
+// One step, five times the stable one: too early for the first lines of a history, and the end.
+TEST(Monitor, LooksAtTheEnergyWhereverTheRunEnds) {
+  const RunFolder folder;
+  Parts parts = unstable();
+  parts.conditions += plane("wall", "Rigid Plane", "all", "0 0 0.5e-3", "0 0 1") +
+                      along("flight", "Initial Velocity", "all", "x", "-100*z/6e-3");
+  parts.times = key("Final Time", "2e-6");
+  parts.verlet = key("Fixed dt", "2e-6");
+  expect_words(outcome(folder, parts).error, {"at t = 2e-06 s", "balance of energy", "out of nothing"});
+}
+
+// What a monitor tells of these balances, `error` being a part of the largest energy, one after the other; whether it
+// ends the run; after the lines of a start that do not count.
+struct Told {
+  std::vector<std::string> lines;
+  bool ended = false;
+};
+
+Told told_of(const std::vector<double>& gained, double kinetic = 1) {
+  const RunFolder folder;
+  Simulation run(folder, {});
+  Told told;
+  Monitor monitor({}, 1, run.body(), [&](const std::string& line) { told.lines.push_back(line); });
+  const auto check = [&](double part, bool last) {
+    Ledger ledger{.kinetic = kinetic};
+    double largest = 1;
+    ledger.balance(1, 1 - part, largest);
+    monitor.check_energy(ledger, last);
+  };
+  for (int n = 0; n < 10; ++n) check(0, false);
+  try {
+    for (std::size_t n = 0; n < gained.size(); ++n) check(gained[n], n + 1 == gained.size());
+  } catch (const Error&) {
+    told.ended = true;
+  }
+  if (run.world().rank() != 0) {
+    EXPECT_EQ(told.lines.size(), 0u);
+  }
+  told.lines.resize(static_cast<std::size_t>(run.world().max(static_cast<double>(told.lines.size()))));
+  return told;
+}
+
+TEST(Monitor, ToldIsAnErrorOfTheBalanceFromOnePercentOn) {
+  EXPECT_EQ(told_of({0.009, -0.009, 0.009}).lines.size(), 0u);
+  EXPECT_EQ(told_of({0.011}).lines.size(), 1u);
+  EXPECT_EQ(told_of({-0.011, -0.02, 0.03, -0.015}).lines.size(), 1u) << "once, not in each line";
+  EXPECT_EQ(told_of({-0.011, -0.02, -0.3}).lines.size(), 2u) << "and at the end, if it has grown since";
+}
+
+TEST(Monitor, EnergyOutOfNothingEndsTheRunEarlierThanLostEnergy) {
+  EXPECT_TRUE(told_of({0.11, 0}).ended);
+  EXPECT_FALSE(told_of({-0.49, 0}).ended);
+  EXPECT_TRUE(told_of({-0.51, 0}).ended);
+}
+
+TEST(Monitor, NegativeKineticEnergyIsTold) {
+  EXPECT_EQ(told_of({0, 0, 0}, -1e-6).lines.size(), 0u);
+  EXPECT_EQ(told_of({0, 0, 0}, -0.1).lines.size(), 1u);
+}
+
+// A bar that nothing acts on holds energies of round-off, which balance by chance alone.
+TEST(Monitor, RoundOffIsNoErrorOfTheBalance) {
+  const RunFolder folder;
+  const Simulation run(folder, {});
+  double largest = energy_of_round_off(run.scene.body);
+  const double modulus = 117e9 / (1 + 0.35) / (1 - 2 * 0.35) * (1 - 0.35), volume = 96e-9;
+  EXPECT_NEAR(largest, 0.5 * modulus * volume * 1e-24, 1e-12 * largest);
+  Ledger ledger;
+  ledger.balance(1e-3 * largest, 0, largest);
+  EXPECT_NEAR(ledger.balance_error, 1e-3, 1e-12);
 }
 
 TEST(Monitor, StepThatCollapsesNamesThePointThatLimitsIt) {
