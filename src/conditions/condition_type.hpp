@@ -68,8 +68,8 @@ template <class T>
 concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_place)>;
 
 // A deck makes a prototype: what it says of the condition, without points. Set-up completes it.
-//   values_at_points  the functions of the deck that it evaluates at its points: set-up has seen to it that they are
-//                     numbers there
+//   values_at_points  the functions of the deck that it evaluates at its points, or of the time alone: set-up has seen
+//                     to it that they are numbers there at the initial time, solvers ask later (first_not_finite)
 //   on                the condition on these points, at this place in the deck
 template <class T>
 concept IsPrototype = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {

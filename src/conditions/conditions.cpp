@@ -22,8 +22,18 @@ void take_turn(const ChangesVelocities auto& condition, VelocityUpdate& update) 
 }  // namespace
 
 void Conditions::add(Condition condition) {
+  for (Function& value : std::visit([](const auto& one) { return one.values_at_points(); }, condition)) {
+    if (!value.is_constant()) expressions_.push_back(std::move(value));
+  }
   const auto later = [](const Condition& one, const Condition& other) { return stage_of(one) < stage_of(other); };
   in_order_.insert(std::upper_bound(in_order_.begin(), in_order_.end(), condition, later), std::move(condition));
+}
+
+std::string Conditions::first_not_finite() const {
+  for (const Function& value : expressions_) {
+    if (const std::string text = value.first_not_finite(); !text.empty()) return text;
+  }
+  return "";
 }
 
 void add_forces(const Conditions& conditions, double t, Body& body) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -23,8 +24,13 @@ class Conditions {
     for (const Condition& one : in_order_) std::visit(visit, one);
   }
 
+  // Of the values on this rank so far, the first that was no number: where it stands in the deck, time and place. ""
+  // where all are.
+  std::string first_not_finite() const;
+
  private:
   std::vector<Condition> in_order_;
+  std::vector<Function> expressions_;
 };
 
 // Adds the forces of conditions at time t (s) to the force density.

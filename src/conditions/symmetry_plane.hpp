@@ -14,6 +14,9 @@ struct SymmetryPlane {
   std::vector<int> points = {};
   Vector normal = Vector::UnitX();  // of unit length
   int reaction_place = no_reaction;
+  // Along the normal in the directions that other conditions leave free: what takes 1 m/s along it from a point.
+  // Without: the normal.
+  std::optional<Vector> push = {};
 
   static constexpr Stage stage = Stage::planes;
   static constexpr double Work::*ledger_entry = &Work::external;

@@ -8,7 +8,10 @@
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "points/point_group.hpp"
+#include "setup/contradictions.hpp"
 #include "setup/finite_value.hpp"
+#include "setup/open_ends.hpp"
+#include "setup/sudden_motion.hpp"
 
 namespace strut {
 
@@ -46,12 +49,37 @@ void put(const ActsOnce auto& prototype, const std::string&, const std::vector<i
   prototype.set_initial_state(points, t, scene.body);
 }
 
+// A plane whose points other conditions hold in directions that are not across its normal pushes them in the directions
+// that these leave free: a part for each.
+void put(const SymmetryPlane& prototype, std::vector<int> points, int place, const SharedPoints& shared, Scene& scene) {
+  std::vector<SymmetryPlane> parts;
+  const auto add_to_part = [&](int i, const Vector& push) {
+    const auto same = [&](const SymmetryPlane& one) { return *one.push == push; };
+    auto part = std::find_if(parts.begin(), parts.end(), same);
+    if (part == parts.end()) part = parts.insert(part, {{}, prototype.normal, place, push});
+    part->points.push_back(i);
+  };
+  std::erase_if(points, [&](int i) {
+    const auto found = shared.find(i);
+    if (found == shared.end()) return false;
+    const Vector push = push_of_plane(found->second, place);
+    if (!push.isZero(0)) add_to_part(i, push);
+    return true;
+  });
+  scene.conditions.add(prototype.on(std::move(points), place, scene.body));
+  for (SymmetryPlane& part : parts) scene.conditions.add(std::move(part));
+}
+
 // `place`: of the condition in the deck.
-void add_condition(const deck::Condition& condition, int place, double t, Scene& scene) {
-  std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
-  const auto add = [&](const auto& prototype) {
+void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
+                   double t, Scene& scene) {
+  const auto add = [&]<class Type>(const Type& prototype) {
     check_values(prototype.values_at_points(), points, t, scene.body.domain);
-    put(prototype, condition.name, std::move(points), place, t, scene);
+    if constexpr (std::is_same_v<Type, SymmetryPlane>) {
+      put(prototype, std::move(points), place, shared, scene);
+    } else {
+      put(prototype, condition.name, std::move(points), place, t, scene);
+    }
   };
   std::visit(add, condition.kind);
 }
@@ -84,14 +112,22 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
   deck::Problems problems;
   if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
+  PointsOfConditions points;
+  for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
+  scene.warnings += let_the_last_count(deck, scene.body, points);
+  check_contradictions(deck, points, scene.body, problems);
+  scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
+  scene.warnings += sudden_motions(deck, points, scene.body);
+  const SharedPoints shared = shared_points(deck, points);
   for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
-    const deck::Condition& condition = deck.conditions[place];
     try {
-      add_condition(condition, place, deck.solver.initial_time, scene);
+      add_condition(deck.conditions[place], place, points[place], shared, deck.solver.initial_time, scene);
     } catch (const Error& error) {
-      problems.add("Boundary Conditions > " + condition.name + " > Value", error.what());
+      problems.add(error.what());
     }
   }
+  raise_together(communicator, problems.text(deck.file.string()));
+  take_off_what_is_beyond_ends(deck, scene, problems);
   raise_together(communicator, problems.text(deck.file.string()));
 }
 

@@ -46,7 +46,7 @@ Eigen::AlignedBox3d box_of(const Body& body) {
 
 double mass_of(const Body& body) {
   double mass = 0;
-  for (int i = 0; i < body.owned(); ++i) mass += body.mass(i);
+  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
   return body.domain.communicator.sum(mass);
 }
 

@@ -260,8 +260,9 @@ void CentralDifference::move_points() {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{static_cast<double>(severity(report)), static_cast<double>(request_),
-                             report.frequency_bound, report.damping};
+  const std::string no_number = conditions_.first_not_finite();
+  std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
+                             static_cast<double>(request_), report.frequency_bound, report.damping};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(kinematics(), agreed);
   {
@@ -279,7 +280,9 @@ void CentralDifference::check(const StepReport& report) {
   warning_.clear();
   if (severity == harmless) return;
   std::ostringstream text;
-  if (report.failure) {
+  if (!no_number.empty()) {
+    text << no_number;
+  } else if (report.failure) {
     text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);
   }
   if (!went_on_) raise_together(body_.domain.communicator, text.str());
@@ -347,6 +350,7 @@ double CentralDifference::put_in(const Ledger& now) const {
 }
 
 Ledger CentralDifference::ledger() {
+  raise_together(body_.domain.communicator, conditions_.first_not_finite());
   Ledger now;
   now.time = time_;
   now.dt = dt_;

@@ -378,7 +378,8 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
     }
   }
   for (const int i : now.moved) {
-    if (body.time_levels[i] < level) body.force_density[i].setZero();  // its own state acts at other times
+    // Its own state acts at other times, or is none: what is left is the force of the last whole step, with its loads.
+    if (body.time_levels[i] < level || moves_rigidly(body, i)) body.force_density[i].setZero();
   }
   for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { add_residuals<S>(kind, body, now, level); });
   for (const auto& [i, error] : now.moment_errors) {
