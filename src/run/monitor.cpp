@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "conditions/crossing.hpp"
 #include "contact/passing.hpp"
+#include "contact/undeclared.hpp"
 #include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
@@ -68,12 +70,17 @@ std::string balance_of(const Ledger& ledger) {
 
 void Monitor::passed(What what, const std::string& text) {
   if (limits_.stops) raise_together(body_.domain.communicator, text);
-  warn_once(what, text);
+  tell_once(what, text);
 }
 
-void Monitor::warn_once(What what, const std::string& text) {
+void Monitor::tell_once(What what, const std::string& text) {
   if (!told_[what] && !text.empty()) tell_("WARNING: " + text + " (told once)");
   told_[what] = true;
+}
+
+void Monitor::passed(What what, const std::string& text) {
+  if (limits_.stops) raise_together(body_.domain.communicator, text);
+  tell_once(what, text);
 }
 
 void Monitor::check_step(const CentralDifference& solver) {
@@ -98,9 +105,14 @@ void Monitor::check_step(const CentralDifference& solver) {
     const contact::DeepestPenetration deepest = contact.deepest();
     std::ostringstream text;
     if (deepest.point >= 0 && deepest.penetration == contact.penetration()) {
-      text << at(solver.time()) << "contact is penetrated by " << 100 * deepest.penetration
-           << " % of the distance at which points touch (Watch > Penetration): " << locate(body_, deepest.point)
-           << ". Likely causes: a Spring Constant that is too small for the speed, a Contact Radius below the spacing";
+      text << at(solver.time()) << "contact is penetrated by " << 100 * deepest.penetration << " % of "
+           << (deepest.of_surfaces ? "a spacing" : "the distance at which points touch")
+           << " (Watch > Penetration): " << locate(body_, deepest.point) << ". Likely causes: "
+           << (deepest.of_surfaces
+                   ? "a Stiffness Factor that is too small for the speed, a Largest Overlap of 0 (no limit) or near 1"
+                   : "a Spring Constant that is too small for the speed (of Hertz an Effective Modulus), a Contact "
+                     "Radius below "
+                     "the spacing");
     }
     passed(penetration, text.str());
   }
@@ -117,9 +129,56 @@ void Monitor::check_passing(double time, const contact::Contact& contact) {
     text << at(time) << "blocks " << names[found->first] << " and " << names[found->second]
          << " pass through each other: " << found->points << " points, " << 100 * found->part
          << " % of the smaller one, are inside the other (Watch > Passing): " << locate(body_, found->point)
-         << ". Likely causes: contact too soft for the speed or the load, a Contact Radius far below the spacing";
+         << ". Likely causes: contact too soft for the speed or the load"
+         << (contact.by_surfaces(found->first, found->second) ? " (Stiffness Factor, Largest Overlap)"
+                                                              : ", a Contact Radius far below the spacing");
   }
   passed(passing, text.str());
+}
+
+void Monitor::check_undeclared(double time, const contact::Contact& contact) {
+  if (told_[undeclared] || time < next_undeclared_) return;
+  next_undeclared_ = time + costly * pause_;
+  const auto found = contact::find_undeclared(body_.domain, contact);
+  if (!found) return;
+  std::ostringstream text;
+  if (found->point >= 0) {
+    const std::vector<std::string>& names = body_.domain.cloud.block_names;
+    text << at(time);
+    if (found->first == found->second) {
+      text << "block " << names[found->first] << " passes through itself";
+    } else {
+      text << "blocks " << names[found->first] << " and " << names[found->second] << " pass through each other";
+    }
+    text << ", for the deck declares no contact between them: " << found->points
+         << " points are inside of material that was elsewhere: " << locate(body_, found->point)
+         << ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for bodies "
+            "that meet";
+  }
+  tell_once(undeclared, text.str());
+}
+
+void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
+  if (tools.empty() || told_[crossing] || time < next_tools_) return;
+  next_tools_ = time + pause_;
+  const std::vector<Vector> places = present_places(body_.domain);
+  std::size_t n = 0;
+  conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, RigidTool>) {
+      const std::string& name = tools[n++].name;
+      if (told_[crossing] || std::holds_alternative<HalfSpace>(one.shape)) return;
+      const auto found = find_crossing(one, time, body_.domain, places);
+      if (!found) return;
+      std::ostringstream text;
+      if (found->point >= 0) {
+        text << at(time) << "the tool '" << name
+             << "' stands between points that are bonded to each other: " << locate(body_, found->point)
+             << ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes between "
+                "them; expected a finer mesh or a thicker tool";
+      }
+      tell_once(crossing, text.str());
+    }
+  });
 }
 
 void Monitor::serialize(Archive& archive) {
@@ -127,12 +186,14 @@ void Monitor::serialize(Archive& archive) {
   archive.number("ledgers", ledgers_);
   archive.number("next_look", next_look_);
   archive.number("told_error", told_error_);
+  archive.number("next_undeclared", next_undeclared_);
+  archive.number("next_tools", next_tools_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
 }
 
 // Known to all ranks, so told by the first one.
 void Monitor::warn(What what, const std::string& text) {
-  warn_once(what, body_.domain.communicator.rank() == 0 ? text : "");
+  tell_once(what, body_.domain.communicator.rank() == 0 ? text : "");
 }
 
 void Monitor::check_energy(const Ledger& ledger, bool last) {
@@ -192,7 +253,7 @@ void Monitor::check_stretch(double time) {
          << ". Likely causes: metal near its melting temperature, a speed far above what the metal bears, a load that "
             "pulls without an end";
   }
-  warn_once(stretch, of_largest(body_, largest, text.str()));
+  tell_once(stretch, of_largest(body_, largest, text.str()));
 }
 
 }  // namespace strut

@@ -51,6 +51,8 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   warn_of_fixed_step(solver);
   services_.monitor.check_step(solver);
   services_.monitor.check_passing(solver.time(), solver.contact());
+  services_.monitor.check_undeclared(solver.time(), solver.contact());
+  services_.monitor.check_tools(solver.time(), solver.conditions(), services_.scene.tools);
   const bool last = ends_here(solver);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);

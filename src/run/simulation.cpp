@@ -73,6 +73,8 @@ Ledger load_through(const RunServices& services, QuasiStatic& solver) {
     const auto ledger = record(last);
     if (ledger || last) monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
     monitor.check_passing(solver.time(), solver.contact());
+    monitor.check_undeclared(solver.time(), solver.contact());
+    monitor.check_tools(solver.time(), solver.conditions(), scene.tools);
     if (last) return solver.ledger();
     try {
       ending = !solver.advance();

@@ -28,7 +28,8 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 
-// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness.
+// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness or, of
+// ordinary points, are off by a tenth in tension.
 std::string thin_members(const Body& body);
 
 // A line for each block whose points fail without softening, as its fracture energy is too small for its spacing.

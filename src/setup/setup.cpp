@@ -14,6 +14,7 @@
 #include "setup/filled_tools.hpp"
 #include "setup/mesh.hpp"
 #include "setup/outline.hpp"
+#include "setup/tool_paths.hpp"
 #include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
 #include "setup/weak_contact.hpp"
@@ -114,9 +115,12 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += improbable_temperatures(scene.body);
   scene.warnings += improbable_scales(scene, ways, start, duration);
   scene.warnings += filled_tools(scene, start);
+  scene.warnings += thin_tools(scene, ways, spacing, start, duration);
+  scene.warnings += apart_tools(scene, start, duration);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
   scene.warnings += noisy_cracks(scene.body);
+  scene.warnings += bonded_contacts(deck, scene.body.domain);
   scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
   scene.warnings += weak_contacts(deck, scene, interactions, ways, spacing);
   return scene;

@@ -37,6 +37,7 @@ class CentralDifference {
   // 2/ω_max now, s: the last estimate, less where the deformation has gone on and where points touch.
   double critical_time_step() const;
   const contact::Contact& contact() const { return contact_; }
+  const Conditions& conditions() const { return conditions_; }
 
   // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then
   // advance_position().

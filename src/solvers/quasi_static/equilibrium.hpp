@@ -61,6 +61,7 @@ class Equilibrium {
   const Constraints& constraints() const { return *constraints_; }
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
+  const Conditions& conditions() const { return conditions_; }
   // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J
   // on this rank.
   double external_work() const;

@@ -183,6 +183,67 @@ TEST(Monitor, ContactThatIsPassedThroughNamesThePoint) {
   EXPECT_EQ(outcome(folder, parts).error, "");
 }
 
+// A surface so soft that what the faces store up to 0.7 spacings is a third of the energy of the impact.
+TEST(Monitor, SurfaceThatIsPenetratedIsToldOfByItsOwnKeys) {
+  const RunFolder folder;
+  const std::string soft =
+      key("Contact Model", "Surface") + key("Stiffness Factor", "5e-4") + key("Largest Overlap", "0");
+  Parts parts = thrown(folder, section("Models", section("m", soft)) +
+                                   section("Interactions", section("General Contact", key("Contact Model", "m"))));
+  parts.watch = key("Penetration", "0.7");
+  const Outcome stopped = outcome(folder, parts);
+  expect_words(stopped.error, {"contact is penetrated by 7", "% of a spacing", "a Stiffness Factor that is too small"});
+  EXPECT_EQ(stopped.error.find("Spring Constant"), std::string::npos) << stopped.error;
+}
+
+// A hairpin whose legs are driven together, and no contact.
+TEST(Monitor, BodyThatFoldsThroughItselfIsToldOf) {
+  constexpr double h = 1e-3;
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 12, 3, 3, h) + cubes(1, {0, 0, 7 * h}, 12, 3, 3, h) +
+                                 cubes(1, {0, 0, 3 * h}, 3, 3, 4, h));
+  Parts parts = thrown_block("");
+  parts.blocks = section("pin", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon", "2.01e-3"));
+  parts.node_sets =
+      key("lower", "(z &lt; 3.0e-3) * (x &gt; 8.0e-3)") + key("upper", "(z &gt; 7.0e-3) * (x &gt; 8.0e-3)");
+  parts.conditions =
+      along("up", "Initial Velocity", "lower", "z", "400") + along("down", "Initial Velocity", "upper", "z", "-400");
+  parts.times = key("Final Time", "30e-6");
+  const std::string words = "block block_1 passes through itself, for the deck declares no contact";
+  const Outcome folds = outcome(folder, parts);
+  EXPECT_EQ(folds.error, "");
+  parts.contact = section("Models", section("m", key("Contact Model", "Surface"))) +
+                  section("Interactions", section("Self Contact", key("Contact Model", "m")));
+  const Outcome touches = outcome(folder, parts);
+  parts.contact.clear();
+  parts.conditions = changed(changed(parts.conditions, "-400", "400"), "400", "-400");  // apart, by as much
+  const Outcome parts_legs = outcome(folder, parts);
+  EXPECT_EQ(touches.said.find("passes through"), std::string::npos) << touches.said;
+  EXPECT_EQ(parts_legs.said.find("passes through"), std::string::npos) << parts_legs.said;
+  if (folder.world.max(folds.said.find(words) != std::string::npos ? 1.0 : 0.0) == 0) ADD_FAILURE() << folds.said;
+}
+
+// A blade between two columns of points goes between them, and no force tells; one of 1.6 spacings does not.
+TEST(Monitor, ToolBetweenPointsThatAreBondedIsToldOf) {
+  const RunFolder folder(Lattice{.nx = 6});
+  Parts parts;
+  const auto press = [&](const std::string& low, const std::string& high) {
+    parts.conditions = along("foot", "Prescribed Displacement", "foot", "xyz", "0") +
+                       section("blade", key("Type", "Rigid Box") + key("Lower Corner", low + " -1 6e-3") +
+                                            key("Upper Corner", high + " 1 1") + key("Travel Z", "-100*t"));
+    parts.times = key("Final Time", "12e-6");
+    const Outcome o = outcome(folder, parts);
+    EXPECT_EQ(o.error, "");
+    return folder.world.max(o.said.find("WARNING: at t = ") != std::string::npos &&
+                                    o.said.find("the tool 'blade' stands between points that are bonded to each other: "
+                                                "element ") != std::string::npos
+                                ? 1.0
+                                : 0.0) > 0;
+  };
+  EXPECT_TRUE(press("2.95e-3", "3.05e-3"));
+  EXPECT_FALSE(press("2.2e-3", "3.8e-3"));
+}
+
 // Points that meet the middles of the squares of a face, with a radius below the distance to their corners, 0.707 of a
 // spacing: no two of them touch.
 TEST(Monitor, BodiesThatPassThroughEachOtherAreSeenWhateverTheRadius) {
