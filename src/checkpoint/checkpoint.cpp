@@ -5,6 +5,8 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "deck/changes.hpp"
+#include "deck/problems.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 
 namespace strut {
@@ -15,6 +17,32 @@ bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator)
   return communicator.max(there ? 1.0 : 0.0) > 0;
 }
 
+std::filesystem::path lock_of_checkpoint(const std::filesystem::path& file) { return file.string() + ".lock"; }
+
+void check_changes(const deck::Deck& deck, const Communicator& communicator) {
+  const io::CheckpointFacts facts = io::facts_of_checkpoint(deck.restart.file, communicator);
+  const deck::Changes changes = deck::changes(facts.deck, deck.text);
+  deck::Problems problems;
+  for (const std::string& one : changes.refused) problems.add(one);
+  if (deck.solver.final_time < facts.time) {
+    std::ostringstream passed;
+    passed << "'" << deck.solver.final_time << "' has passed: the checkpoint is of t = " << facts.time
+           << " s; expected that or a later one";
+    problems.add("Solver > Final Time", passed.str());
+  }
+  raise_together(communicator,
+                 problems.lines().empty()
+                     ? ""
+                     : problems.text(deck.file.string() + ": cannot go on from " + deck.restart.file.string() +
+                                     ", which is of another deck (a run goes on with another final time, steps, output "
+                                     "or load); 'strut " +
+                                     deck.file.string() + "' begins anew"));
+  if (communicator.rank() != 0) return;
+  const std::string since = deck.file.string() + " is not as it was when the checkpoint was written: ";
+  for (const std::string& one : changes.accepted) std::cout << "note: " << since << one << "\n";
+  for (const std::string& one : changes.loads) std::cout << "WARNING: " << since << one << ", from here on\n";
+}
+
 Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize)
     : settings_(deck.restart),
       deck_name_(deck.file.string()),
@@ -23,14 +51,12 @@ Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator,
       serialize_(std::move(serialize)),
       schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
   schedule_.done(deck.solver.initial_time);
-  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_file()); });
+  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_of_checkpoint(settings_.file)); });
 }
-
-std::filesystem::path Checkpoint::lock_file() const { return settings_.file.string() + ".lock"; }
 
 Checkpoint::~Checkpoint() {
   std::error_code ignored;
-  if (lock_) std::filesystem::remove(lock_file(), ignored);
+  if (lock_) std::filesystem::remove(lock_of_checkpoint(settings_.file), ignored);
 }
 
 void Checkpoint::close() {
@@ -42,7 +68,7 @@ void Checkpoint::load() {
   Snapshot snapshot;
   Archive asks = Archive::saving_to(snapshot);
   serialize_(asks);
-  const std::string deck = io::read_checkpoint(settings_.file, communicator_, snapshot);
+  io::read_checkpoint(settings_.file, communicator_, snapshot);
   Archive restores = Archive::loading_from(snapshot);
   serialize_(restores);
   last_step_ = static_cast<int>(snapshot.numbers.at("steps"));
@@ -52,7 +78,6 @@ void Checkpoint::load() {
   if (communicator_.rank() != 0) return;
   std::cout << "going on from " << settings_.file.string() << ", t = " << last_time_ << " s, step " << last_step_
             << "\n";
-  if (deck != deck_text_) std::cout << "note: " << deck_name_ << " is not as it was when this was written\n";
 }
 
 void Checkpoint::remove() {

@@ -24,6 +24,17 @@ void write_checkpoint(const std::filesystem::path& file, const Communicator& com
 // that the snapshot has.
 std::string read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
 
+// What was written beside the snapshot: the text of the deck; its time, s. Throws Error on all ranks as
+// read_checkpoint.
+struct CheckpointFacts {
+  std::string deck;
+  double time = 0;
+};
+CheckpointFacts facts_of_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
+
+// Throws Error for a file that is there, but none of ours, which a run would replace.
+void check_replaceable(const std::filesystem::path& file);
+
 // On rank 0's disk. Throws Error for a file that is there, but none of ours.
 void remove_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 

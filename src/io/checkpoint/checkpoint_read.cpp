@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -163,17 +164,33 @@ std::string read_checkpoint(const fs::path& path, const Communicator& communicat
   return deck;
 }
 
+CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& communicator) {
+  CheckpointFacts facts;
+  run_on_root(communicator, [&] {
+    const NetcdfLists file = opened(path);
+    facts = {file.text("deck"), file.number(name_of_number("time"))};
+  });
+  communicator.broadcast(facts.deck);
+  facts.time = communicator.max(communicator.rank() == 0 ? facts.time : -std::numeric_limits<double>::infinity());
+  return facts;
+}
+
+void check_replaceable(const fs::path& path) {
+  std::error_code failure;
+  if (!fs::exists(path, failure)) return;
+  const bool ours = fs::is_regular_file(path) && classic_netcdf_problem(path).empty() && !is_hdf5(path) &&
+                    NetcdfLists::open(path).has_number(mark);
+  if (ours) return;
+  throw Error(path.string() + ": is no checkpoint of strut, and a run would replace it: expected another " +
+              "name in Restart > Filename");
+}
+
 void remove_checkpoint(const fs::path& path, const Communicator& communicator) {
   run_on_root(communicator, [&] {
     std::error_code failure;
     fs::remove(part_of(path), failure);
     if (!fs::exists(path, failure)) return;
-    const bool ours = fs::is_regular_file(path) && classic_netcdf_problem(path).empty() && !is_hdf5(path) &&
-                      NetcdfLists::open(path).has_number(mark);
-    if (!ours) {
-      throw Error(path.string() + ": is no checkpoint of strut, and a run would replace it: expected another " +
-                  "name in Restart > Filename");
-    }
+    check_replaceable(path);
     fs::remove(path, failure);
     if (failure) throw Error(path.string() + ": cannot remove it: " + failure.message());
   });
