@@ -6,6 +6,8 @@
 #include "base/errors.hpp"
 #include "base/files.hpp"
 #include "base/timing.hpp"
+#include "deck/changes.hpp"
+#include "deck/problems.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 
 namespace strut {
@@ -13,6 +15,30 @@ namespace strut {
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator) {
   const bool there = communicator.rank() == 0 && io::checkpoint_is_there(deck.restart.file);
   return communicator.max(there ? 1.0 : 0.0) > 0;
+}
+
+void check_changes(const deck::Deck& deck, const Communicator& communicator) {
+  const io::CheckpointFacts facts = io::facts_of_checkpoint(deck.restart.file, communicator);
+  const deck::Changes changes = deck::changes(facts.deck, deck.text);
+  deck::Problems problems;
+  for (const std::string& one : changes.refused) problems.add(one);
+  if (deck.solver.final_time < facts.time) {
+    std::ostringstream passed;
+    passed << "'" << deck.solver.final_time << "' has passed: the checkpoint is of t = " << facts.time
+           << " s; expected that or a later one";
+    problems.add("Solver > Final Time", passed.str());
+  }
+  raise_together(communicator,
+                 problems.lines().empty()
+                     ? ""
+                     : problems.text(deck.file.string() + ": cannot go on from " + deck.restart.file.string() +
+                                     ", which is of another deck (a run goes on with another final time, steps, output "
+                                     "or load); 'strut " +
+                                     deck.file.string() + "' begins anew"));
+  if (communicator.rank() != 0) return;
+  const std::string since = deck.file.string() + " is not as it was when the checkpoint was written: ";
+  for (const std::string& one : changes.accepted) std::cout << "note: " << since << one << "\n";
+  for (const std::string& one : changes.loads) std::cout << "WARNING: " << since << one << ", from here on\n";
 }
 
 Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize)
@@ -40,7 +66,7 @@ void Checkpoint::load() {
   Snapshot snapshot;
   Archive asks = Archive::saving_to(snapshot);
   serialize_(asks);
-  const auto [deck, note] = io::read_checkpoint(settings_.file, communicator_, snapshot);
+  const std::string note = io::read_checkpoint(settings_.file, communicator_, snapshot);
   Archive restores = Archive::loading_from(snapshot);
   serialize_(restores);
   last_step_ = static_cast<int>(snapshot.numbers.at("steps"));
@@ -51,7 +77,6 @@ void Checkpoint::load() {
   if (!note.empty()) std::cout << "WARNING: " << note << "\n";
   std::cout << "going on from " << settings_.file.string() << ", t = " << last_time_ << " s, step " << last_step_
             << "\n";
-  if (deck != deck_text_) std::cout << "note: " << deck_name_ << " is not as it was when this was written\n";
 }
 
 void Checkpoint::remove() {

@@ -7,7 +7,6 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/portions.hpp"
 #include "deck/check.hpp"
-#include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/numbered_sets.hpp"
@@ -74,15 +73,10 @@ void look_at_files(Deck& deck, Problems& problems) {
   check_files(written_files(deck), read_files(deck), problems);
 }
 
-bool is_xml(const std::string& text) {
-  const std::string_view content = trimmed(text);
-  return content.empty() || content[0] == '<';
-}
-
 enum class FileCheck { no, yes };
 
 Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
-  auto list = is_xml(text) ? parse_xml(text, problems) : parse_yaml(text, problems);
+  auto list = parse_xml_or_yaml(text, problems);
   if (!list) problems.raise(file.string());
   translate_peridigm(*list, problems);
   const Values values = check(*list, schema(), "", problems);

@@ -1,8 +1,11 @@
 #include "deck/values.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <stdexcept>
+#include <type_traits>
 
+#include "deck/numbers.hpp"
 #include "deck/problems.hpp"
 
 namespace strut::deck {
@@ -20,7 +23,49 @@ bool declares_section(const Section* section, const std::string& name) {
   return section && std::any_of(section->sections.begin(), section->sections.end(), same);
 }
 
+std::string text_of(const Value& value) {
+  const auto text = []<class T>(const T& one) -> std::string {
+    const auto list = [&one](const auto& text_of_item) {
+      std::string all;
+      for (const auto& item : one) all += (all.empty() ? "" : " ") + text_of_item(item);
+      return all;
+    };
+    if constexpr (std::is_same_v<T, bool>) return one ? "true" : "false";
+    if constexpr (std::is_same_v<T, int> || std::is_same_v<T, double>) return to_text(one);
+    if constexpr (std::is_same_v<T, std::string>) return one;
+    if constexpr (std::is_same_v<T, std::vector<std::string>>) return list([](const auto& item) { return item; });
+    if constexpr (std::is_same_v<T, std::vector<int>>) {  // axes
+      return list([](int axis) { return std::string(1, "xyz"[axis]); });
+    }
+    if constexpr (std::is_same_v<T, std::vector<double>> || std::is_same_v<T, Vector>) {
+      return list([](double item) { return to_text(item); });
+    }
+    if constexpr (std::is_same_v<T, Function>) {
+      if (one.is_constant()) return to_text(one(0, 0, 0, 0));
+      std::string expression = one.text();
+      std::erase_if(expression, [](unsigned char c) { return std::isspace(c) != 0; });
+      return expression;
+    }
+    return "";
+  };
+  return std::visit(text, value);
+}
+
+bool has_effect(const Section* section, const std::string& key) {
+  const auto is_without = [&key](const Key& one) { return one.name == key && !one.no_effect.empty(); };
+  return !section || std::none_of(section->keys.begin(), section->keys.end(), is_without);
+}
+
 }  // namespace
+
+void Values::add_texts(std::map<std::string, std::string>& texts) const {
+  if (given_ && !path_.empty()) texts[path_] = section_text;
+  for (const Entry& entry : entries_) {
+    if (has_effect(section_, entry.key) && has_effect(case_, entry.key))
+      texts[deck::path_to(path_, entry.key)] = text_of(entry.value);
+  }
+  for (const Values& section : sections_) section.add_texts(texts);
+}
 
 void Values::expect_declared(const Key& key) const {
   if (!section_ || declares(section_, key) || declares(case_, key)) return;

@@ -1,6 +1,7 @@
 // A section of a deck after checking: its keys as values of their declared types, defaults filled in.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,6 +74,10 @@ class Values {
   const Values* find_section(const std::string& name) const;
   const Values& section(const std::string& name) const;  // an empty one where find_section() finds nothing
   bool has_section(const std::string& name) const;       // in the deck
+
+  // All values that have an effect, and the sections that the deck has, as text by their paths: to compare two decks.
+  static constexpr const char* section_text = "a section";
+  void add_texts(std::map<std::string, std::string>& texts) const;
 
   // To fill it.
   void set(const std::string& key, Value value, bool given) { entries_.push_back({key, std::move(value), given}); }

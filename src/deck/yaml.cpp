@@ -141,4 +141,9 @@ std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
   return std::nullopt;
 }
 
+std::optional<List> parse_xml_or_yaml(const std::string& text, Problems& problems) {
+  const std::string_view content = trimmed(text);
+  return content.empty() || content[0] == '<' ? parse_xml(text, problems) : parse_yaml(text, problems);
+}
+
 }  // namespace strut::deck

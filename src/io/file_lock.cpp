@@ -11,6 +11,31 @@
 
 namespace strut::io {
 
+namespace {
+
+struct flock whole_file() {
+  struct flock whole = {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  return whole;
+}
+
+[[noreturn]] void fail_as_held(const std::filesystem::path& path) {
+  throw Error(path.string() + ": another run is writing to it: expected to wait for that, to end it, or to run in " +
+              "another folder");
+}
+
+}  // namespace
+
+void check_not_held(const std::filesystem::path& path) {
+  const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (handle < 0) return;
+  struct flock lock = whole_file();
+  const bool is_held = ::fcntl(handle, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  ::close(handle);
+  if (is_held) fail_as_held(path);
+}
+
 // A lock of the open file, not of the process: libraries that open and close the same file do not let it go.
 FileLock::FileLock(const std::filesystem::path& path, File file)
     : handle_(::open(path.c_str(), O_RDWR | O_CLOEXEC | (file == File::made ? O_CREAT : 0), 0666)) {
@@ -18,13 +43,10 @@ FileLock::FileLock(const std::filesystem::path& path, File file)
     throw Error(path.string() + (file == File::made ? ": cannot create it: " : ": cannot go on with it: ") +
                 std::strerror(errno));
   }
-  struct flock whole = {};
-  whole.l_type = F_WRLCK;
-  whole.l_whence = SEEK_SET;
+  struct flock whole = whole_file();
   if (::fcntl(handle_, F_OFD_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
   ::close(handle_);
-  throw Error(path.string() + ": another run is writing to it: expected to wait for that, to end it, or to run in " +
-              "another folder");
+  fail_as_held(path);
 }
 
 FileLock::~FileLock() {

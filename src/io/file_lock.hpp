@@ -20,4 +20,7 @@ class FileLock {
   int handle_ = -1;
 };
 
+// Throws Error: another run holds it. Nothing is held or made.
+void check_not_held(const std::filesystem::path& path);
+
 }  // namespace strut::io

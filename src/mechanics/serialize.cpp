@@ -18,17 +18,36 @@ void serialize_numbers(Archive& archive, const std::string& name, std::vector<do
   archive.field(name, 1, [&](std::size_t i, int) -> double& { return numbers[i]; });
 }
 
+// Collective. A number that changes with the node sets that points are in, however these are spread over the ranks.
+double mark_of_sets(const Body& body) {
+  constexpr std::uint64_t digits = (std::uint64_t{1} << 52) - 1;  // that a double holds
+  const PointCloud& cloud = body.domain.cloud;
+  std::uint64_t sum = 0;
+  for (int i = 0; i < body.owned(); ++i) {
+    std::uint64_t mixed = (cloud.sets[i] + 1) * 0x9e3779b97f4a7c15u;
+    mixed = (mixed ^ (mixed >> 31) ^ static_cast<std::uint64_t>(cloud.ids[i])) * 0xbf58476d1ce4e5b9u;
+    sum += mixed >> 20;
+  }
+  const std::int64_t all = body.domain.communicator.sum(static_cast<std::int64_t>(sum));
+  return static_cast<double>(static_cast<std::uint64_t>(all) & digits);
+}
+
 // Collective. The mesh, to know it again: nothing of it is restored.
 void compare_reference(Archive& archive, const Body& body) {
+  const double own_sets = mark_of_sets(body);
+  double sets = own_sets;
+  archive.number("node_sets", sets);
   std::vector<Eigen::Array4d> kept;
   for (int i = 0; i < body.owned(); ++i) kept.push_back(body.domain.sites[i].reference);
   archive.field("reference", 4, [&](std::size_t i, int c) -> double& { return kept[i][c]; });
   bool same = true;
   for (int i = 0; i < body.owned(); ++i) same = same && (kept[i] == body.domain.sites[i].reference).all();
   raise_together(body.domain.communicator,
-                 same ? ""
-                      : "the mesh is not the one with which the run began: points are at other places, or of "
-                        "other volumes; a run can go on with the same one only");
+                 same && sets == own_sets
+                     ? ""
+                     : std::string("the mesh is not the one with which the run began: points are ") +
+                           (same ? "in other node sets" : "at other places, or of other volumes") +
+                           "; a run can go on with the same one only");
 }
 
 void serialize_motion(Archive& archive, Body& body) {

@@ -14,7 +14,7 @@ Layers::Layers(const std::string& set, const Body& body, const std::string& path
 Layers::Layers(const deck::Profile& profile, const Body& body, const std::string& path)
     : direction_(profile.direction), count_(profile.layers) {
   const Communicator& ranks = body.domain.communicator;
-  if (profile.node_set != "all") group_ = PointGroup(body.domain.cloud, profile.node_set, path);
+  group_ = PointGroup(body.domain.cloud, profile.node_set, path);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int i = 0; i < body.owned(); ++i) {
     if (!group_.counts(body.domain.cloud, i)) continue;
@@ -67,9 +67,17 @@ std::vector<double> Mean::values(const Body& body) const {
   return means;
 }
 
-Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
-             const std::string& name, const std::string& where) {
-  const std::string path = where + " > " + name;
+namespace {
+
+// What "Mean_X(set)" asks for: a number, and of which points.
+struct Asked {
+  PointNumber number;
+  std::string set;  // or block, or profile; "" of all points
+  const deck::Profile* profile = nullptr;
+};
+
+Asked asked_for(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const PointCloud& cloud,
+                const std::string& name, const std::string& path) {
   const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
   const std::string whole = name.substr(0, bracket);
   const auto number = whole.starts_with("Mean_") ? PointNumber::find(all, whole.substr(5)) : std::nullopt;
@@ -77,12 +85,39 @@ Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile
     throw Error(path + ": expected Mean_ and the name of a variable" +
                 did_you_mean(whole, names_of_numbers(all, {"Mean_"})) + "; variables are " + joined(names_of(all)));
   }
-  if (bracket == std::string::npos) return {name, *number, Layers()};
+  if (bracket == std::string::npos) return {*number, "", nullptr};
   const std::string set = name.substr(bracket + 1, name.size() - bracket - 2);
   const auto is_wanted = [&](const deck::Profile& profile) { return profile.name == set; };
   const auto profile = std::find_if(profiles.begin(), profiles.end(), is_wanted);
-  if (profile == profiles.end()) return {name, *number, Layers(set, body, path)};
-  return {name, *number, Layers(*profile, body, "History > Profiles > " + set)};
+  if (profile == profiles.end()) {
+    const PointGroup group(cloud, set, path);  // throws where there is none
+    return {*number, set, nullptr};
+  }
+  const auto among = [&set](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), set) != names.end();
+  };
+  if (set == "all" || among(cloud.set_names) || among(cloud.block_names)) {
+    throw Error(path + ": '" + set +
+                "' is a section of History > Profiles and the name of points (node set, block or " +
+                "'all'); expected another name of the profile");
+  }
+  const PointGroup group(cloud, profile->node_set, "History > Profiles > " + set + " > Node Set");
+  return {*number, set, &*profile};
+}
+
+}  // namespace
+
+void check_mean(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const PointCloud& cloud,
+                const std::string& name, const std::string& where) {
+  asked_for(all, profiles, cloud, name, where + " > " + name);
+}
+
+Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
+             const std::string& name, const std::string& where) {
+  const std::string path = where + " > " + name;
+  const auto [number, set, profile] = asked_for(all, profiles, body.domain.cloud, name, path);
+  if (profile) return {name, number, Layers(*profile, body, "History > Profiles > " + set)};
+  return {name, number, set.empty() ? Layers() : Layers(set, body, path)};
 }
 
 }  // namespace strut

@@ -47,6 +47,9 @@ class Mean {
   Layers layers_;
 };
 
+// Throws what mean_of throws for names that are not there, or mean two things.
+void check_mean(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const PointCloud& cloud,
+                const std::string& name, const std::string& where);
 // Collective. `name`: "Mean_X", or with a set, block or profile in brackets. Throws Error on all ranks.
 Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
              const std::string& name, const std::string& where);

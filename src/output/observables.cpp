@@ -242,21 +242,31 @@ const Observable* find(const std::vector<Observable>& all, const std::string& na
 
 }  // namespace
 
-std::vector<Observable> observables(const Body& body) {
+std::vector<Observable> observables(const std::vector<materials::AnyLaw>& laws) {
   std::set<std::string> states;
-  for (const MaterialBlock& block : body.blocks) {
-    std::visit([&]<class L>(const L&) { add_state_names<L>(states); }, block.material.law);
+  for (const materials::AnyLaw& law : laws) {
+    std::visit([&]<class L>(const L&) { add_state_names<L>(states); }, law);
   }
   return with_states(states);
 }
 
-std::string observables_page() {
+std::vector<Observable> observables(const Body& body) {
+  std::vector<materials::AnyLaw> laws;
+  for (const MaterialBlock& block : body.blocks) laws.push_back(block.material.law);
+  return observables(laws);
+}
+
+std::vector<Observable> observables_of_all_laws() {
   std::set<std::string> states;
   [&]<class... L>(std::type_identity<std::variant<L...>>) {
     (add_state_names<L>(states), ...);
   }(std::type_identity<materials::AnyLaw>());
+  return with_states(states);
+}
+
+std::string observables_page() {
   std::string text = introduction;
-  for (const Observable& o : with_states(states)) {
+  for (const Observable& o : observables_of_all_laws()) {
     text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
             escaped(o.meaning) + " |\n";
   }

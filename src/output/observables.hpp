@@ -25,6 +25,10 @@ std::string unit_of(const Observable& observable);  // as its meaning has it; "1
 
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);
+std::vector<Observable> observables(const std::vector<materials::AnyLaw>& laws);
+
+// Those that a body of any law can have.
+std::vector<Observable> observables_of_all_laws();
 
 // The page inputs/VARIABLES.md: the fixed ones, and the state variables of all laws.
 std::string observables_page();

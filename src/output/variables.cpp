@@ -4,6 +4,8 @@
 
 #include "base/errors.hpp"
 #include "deck/problems.hpp"
+#include "io/exodus/exodus.hpp"
+#include "io/text/history.hpp"
 
 namespace strut {
 
@@ -57,21 +59,27 @@ ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const
   return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component)};
 }
 
-// Collective. Adds the crack where it is the first column of it.
-CrackColumn crack_column(const std::vector<deck::WatchedCrack>& watched, const Body& body, const std::string& name,
-                         std::vector<CrackTip>& cracks) {
+// "Crack_Tip(notch)": the section that is meant, and which of crack_names.
+std::pair<const deck::WatchedCrack*, std::size_t> watched_crack(const std::vector<deck::WatchedCrack>& watched,
+                                                                const std::string& name) {
   const auto [kind, wanted] = in_brackets(name, crack_names, "History > Cracks", "Crack_Tip(notch)");
   const auto is_wanted = [&wanted = wanted](const deck::WatchedCrack& crack) { return crack.name == wanted; };
   const auto found = std::find_if(watched.begin(), watched.end(), is_wanted);
-  if (found == watched.end()) {
-    std::vector<std::string> valid;
-    for (const deck::WatchedCrack& crack : watched) valid.push_back(crack.name);
-    throw Error(where + " > " + name + ": '" + wanted + "' is no section of History > Cracks" +
-                did_you_mean(wanted, valid) + "; there " + (valid.empty() ? "is none" : "are " + joined(valid)));
-  }
-  const auto known = std::find_if(cracks.begin(), cracks.end(), [&](const CrackTip& c) { return c.name() == wanted; });
+  if (found != watched.end()) return {&*found, kind};
+  std::vector<std::string> valid;
+  for (const deck::WatchedCrack& crack : watched) valid.push_back(crack.name);
+  throw Error(where + " > " + name + ": '" + wanted + "' is no section of History > Cracks" +
+              did_you_mean(wanted, valid) + "; there " + (valid.empty() ? "is none" : "are " + joined(valid)));
+}
+
+// Collective. Adds the crack where it is the first column of it.
+CrackColumn crack_column(const std::vector<deck::WatchedCrack>& watched, const Body& body, const std::string& name,
+                         std::vector<CrackTip>& cracks) {
+  const auto [crack, kind] = watched_crack(watched, name);
+  const auto is_it = [crack = crack](const CrackTip& one) { return one.name() == crack->name; };
+  const auto known = std::find_if(cracks.begin(), cracks.end(), is_it);
   const std::size_t place = known - cracks.begin();
-  if (known == cracks.end()) cracks.emplace_back(*found, body);
+  if (known == cracks.end()) cracks.emplace_back(*crack, body);
   return {name, place, kind == 1};
 }
 
@@ -83,8 +91,8 @@ int block_of(const std::vector<std::string>& names, const std::string& wanted, c
               joined(names));
 }
 
-ContactComponent contact_force(const contact::Contact& contact, const std::vector<std::string>& blocks,
-                               const std::string& name) {
+// Whether they can touch is not looked at.
+ContactComponent contact_component(const std::vector<std::string>& blocks, const std::string& name) {
   const std::string path = where + " > " + name;
   const std::string kind = before_bracket(name);
   const auto found = std::find(contact_names.begin(), contact_names.end(), kind);
@@ -96,35 +104,102 @@ ContactComponent contact_force(const contact::Contact& contact, const std::vecto
   const int first = block_of(blocks, name.substr(kind.size() + 1, colon - kind.size() - 1), path);
   const int second = block_of(blocks, name.substr(colon + 1, name.size() - colon - 2), path);
   if (first == second) throw Error(path + ": the forces of a block on itself add up to nothing; expected two blocks");
-  if (contact.between(first, second)) return {name, first, second, static_cast<int>(found - contact_names.begin())};
-  throw Error(path + ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
+  return {name, first, second, static_cast<int>(found - contact_names.begin())};
+}
+
+ContactComponent contact_force(const contact::Contact& contact, const std::vector<std::string>& blocks,
+                               const std::string& name) {
+  const ContactComponent force = contact_component(blocks, name);
+  if (contact.between(force.first, force.second)) return force;
+  throw Error(where + " > " + name +
+              ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
 }
 
 // Collective: an unknown name throws on all ranks, before they count.
-Extreme extreme(const std::vector<Observable>& all, const Domain& domain, const std::string& name) {
-  Extreme extreme(all, domain.cloud, name, where);
-  if (domain.communicator.sum(extreme.points(domain.cloud)) > 0) return extreme;
+Extreme extreme(const std::vector<Observable>& all, const PointCloud& cloud, const Communicator& communicator,
+                const std::string& name) {
+  Extreme extreme(all, cloud, name, where);
+  if (communicator.sum(extreme.points(cloud)) > 0) return extreme;
   throw Error(where + " > " + name + ": the node set or block holds no point");
 }
 
 }  // namespace
 
+namespace {
+
+template <class LookUp>
+void attempt(deck::Problems& problems, const LookUp& look_up) {
+  try {
+    look_up();
+  } catch (const Error& error) {
+    problems.add(error.what());
+  }
+}
+
+// Collective. As output_variables_of, of names alone.
+void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const PointCloud& cloud,
+             const Communicator& communicator, const std::string& name) {
+  if (means(name, "Reaction", reaction_names)) {
+    reaction(deck.conditions, name);
+  } else if (means(name, "Crack", crack_names)) {
+    const deck::WatchedCrack& crack = *watched_crack(deck.history.cracks, name).first;
+    if (!cloud.block_names.empty())
+      PointGroup(cloud, crack.node_set, "History > Cracks > " + crack.name + " > Node Set");  // throws
+  } else if (cloud.block_names.empty()) {
+    return;  // the others are of the mesh
+  } else if (means(name, "Contact", contact_names)) {
+    contact_component(cloud.block_names, name);
+  } else if (name.starts_with("Mean_")) {
+    check_mean(all, deck.history.profiles, cloud, name, where);
+  } else {
+    extreme(all, cloud, communicator, name);
+  }
+}
+
+// Of the bodies that the deck can make; of all there are where it is not known which ones.
+std::vector<Observable> observables_of(const deck::Deck& deck, const deck::Problems& problems) {
+  if (problems.about("Materials") || problems.about("Damage Models")) return observables_of_all_laws();
+  std::vector<materials::AnyLaw> laws;
+  for (const deck::Material& material : deck.materials) {
+    laws.push_back(material.law);
+    for (const deck::NamedDamageModel& damage : deck.damage_models) {
+      if (!damage.model.ductility) continue;
+      if (const auto fails = materials::failing(material.law, *damage.model.ductility)) laws.push_back(*fails);
+    }
+  }
+  return observables(laws);
+}
+
+}  // namespace
+
+void check_output_variables(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                            deck::Problems& problems) {
+  const std::vector<Observable> all = observables_of(deck, problems);
+  for (const std::string& name : deck.output.variables) {
+    attempt(problems, [&] { chosen(all, {name}, "Output > Output Variables"); });
+  }
+  for (const std::string& name : deck.history.variables) {
+    const std::string in_brackets = name.substr(std::min(name.size(), before_bracket(name).size() + 1));
+    const std::string section = in_brackets.substr(0, in_brackets.find(')'));
+    if (problems.about("Boundary Conditions > " + section + " > Type")) continue;  // whether it reacts is not known
+    attempt(problems, [&] { look_up(deck, all, cloud, communicator, name); });
+    const std::string problem = io::history_name_problem(name);
+    if (!problem.empty()) problems.add(where, problem);
+  }
+  if (!deck.output.enabled) return;
+  const std::string problem = io::result_problem(cloud, communicator);
+  if (!problem.empty()) problems.add("Output", problem);
+}
+
 OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, const contact::Contact& contact) {
   const std::vector<Observable> all = observables(body);
   OutputVariables variables;
   deck::Problems problems;
-  const auto attempt = [&problems](const auto& look_up) {
-    try {
-      look_up();
-    } catch (const Error& error) {
-      problems.add(error.what());
-    }
-  };
   for (const std::string& name : deck.output.variables) {
-    attempt([&] { variables.frame.push_back(chosen(all, {name}, "Output > Output Variables").front()); });
+    attempt(problems, [&] { variables.frame.push_back(chosen(all, {name}, "Output > Output Variables").front()); });
   }
   for (const std::string& name : deck.history.variables) {
-    attempt([&] {
+    attempt(problems, [&] {
       if (means(name, "Reaction", reaction_names)) {
         variables.reactions.push_back(reaction(deck.conditions, name));
       } else if (means(name, "Crack", crack_names)) {
@@ -134,7 +209,7 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
       } else if (name.starts_with("Mean_")) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
       } else {
-        variables.extremes.push_back(extreme(all, body.domain, name));
+        variables.extremes.push_back(extreme(all, body.domain.cloud, body.domain.communicator, name));
       }
     });
   }

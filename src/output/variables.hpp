@@ -43,6 +43,11 @@ struct OutputVariables {
   std::vector<ContactComponent> contacts;    // History > Variables
 };
 
+// Collective. Names that are not there, as far as a deck, which may have problems, and its mesh tell, and those that
+// the files cannot hold. `cloud`: empty where there is no mesh.
+void check_output_variables(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                            deck::Problems& problems);
+
 // Collective. Throws one Error for all unknown names, extremes over no point, reactions of what has none, and cracks
 // where there can be none; contact of blocks that have none with each other.
 OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, const contact::Contact& contact);

@@ -10,6 +10,7 @@
 #include "io/netcdf/trial_read.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "output/variables.hpp"
+#include "run/input.hpp"
 #include "run/report.hpp"
 #include "run/simulation.hpp"
 #include "setup/setup.hpp"
@@ -109,9 +110,11 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
 }  // namespace
 
 void check(const std::filesystem::path& deck_file, const Communicator& communicator) {
-  const deck::Deck deck = deck::read(deck_file, communicator);
+  deck::Problems problems;
+  const deck::Deck deck = deck::read(deck_file, communicator, problems);
   io::set_trial_reads(deck.discretization.trial_reads);
-  Scene scene = set_up(deck, communicator);
+  check_new_run(deck, communicator, problems);
+  Scene scene = set_up(deck, checked_mesh(deck, problems, communicator), communicator);
   const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);
   const std::string scene_text = describe_scene(scene);
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;

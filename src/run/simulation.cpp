@@ -8,6 +8,7 @@
 #include "io/netcdf/trial_read.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
+#include "run/input.hpp"
 #include "run/repartition.hpp"
 #include "run/run_control.hpp"
 #include "setup/setup.hpp"
@@ -137,16 +138,22 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
   forget_signals();
-  catch_signals({SIGUSR1, SIGUSR2,
-                 SIGXCPU});  // a job that ends while the mesh is read goes on in the next; the others end it at once
-  const deck::Deck deck = deck::read(deck_file, communicator);
+  // A job that ends while the mesh is read goes on in the next; the others end it at once.
+  catch_signals({SIGUSR1, SIGUSR2, SIGXCPU});
+  deck::Problems problems;
+  const deck::Deck deck = deck::read(deck_file, communicator, problems);
   io::set_trial_reads(deck.discretization.trial_reads);
   const EarlyEnd early_end(began, deck.solver.wall_time);
-  if (start == Start::continued && !checkpoint_exists(deck, communicator) && is_over(deck, communicator)) {
+  const bool goes_on = start == Start::continued && checkpoint_exists(deck, communicator);
+  if (goes_on && problems.empty()) check_changes(deck, communicator);
+  if (start == Start::anew) check_new_run(deck, communicator, problems);
+  if (start == Start::continued && !goes_on && problems.empty() && is_over(deck, communicator)) {
     say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
     return true;
   }
-  std::optional<Scene> parts = set_up(deck, communicator);
+  if (start == Start::continued && !goes_on)
+    say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
+  std::optional<Scene> parts = set_up(deck, checked_mesh(deck, std::move(problems), communicator), communicator);
   Scene& scene = *parts;  // which stays there, also where another takes its place
   say(communicator, describe_scene(scene));
   std::optional<OutputWriters> writers;

@@ -1,6 +1,5 @@
 #include "deck/sections/restart.hpp"
 
-#include "deck/sections/from_peridigm.hpp"
 #include "deck/sections/when.hpp"
 
 namespace strut::deck {
@@ -24,6 +23,11 @@ const RealKey minutes({.name = "Minutes",
                        .fallback = "30",
                        .meaning = "And every so many minutes of computing."});
 
+const BooleanKey resumes({.name = "Restart",
+                          .fallback = "false",
+                          .meaning = "Peridigm's. True: where there is a checkpoint already, a run that would begin "
+                                     "anew and replace it is refused; `strut --continue deck.xml` goes on from it."});
+
 }  // namespace
 
 Section restart_section() {
@@ -33,10 +37,7 @@ Section restart_section() {
               "written at these times and when a signal ends the run. With this section one is also written at "
               "the end, so that the final time can be put off; without it, every " +
               *minutes.fallback + " minutes, and removed at the end.",
-          .keys = {enabled, file, when.frequency, when.interval, minutes,
-                   without_effect(
-                       {.name = "Restart", .kind = Kind::boolean, .fallback = "true"},
-                       "checkpoints are written in any case, and `strut --continue deck.xml` resumes from the last")}};
+          .keys = {enabled, file, when.frequency, when.interval, minutes, resumes}};
 }
 
 Restart read_restart(const Values& deck, const std::filesystem::path& deck_file, Problems& problems) {
@@ -46,6 +47,7 @@ Restart read_restart(const Values& deck, const std::filesystem::path& deck_file,
   Restart restart{.enabled = values[enabled],
                   .asked_for = deck.has_section(name),
                   .file = given_file ? std::filesystem::path(*given_file) : of_deck,
+                  .resumes = values[resumes],
                   .minutes = values[minutes]};
   read_when(values, when, 0, restart, problems);
   return restart;

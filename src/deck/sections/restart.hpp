@@ -14,6 +14,7 @@ struct Restart {
   std::filesystem::path file;      // relative to the working folder; the deck's name with the suffix .restart
   std::optional<int> frequency;    // every so many steps
   std::optional<double> interval;  // or every so many seconds of the simulation
+  bool resumes = false;            // the deck itself asks to go on from the file, if there is one
   double minutes{};                // and every so many of the clock on the wall
 };
 

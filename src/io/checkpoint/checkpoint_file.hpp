@@ -19,19 +19,22 @@ namespace strut::io {
 void write_checkpoint(const std::filesystem::path& file, const Communicator& communicator, const Snapshot& snapshot,
                       const std::string& deck);
 
-struct Restored {
-  std::string deck;  // its text
-  std::string note;  // on rank 0: why the file before was read, if it was
-};
-
 // Fills a snapshot that was saved from the same deck, by any number of ranks: each gets the values of the points that
-// it has; of shares each rank its own, or, where their number is another, rank 0 the sums. Where the
-// file is missing or damaged, the one before is read in its place, if it is good. Throws Error on all ranks: both
+// it has; of shares each rank its own, or, where their number is another, rank 0 the sums. Where the file is missing or
+// damaged, the one before is read in its place, if it is good: returns why, on rank 0. Throws Error on all ranks: both
 // missing or damaged, of another version; of other points, or without something that the snapshot has.
-Restored read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
+std::string read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
 
 // On this rank's disk: the file, or the one before.
 bool checkpoint_is_there(const std::filesystem::path& file);
+
+// What was written beside the snapshot: the text of the deck; its time, s. Throws Error on all ranks as
+// read_checkpoint.
+struct CheckpointFacts {
+  std::string deck;
+  double time = 0;
+};
+CheckpointFacts facts_of_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 
 // On rank 0's disk, with the one before. Throws Error for a file that is there, but none of ours.
 void remove_checkpoint(const std::filesystem::path& file, const Communicator& communicator);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -157,23 +158,19 @@ void open_either(const fs::path& newest, fs::path& path, const Open& open, std::
 
 }  // namespace
 
-Restored read_checkpoint(const fs::path& newest, const Communicator& communicator, Snapshot& snapshot) {
+std::string read_checkpoint(const fs::path& newest, const Communicator& communicator, Snapshot& snapshot) {
   std::vector<std::int64_t> counts;
   for (const Snapshot::Group& group : snapshot.groups) counts.push_back(communicator.sum(std::ssize(group.ids)));
   std::optional<NetcdfLists> file;
   fs::path path = newest;
-  Restored restored;
+  std::string note;  // on rank 0
   const auto open = [&] {
     NetcdfLists found = opened(path);
     compare(path, found, snapshot, counts);
     check_sums(path, found, snapshot);
     file.emplace(std::move(found));
   };
-  run_on_root(communicator, [&] {
-    open_either(newest, path, open, restored.note);
-    restored.deck = file->text("deck");
-  });
-  communicator.broadcast(restored.deck);
+  run_on_root(communicator, [&] { open_either(newest, path, open, note); });
   const auto from_root = [&](const auto& get) {
     std::vector<double> values;
     run_on_root(communicator, [&] { values = get(); });
@@ -197,12 +194,28 @@ Restored read_checkpoint(const fs::path& newest, const Communicator& communicato
     known = restore(communicator, file, g, snapshot.groups[g]) && known;
   }
   raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
-  return restored;
+  return note;
 }
 
 bool checkpoint_is_there(const fs::path& path) {
   std::error_code failure;
   return fs::exists(path, failure) || fs::exists(before_of(path), failure);
+}
+
+CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& communicator) {
+  CheckpointFacts facts;
+  run_on_root(communicator, [&] {
+    fs::path either = path;
+    std::string unused;
+    const auto read = [&] {
+      const NetcdfLists file = opened(either);
+      facts = {file.text("deck"), file.number(name_of_number("time"))};
+    };
+    open_either(path, either, read, unused);
+  });
+  communicator.broadcast(facts.deck);
+  facts.time = communicator.max(communicator.rank() == 0 ? facts.time : -std::numeric_limits<double>::infinity());
+  return facts;
 }
 
 void remove_checkpoint(const fs::path& path, const Communicator& communicator) {

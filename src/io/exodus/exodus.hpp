@@ -40,6 +40,10 @@ struct OutputField {
   bool nodal = false;  // else an element variable
 };
 
+// Collective. Why a result of these points cannot be written, whatever its fields are: numbers or names that the file
+// does not hold. "" where it can; the same on all ranks.
+std::string result_problem(const PointCloud& cloud, const Communicator& communicator);
+
 // One file at any number of ranks: sphere elements, one node each, blocks, node sets and element ids as they were read.
 // Flushed after every frame, so that what is written stays readable whatever happens next.
 class ExodusWriter {

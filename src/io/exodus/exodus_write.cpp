@@ -2,6 +2,8 @@
 // and from there to rank 0 in portions: the file does not depend on the partition, and no rank has all of a column.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/errors.hpp"
@@ -46,6 +48,26 @@ std::vector<std::string> component_names(const OutputField& field) {
 }
 
 }  // namespace
+
+std::string result_problem(const PointCloud& cloud, const Communicator& communicator) {
+  constexpr auto most = static_cast<double>(std::numeric_limits<std::int32_t>::max());  // as ExodusFile::create says
+  double largest = 0;
+  for (const std::int64_t number : cloud.element_ids)
+    largest = std::max(largest, std::abs(static_cast<double>(number)));
+  largest = communicator.max(largest);
+  if (largest > most) {
+    return "a result holds numbers of " + std::string(word(cloud.at)) + "s up to 2147483647, but the mesh has " +
+           std::to_string(static_cast<std::int64_t>(largest)) + "; expected smaller ones in the mesh's map of numbers";
+  }
+  for (const auto& names : {cloud.set_names, cloud.block_names}) {
+    for (const std::string& name : names) {
+      if (name.size() <= ExodusFile::longest_name) continue;
+      return "a result holds names of up to " + std::to_string(ExodusFile::longest_name) + " bytes, but '" + name +
+             "' has " + std::to_string(name.size()) + "; expected a shorter one";
+    }
+  }
+  return "";
+}
 
 struct ExodusWriter::File {
   const Communicator communicator;

@@ -15,11 +15,8 @@ namespace strut::io {
 namespace {
 
 void check_names(const std::vector<HistoryColumn>& columns) {
-  for (const auto& [name, unit] : columns) {
-    if (name.empty() || name[0] == '#' || name.find_first_of(",\"\r\n") != std::string::npos) {
-      throw Error("'" + name +
-                  "' cannot be the name of a history column: it is empty, begins with # or holds , \" or a line break");
-    }
+  for (const HistoryColumn& column : columns) {
+    if (const std::string problem = history_name_problem(column.name); !problem.empty()) throw Error(problem);
   }
 }
 
@@ -30,6 +27,12 @@ std::string joined_of(const std::vector<HistoryColumn>& columns, std::string His
 }
 
 }  // namespace
+
+std::string history_name_problem(const std::string& name) {
+  if (!name.empty() && name[0] != '#' && name.find_first_of(",\"\r\n") == std::string::npos) return "";
+  return "'" + name +
+         "' cannot be the name of a history column: it is empty, begins with # or holds , \" or a line break";
+}
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
                          const std::vector<HistoryColumn>& columns, std::int64_t bytes, double sum)

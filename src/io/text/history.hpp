@@ -20,6 +20,9 @@ struct HistoryColumn {
   std::string name, unit;  // "1" for none
 };
 
+// Why this cannot be the name of a column; "" where it can.
+std::string history_name_problem(const std::string& name);
+
 // Collective; rank 0 writes.
 class HistoryFile {
  public:

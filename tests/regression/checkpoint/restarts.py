@@ -430,7 +430,9 @@ class Test:
             "is damaged": (good[:middle] + bytes([good[middle] ^ 1]) + good[middle + 1 :], text),
             "truncated": (good[:middle], text),
             "not an Exodus (netCDF) file": (b"hello", text),
-            "is of another deck or mesh": (good, text.replace('value="0.06"', 'value="0"').replace('value="1.2"', 'value="0"')),
+            "Materials > copper > Linear Viscosity: 0.06 before, 0 now": (good, text.replace('value="0.06"', 'value="0"').replace('value="1.2"', 'value="0"')),
+            "Materials > copper > Density: 8960 before, 7000 now": (good, text.replace('"8960.0"', '"7000.0"')),
+            "'0.0001' has passed: the checkpoint is of t = 0.00015 s": (good, text.replace('value="0.00015"', 'value="0.0001"')),
         }
         for expected, (content, deck_text) in cases.items():
             kept.write_bytes(content)
@@ -440,6 +442,14 @@ class Test:
                 self.fail(f"{folder}: expected '{expected}' in the message", folder / "log")
             if kept.read_bytes() != content:
                 self.fail(f"{folder}: {expected}: the file has been touched")
+
+        # A deck that asks to resume, as Peridigm's do, does not replace the checkpoint by one of a run that begins anew.
+        kept.write_bytes(good)
+        deck.write_text(text.replace('<ParameterList name="Restart">', '<ParameterList name="Restart"><Parameter name="Restart" type="bool" value="true"/>'))
+        if "asks to go on from a checkpoint, and there is one" not in self.run(folder, expect=1):
+            self.fail(f"{folder}: a deck that asks to resume began anew", folder / "log")
+        if kept.read_bytes() != good:
+            self.fail(f"{folder}: the checkpoint of a deck that asks to resume has been touched")
 
         deck.write_text(text)
         kept.write_bytes(good)

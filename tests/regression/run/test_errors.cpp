@@ -128,6 +128,159 @@ TEST_F(Mistake, NodeSetThatIsNotThere) {
                 "Boundary Conditions > pull > Node Set", "'tob' (did you mean 'top'?)"});
 }
 
+// One name, two meanings: whichever were taken, it might be the other that is meant.
+TEST_F(Mistake, NamesThatMeanTwoThings) {
+  Parts parts = right_parts();
+  parts.node_sets = key("foot", "z &lt; 3e-3") + key("plate", "z &lt; 1e-3");
+  expect_error(parts.text(), {"Node Sets > foot: the mesh has a node set 'foot' already; expected another name",
+                              "Node Sets > plate: the mesh has a block 'plate' already; expected another name"});
+  parts = right_parts();
+  parts.node_sets = key("Node Set 1", "z &lt; 1e-3");
+  parts.conditions += key("Node Set 1", "1 2 3");
+  expect_error(parts.text(), {"Boundary Conditions > Node Set 1: the deck has a node set 'Node Set 1' already"});
+  parts = right_parts();
+  parts.history = key("Filename", "@/history.csv") + section("Profiles", section("bar", key("Layers", "2"))) +
+                  section("Variables", key("Mean_Velocity_Z(bar)", "true"));
+  expect_error(parts.text(),
+               {"History > Variables > Mean_Velocity_Z(bar): 'bar' is a section of History > Profiles and"});
+}
+
+TEST_F(Mistake, NamesOfTheMeshThatMeanTwoThings) {
+  const auto with = [&](const std::string& name, std::vector<int> nodes) {
+    Lattice lattice;
+    lattice.plate_layers = 2;
+    io::Mesh mesh = lattice.mesh();
+    if (nodes.empty())
+      nodes = mesh.blocks[0].nodes, nodes.insert(nodes.end(), mesh.blocks[1].nodes.begin(), mesh.blocks[1].nodes.end());
+    mesh.node_sets.push_back({name, nodes});
+    run_on_root(world, [&] { io::write_mesh(folder / "two.g", mesh); });
+    return changed(right_parts().text(), "bar.g", "two.g");
+  };
+  EXPECT_EQ(outcome(with("plate", {0, 1, 2})).value_or("no error"), "no error") << "nobody asks for it";
+  expect_error(
+      changed(with("plate", {0, 1, 2}), "\"foot\"", "\"plate\""),
+      {"Boundary Conditions > wall > Node Set: 'plate' is a node set and a block; expected a name that is one"});
+  expect_error(changed(with("plate", {0, 1, 2}), "Max_Displacement", "Max_Displacement(plate)"),
+               {"History > Variables > Max_Displacement(plate): 'plate' is a node set and a block"});
+  expect_error(
+      with("all", {0, 1, 2}),
+      {"Discretization > Input Mesh File: its node set 'all' holds 2 of 96 points, and in a deck 'all' means all"});
+  EXPECT_EQ(outcome(with("all", {})).value_or("no error"), "no error") << "it is all";
+}
+
+// Mass, momentum and stiffness would be twice what they are there.
+TEST_F(Mistake, PointsGivenTwice) {
+  for (const double shift : {0.0, 1e-9}) {
+    Lattice lattice;
+    io::Mesh mesh = lattice.mesh();
+    const auto twice = static_cast<int>(mesh.nodes.size());
+    io::Mesh::Block again{
+        "plate", "HEX8", {mesh.blocks[0].nodes.begin(), mesh.blocks[0].nodes.begin() + 8 * 16}, {}, {}};
+    for (int& node : again.nodes) node += twice;
+    for (int n = 0; n < twice; ++n)
+      mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(n)] + Vector::Constant(shift));
+    mesh.blocks.push_back(again);
+    run_on_root(world, [&] { io::write_mesh(folder / "twice.g", mesh); });
+    const std::string deck = changed(right_parts().text(), "bar.g", "twice.g");
+    expect_error(deck,
+                 {"Discretization > Input Mesh File: element 97 of block 'plate' is where element 1 of block 'bar' is",
+                  "16 points are where others are; expected each once"});
+    // Of points at nodes those of one body: the faces of two bodies may touch.
+    const std::string at_nodes =
+        changed(deck, key("Input Mesh File", "twice.g"), key("Input Mesh File", "twice.g") + key("Points", "Nodes"));
+    expect_error(at_nodes, {"node 176 of block 'plate' is where node 1 of block 'bar' is"});
+  }
+}
+
+TEST_F(Mistake, BodiesThatTouchMayHaveNodesAtOnePlace) {
+  Lattice lattice;
+  io::Mesh mesh = lattice.mesh();
+  const auto all = static_cast<int>(mesh.nodes.size());
+  io::Mesh::Block above{"plate", "HEX8", mesh.blocks[0].nodes, {}, {}};
+  for (int& node : above.nodes) node += all;
+  for (int n = 0; n < all; ++n) mesh.nodes.push_back(mesh.nodes[static_cast<std::size_t>(n)] + Vector(0, 0, 6e-3));
+  mesh.blocks.push_back(above);
+  run_on_root(world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  Parts parts = right_parts();
+  parts.points = "Nodes";
+  parts.blocks.clear();
+  for (const std::string name : {"bar", "plate"})
+    parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                      key("Separate Body", "true"));
+  EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
+}
+
+TEST_F(Mistake, PlacesAndVolumesThatNumbersDoNotTellApart) {
+  Parts parts = right_parts();
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.blocks = changed(parts.blocks, "bar plate", "block_7");
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-20");
+  for (const char* line : {"1e300 0 0 7 1e-9", "1e14 0 0 7 1e-9", "0 0 1 7 1e-300", "0 0 0 7 1e-320"}) {
+    folder.write("points.txt", cubes(7, Vector::Zero(), 3, 3, 3, 1e-3) + line + "\n");
+    expect_error(parts.text(),
+                 {"Discretization > Input Mesh File: element 28 of block 'block_7' at (", "that numbers tell apart"});
+  }
+}
+
+// What the files cannot hold is found before the results of an earlier run are replaced.
+TEST_F(Mistake, NamesAndNumbersThatFilesDoNotHold) {
+  Parts parts = right_parts();
+  EXPECT_EQ(outcome(parts.text()).value_or("no error"), "no error");
+  parts.node_sets = key("left, right", "x &lt; 2e-3");
+  parts.history = changed(parts.history, "Max_Displacement", "Max_Displacement(left, right)");
+  expect_error(parts.text(),
+               {"History > Variables: 'Max_Displacement(left, right)' cannot be the name of a history column"});
+  parts = right_parts();
+  parts.node_sets = key(std::string(128, 'n'), "x &lt; 2e-3");
+  expect_error(parts.text(), {"Output: a result holds names of up to 127 bytes, but 'nnn", "has 128"});
+  if (world.rank() == 0) {
+    EXPECT_GE(io::read_result(folder / "result.e").times.size(), 3u);
+  }
+  PointCloud cloud;
+  cloud.element_ids = {1, std::int64_t{1} << 31};
+  EXPECT_NE(io::result_problem(cloud, world).find("up to 2147483647, but the mesh has 2147483648"), std::string::npos);
+  cloud.element_ids = {1, (std::int64_t{1} << 31) - 1};
+  EXPECT_EQ(io::result_problem(cloud, world), "");
+}
+
+// What a run would end with is what --check finds.
+TEST_F(Mistake, CheckFindsWhatARunWouldFind) {
+  folder.write("foreign.restart", "my thesis");
+  Parts parts = right_parts();
+  parts.node_sets = key("a,b", "x &lt; 2e-3");
+  parts.history = changed(parts.history, "Max_Displacement", "Max_Displacement(a,b)");
+  const std::string deck =
+      changed(parts.text(), "<ParameterList name=\"Solver\">",
+              section("Restart", key("Filename", "@/foreign.restart")) + "<ParameterList name=\"Solver\">");
+  std::string told;
+  try {
+    check(write_deck(deck), world);
+  } catch (const Error& thrown) {
+    told = thrown.what();
+  }
+  for (const char* part : {"2 problems", "cannot be the name of a history column", "is no checkpoint of strut"})
+    EXPECT_NE(told.find(part), std::string::npos) << part << " in:\n" << told;
+  expect_error(deck, {"2 problems", "cannot be the name of a history column", "is no checkpoint of strut"});
+}
+
+// A slip in a section does not hide those that only the mesh shows.
+TEST_F(Mistake, ProblemsOfDeckMeshAndOutputAreToldAtOnce) {
+  Parts parts = right_parts();
+  parts.node_sets = key("low", "z &lt;&lt; 1");
+  parts.conditions += along("push", "Body Force", "low", "x", "1");
+  std::string deck = parts.text();
+  for (const auto& [old, replacement] : {std::pair("\"8930\"", "\"-8930\""),
+                                         {"bar plate", "bar plat"},
+                                         {"\"foot\"", "\"fooot\""},
+                                         {"\"Displacement\"", "\"Displacment\""},
+                                         {"Max_Displacement", "Max_Displacement(tob)"}}) {
+    deck = changed(deck, old, replacement);
+  }
+  expect_error(deck, {"7 problems", "Materials > copper > Density", "Node Sets > low: ", "no block 'plat'",
+                      "block 'plate' of the mesh has no material", "'fooot' (did you mean 'foot'?)",
+                      "Output Variables > Displacment", "Max_Displacement(tob)"});
+}
+
 TEST_F(Mistake, NodeSetWithoutPoints) {
   Parts parts = right_parts();
   parts.node_sets = key("below", "z &lt; -1") + key("low", "z &lt; 1e-3");
@@ -253,7 +406,7 @@ TEST_F(Mistake, UnknownVariables) {
   expect_error(
       changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(fot)\""),
       {"History > Variables > Max_Displacement(fot): there is no node set or block 'fot' (did you mean 'foot'?)",
-       "there are foot, top, bar, plate"});
+       "there are all, foot, top, bar, plate"});
   const std::string nowhere = "    <ParameterList name=\"Node Sets\">" + key("nowhere", "x > 1") + "</ParameterList>";
   expect_error(changed(changed(deck, "\"Max_Displacement\"", "\"Max_Displacement(nowhere)\""),
                        "<ParameterList name=\"Materials\">", nowhere + "<ParameterList name=\"Materials\">"),

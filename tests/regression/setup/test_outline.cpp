@@ -82,6 +82,27 @@ TEST(Improbable, YieldStressIsComparedWithTheModulus) {
   }
 }
 
+// Of copper that melts at 1356 K and softens from 293 K on.
+TEST(Improbable, InitialTemperaturesOfAMeltOrInCelsiusAreWarnedOf) {
+  const std::string softening = section("Softening", key("Type", "Johnson-Cook") + key("Reference Temperature", "293") +
+                                                         key("Melting Temperature", "1356") + key("Exponent", "1"));
+  const auto told_at = [&](const std::string& temperature, const std::string& failure = "") {
+    Parts parts = flying();
+    parts.materials = copper(key("Yield Stress", "400e6") + softening);
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                        key("Initial Temperature", temperature) + failure);
+    return told_of(parts);
+  };
+  for (const char* hot : {"2000", "1356"})
+    expect_told(told_at(hot), {std::string("WARNING: block 'bar' has an Initial Temperature of ") + hot +
+                               " K, at which its metal is molten: its flow stress is 0 Pa; is it in K?"});
+  expect_told(told_at("20"),
+              {"WARNING: block 'bar' has an Initial Temperature of 20 K, which is -253.1 °C: is it in K"});
+  expect_told(told_at("200"), {"200 K, below the Reference Temperature of 293 K at which its softening begins"});
+  for (const char* usual : {"293", "273.15", "718", "1200"})
+    EXPECT_EQ(told_at(usual).find("WARNING"), std::string::npos) << usual;
+}
+
 std::string told_of_cubes(double spacing, const std::string& final_time) {
   const RunFolder folder;
   Parts parts = flying();

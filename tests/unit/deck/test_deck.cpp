@@ -1,8 +1,10 @@
 // Decks that are right: every key into the structs, and every default.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "deck/changes.hpp"
 #include "deck_under_test.hpp"
 
 namespace strut::deck {
@@ -582,6 +584,112 @@ TEST(Deck, PolymerFoamNamesWhatIsWrong) {
   EXPECT_EQ(folder.error(changed(polymer_deck(polymer_keys), R"(name="Tension Ratio" type="double" value="0.3")",
                                  R"(name="Tension Ratio" type="double" value="0")")),
             "deck.xml: 1 problem\n  Materials > steel > Tension Ratio: '0'; expected a real number > 0");
+}
+
+// Whatever squares the numbers have: none, or infinite ones.
+TEST(Deck, DirectionsHaveUnitLengthHoweverTheyAreGiven) {
+  const DeckFolder folder;
+  const std::string along_z = R"x("Normal" type="Array(int)" value="{0, 0, 2}")x";
+  for (const std::string length : {"1e-300", "5e-324", "1e300", "3e-170"}) {
+    const Deck deck =
+        folder.read(changed(full_deck, along_z, R"("Normal" type="string" value="0 -)" + length + " " + length + "\""));
+    const auto& tool = std::get<RigidTool>(deck.conditions[2].kind);
+    EXPECT_NEAR((std::get<HalfSpace>(tool.shape).normal - Vector(0, -std::sqrt(0.5), std::sqrt(0.5))).norm(), 0, 1e-15)
+        << length;
+  }
+}
+
+// A key that is wrong does not hide those of the mesh: the struct is there, and so are the problems.
+TEST(Deck, ProblemsCanBeCollectedInsteadOfThrown) {
+  const DeckFolder folder;
+  folder.write("deck.xml", changed(full_deck, R"(type="int" value="8960")", R"(type="int" value="-8960")"));
+  Problems problems;
+  const Deck deck = deck::read(folder / "deck.xml", folder.world(), problems);
+  EXPECT_EQ(problems.lines(),
+            std::vector<std::string>{"Materials > copper > Density: '-8960'; expected a real number > 0, in kg/m³"});
+  EXPECT_TRUE(problems.about("Materials"));
+  EXPECT_FALSE(problems.about("Mater"));
+  EXPECT_EQ(deck.blocks.size(), 2u);
+}
+
+// ---- What a deck says otherwise than another ------------------------------------------------------------------------
+
+TEST(Changes, OfWritingAloneAreNone) {
+  std::string other = changed(full_deck, R"(type="int" value="8960")", R"(type="double" value="8.96e3")");
+  other =
+      changed(other, "Bulk Modulus\" type=\"double\" value=\"160e9", "Bulk Modulus\" type=\"string\" value=\"1.6e11");
+  other = changed(other, R"(<Parameter name="Stabilization" type="string" value="None"/>)",
+                  R"(<Parameter name="Stabilization" type="string" value="None"/><!-- as before -->)");
+  const std::string foam =
+      other.substr(other.find("<ParameterList name=\"foam\">"),
+                   other.find("<ParameterList name=\"plate\">") - other.find("<ParameterList name=\"foam\">"));
+  other =
+      changed(changed(other, foam, ""), "<ParameterList name=\"Blocks\">", "<ParameterList name=\"Blocks\">" + foam);
+  const Changes none = changes(full_deck, other);
+  EXPECT_TRUE(none.refused.empty() && none.loads.empty() && none.accepted.empty());
+}
+
+TEST(Changes, OfWhatARunIsMadeOfAreRefusedByTheirKeys) {
+  const std::vector<std::array<std::string, 3>> cases = {
+      {R"(type="int" value="8960")", R"(type="int" value="7000")",
+       "Materials > copper > Density: 8960 before, 7000 now"},
+      {R"(value="0.0065")", R"(value="0.007")", "Blocks > foam > Horizon: 0.0065 before, 0.007 now"},
+      {"bar.txt", "rod.txt", "Discretization > Input Mesh File: bar.txt before, rod.txt now"},
+      {"z &lt; 1e-3", "z &lt; 2e-3", "Node Sets > low: z<1e-3 before, z<2e-3 now"},
+      {R"("Friction Coefficient" type="double" value="0.3")", R"("Friction Coefficient" type="double" value="0")",
+       "Contact > Models > touch > Friction Coefficient: 0.3 before, 0 now"},
+      {"{0, 0, 2}", "{0, 0, 3}", "Boundary Conditions > wall > Normal: 0 0 2 before, 0 0 3 now"},
+      {"1e-3*y*t", "2e-3*y*t", "Boundary Conditions > pull > Value: 1e-3*y*t before, 2e-3*y*t now"},
+      {R"(name="Initial Time" type="double" value="1e-4")", R"(name="Initial Time" type="double" value="0")",
+       "Solver > Initial Time: 0.0001 before, 0 now"},
+      {R"("Output Filename" type="string" value="bar")", R"("Output Filename" type="string" value="rod")",
+       "Output > Output Filename: bar before, rod now"},
+      {R"("Velocity" type="bool" value="false")", R"("Velocity" type="bool" value="true")",
+       "Output > Output Variables > Velocity: false before, true now"}};
+  for (const auto& [old, replacement, told] : cases) {
+    const Changes one = changes(full_deck, changed(full_deck, old, replacement));
+    EXPECT_EQ(one.refused, std::vector<std::string>{told});
+    EXPECT_TRUE(one.loads.empty() && one.accepted.empty()) << told;
+  }
+}
+
+TEST(Changes, AWholeSectionIsNamedOnce) {
+  const std::size_t begin = full_deck.find("<ParameterList name=\"pull\">");
+  std::string other = full_deck;
+  other.erase(begin, full_deck.find("</ParameterList>", begin) + 16 - begin);
+  EXPECT_EQ(changes(full_deck, other).refused,
+            std::vector<std::string>{"Boundary Conditions > pull: a section before, not there now"});
+}
+
+// A default that is written down is none; a key that goes back to its default is one.
+TEST(Changes, AreOfValuesNotOfKeys) {
+  const std::string damping = R"(<Parameter name="Stabilization Coefficient" type="double" value="0.05"/>)";
+  EXPECT_EQ(changes(full_deck, changed(full_deck, damping, "")).refused,
+            std::vector<std::string>{"Materials > copper > Stabilization Coefficient: 0.05 before, not there now"});
+  const std::string solver = R"(<ParameterList name="Verlet">)";
+  const std::string subcycling = R"(<Parameter name="Subcycling" type="bool" value="true"/>)";
+  const Changes none = changes(full_deck, changed(full_deck, solver, solver + subcycling));
+  EXPECT_TRUE(none.refused.empty() && none.accepted.empty());
+}
+
+TEST(Changes, OfTimesStepsAndOutputAreAcceptedAndThoseOfLoadsTold) {
+  const std::vector<std::array<std::string, 3>> cases = {
+      {R"(value="3e-4")", R"(value="4e-4")", "Solver > Final Time: 0.0003 before, 0.0004 now"},
+      {R"("Fixed dt" type="double" value="1e-8")", R"("Fixed dt" type="double" value="5e-9")",
+       "Solver > Verlet > Fixed dt: 1e-08 before, 5e-09 now"},
+      {R"("Output Frequency" type="int" value="100")", R"("Output Frequency" type="int" value="10")",
+       "Output > Output Frequency: 100 before, 10 now"},
+      {R"("Interval" type="double" value="1e-6")", R"("Interval" type="double" value="2e-6")",
+       "History > Interval: 1e-06 before, 2e-06 now"}};
+  for (const auto& [old, replacement, told] : cases) {
+    const Changes one = changes(full_deck, changed(full_deck, old, replacement));
+    EXPECT_EQ(one.accepted, std::vector<std::string>{told});
+    EXPECT_TRUE(one.refused.empty() && one.loads.empty()) << told;
+  }
+  const std::string pushed =
+      changed(changed(full_deck, R"("Prescribed Displacement")", R"("Body Force")"), "1e-3*y*t", "5");
+  EXPECT_EQ(changes(pushed, changed(pushed, R"(value="5")", R"(value="6")")).loads,
+            std::vector<std::string>{"Boundary Conditions > pull > Value: 5 before, 6 now"});
 }
 
 }  // namespace

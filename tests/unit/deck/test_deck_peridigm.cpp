@@ -269,6 +269,20 @@ const char* const fracturing = R"(Peridigm:
     Verlet: {Safety Factor: 0.7}
 )";
 
+// Its sections may be the outermost keys, too; the places of errors are those of the text.
+TEST(DeckOfPeridigm, YamlNeedsNoKeyAroundAll) {
+  const DeckFolder folder;
+  const std::string around = std::string(fracturing).substr(0, std::string(fracturing).find('\n') + 1);
+  std::string bare;
+  std::istringstream lines(std::string(fracturing).substr(around.size()));
+  for (std::string line; std::getline(lines, line);) bare += line.substr(std::min<std::size_t>(2, line.size())) + "\n";
+  const std::string whole = folder.error(fracturing);
+  EXPECT_EQ(folder.error(bare), whole);
+  EXPECT_EQ(folder.error("# a deck\n---\n" + bare), whole);
+  EXPECT_EQ(folder.error("Solver:\n  Final Time: 1\n  Final Time: 2\nOutput:\n  A: 1\n"),
+            "deck.xml: 1 problem\n  line 4 column 1: Parameter \"Final Time\" is given twice; expected once");
+}
+
 TEST(DeckOfPeridigm, YamlIsReadAsXml) {
   const DeckFolder folder;
   const Deck deck = folder.read(fracturing);

@@ -162,6 +162,108 @@ TEST_F(BrokenFile, ElementsThatCannotBePoints) {
   expect_error(world, mesh_file(mesh), "66 node sets");
 }
 
+// The library looks both up by the first that has the number, the deck by the first that has the name.
+TEST_F(BrokenFile, BlocksAndNodeSetsOfOneNumberOrName) {
+  Mesh mesh = row_of_cubes(2);
+  mesh.blocks.push_back(mesh.blocks[0]);
+  mesh.blocks[0].nodes.resize(8),
+      mesh.blocks[1].nodes.erase(mesh.blocks[1].nodes.begin(), mesh.blocks[1].nodes.begin() + 8);
+  expect_error(world, mesh_file(mesh),
+               "blocks 'row' (number 1, at place 1) and 'row' (number 2, at place 2) have the same name");
+  mesh.blocks[0].name = "block_70", mesh.blocks[1].name = "block_80";
+  mesh.node_sets.push_back({"end", {8, 9, 10, 11}});
+  mesh.node_sets[0].name = "end";
+  expect_error(world, mesh_file(mesh),
+               "node sets 'end' (number 1, at place 1) and 'end' (number 2, at place 2) have the same name");
+  mesh.node_sets[0].name = "nodelist_90", mesh.node_sets[1].name = "nodelist_91";
+  const fs::path file = mesh_file(mesh);
+  EXPECT_EQ(error_of([&] { read_exodus(file, world); }), "");
+  const auto with_one_number = [&](const std::string& kind, char first, char second) {
+    const std::string both{0, 0, 0, first, 0, 0, 0, second}, one{0, 0, 0, first, 0, 0, 0, first};
+    std::string bytes = read_bytes(file);
+    const std::size_t at = bytes.find(both);
+    ASSERT_NE(at, std::string::npos);
+    bytes.replace(at, both.size(), one);
+    run_on_root(world, [&] { write_bytes(folder / (kind + ".g"), bytes); });
+  };
+  with_one_number("blocks", 70, 80);
+  expect_error(world, folder / "blocks.g",
+               "blocks 'block_70' (number 70, at place 1) and 'block_80' (number 70, at place 2) have the same number");
+  with_one_number("sets", 90, 91);
+  expect_error(
+      world, folder / "sets.g",
+      "node sets 'nodelist_90' (number 90, at place 1) and 'nodelist_91' (number 90, at place 2) have the same number");
+}
+
+// The corner moved through the middle leaves 1/6 to 1 of a unit cube's volume positive. One that is collapsed to a
+// wedge is none of these.
+TEST_F(BrokenFile, HexahedraFoldedAtACorner) {
+  Mesh mesh = row_of_cubes(3);
+  mesh.nodes[6] += Vector(0, -0.7, -0.7);  // of the first two elements
+  for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {
+    const fs::path file = mesh_file(mesh);
+    const std::string text = error_of([&] { read_exodus(file, world, at); });
+    EXPECT_NE(text.find("folded at a corner"), std::string::npos) << text;
+    EXPECT_NE(text.find("element 1 of block 'row' (corner "), std::string::npos) << text;
+  }
+  Mesh wedges = row_of_cubes(2);
+  wedges.blocks[0].nodes[8 + 2] = wedges.blocks[0].nodes[8 + 1],
+                             wedges.blocks[0].nodes[8 + 6] = wedges.blocks[0].nodes[8 + 5];
+  const fs::path file = mesh_file(wedges);
+  EXPECT_EQ(error_of([&] { read_exodus(file, world); }), "");
+}
+
+TEST_F(BrokenFile, AnElementGivenTwiceDoesNotDoubleTheVolumesOfItsNodes) {
+  Mesh mesh = row_of_cubes(3);
+  mesh.blocks.push_back({"again", "HEX8", {mesh.blocks[0].nodes.begin() + 8, mesh.blocks[0].nodes.begin() + 16}, {}});
+  const fs::path file = mesh_file(mesh);
+  const std::string text = error_of([&] { read_exodus(file, world, PointsAt::nodes); });
+  EXPECT_NE(text.find("element 2 of block 'row' and element 4 of block 'again' have the same nodes"), std::string::npos)
+      << text;
+}
+
+// Of small elements, too: not "-0.000000".
+TEST_F(BrokenFile, VolumesAreToldWithTheirDigits) {
+  Mesh mesh = row_of_cubes(1);
+  for (Vector& x : mesh.nodes) x *= 1e-4;
+  std::swap(mesh.blocks[0].nodes[0], mesh.blocks[0].nodes[4]),
+      std::swap(mesh.blocks[0].nodes[1], mesh.blocks[0].nodes[5]);
+  std::swap(mesh.blocks[0].nodes[2], mesh.blocks[0].nodes[6]),
+      std::swap(mesh.blocks[0].nodes[3], mesh.blocks[0].nodes[7]);
+  expect_error(world, mesh_file(mesh), "volume -1e-12 m³");
+}
+
+// Names say what attributes are, whatever their places; without names the radius stands first.
+TEST_F(BrokenFile, AttributesOfSpheresAreReadByTheirNames) {
+  const auto volume_of = [&](const std::vector<std::string>& names) {
+    run_on_root(world, [&] {
+      const ExodusFile file = ExodusFile::create(folder / "spheres.g");
+      const ExodusFile::Block block = {1, "spheres", "SPHERE", 1, 1, names};
+      file.put_sizes("", {3, 1, 1, 1, 0});
+      file.put_blocks({block});
+      file.put_coordinates({std::vector<double>(1), std::vector<double>(1), std::vector<double>(1)});
+      file.put_connectivity(block, std::vector<std::int64_t>{1});
+      for (std::size_t k = 0; k < names.size(); ++k)
+        file.put_attribute(block, static_cast<int>(k), std::vector<double>{0.5 + static_cast<double>(k)});
+    });
+    const PointCloud cloud = read_exodus(folder / "spheres.g", world);
+    return world.sum(cloud.size() > 0 ? cloud.volumes[0] : 0.0);
+  };
+  const double ball = 4 * M_PI / 3;
+  EXPECT_EQ(volume_of({"radius", "volume"}), 1.5);
+  EXPECT_EQ(volume_of({"VOLUME", "Radius"}), 0.5);
+  EXPECT_EQ(volume_of({"volume"}), 0.5);
+  EXPECT_EQ(volume_of({"density", "angle", "SPH_volume"}), 2.5);
+  EXPECT_DOUBLE_EQ(volume_of({"mass", "radius"}), ball * 1.5 * 1.5 * 1.5);
+  EXPECT_EQ(volume_of({"", ""}), 1.5);
+  EXPECT_DOUBLE_EQ(volume_of({""}), ball / 8);
+  const std::string text = error_of([&] { volume_of({"mass", "angle"}); });
+  EXPECT_NE(
+      text.find("its spheres have the attributes mass, angle; expected one of the name radius (m) or volume (m³)"),
+      std::string::npos)
+      << text;
+}
+
 TEST_F(BrokenFile, UnknownElementType) {
   run_on_root(world, [&] {
     const ExodusFile file = ExodusFile::create(folder / "pyramid.g");
