@@ -191,7 +191,9 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   }
   set_shapes(body);
   set_what_blocks_feel(body);
-  if (!body.force_states.quadratics.empty()) body.fits = std::make_shared<QuadraticFits>(body);
+  // By what materials there are: a rank without points takes part.
+  const auto is_quadratic = [](const BlockMaterial& m) { return m.formulation == Formulation::quadratic; };
+  if (std::any_of(materials.begin(), materials.end(), is_quadratic)) body.fits = std::make_shared<QuadraticFits>(body);
   const auto breaks = [](const BlockMaterial& material) { return material.damage.has_value(); };
   if (std::any_of(materials.begin(), materials.end(), breaks)) body.fracture = std::make_shared<Fracture>(body);
   return body;

@@ -1,7 +1,6 @@
 #include "io/exodus/exodus_file.hpp"
 
 #include <exodusII.h>
-#include <netcdf.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +14,7 @@
 #include "base/errors.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/netcdf/trial_read.hpp"
+#include "io/netcdf/wide_netcdf.hpp"
 
 namespace strut::io {
 
@@ -154,22 +154,18 @@ int created(const fs::path& path, int mode) {
   return ex_create(path.c_str(), mode | EX_CLOBBER | EX_ALL_INT64_API, &word_size, &file_word_size);
 }
 
-// The classic format with 64-bit sizes (CDF-5), which Exodus before version 7 has no word for: its default model then
-// takes netCDF's default format, and the number "file_size" says which layout it is to have.
+// The classic format with 64-bit sizes (CDF-5), which Exodus before version 7 does not create, but goes on with.
 int created_with_64_bit_sizes(const fs::path& path) {
 #ifdef EX_64BIT_DATA
   return created(path, EX_64BIT_DATA);
 #else
-  int before = 0;
-  nc_set_default_format(NC_FORMAT_64BIT_DATA, &before);
-  const int handle = created(path, EX_NORMAL_MODEL);
-  nc_set_default_format(before, nullptr);
+  const int handle = created(path, EX_LARGE_MODEL);
   if (handle < 0) return handle;
-  const int large = 1;
-  nc_redef(handle);
-  nc_put_att_int(handle, NC_GLOBAL, "file_size", NC_INT, 1, &large);
-  nc_enddef(handle);
-  return handle;
+  ex_close(handle);
+  widen(path);
+  int word_size = sizeof(double), file_word_size = 0;
+  float version = 0;
+  return ex_open(path.c_str(), EX_WRITE | EX_ALL_INT64_API, &word_size, &file_word_size, &version);
 #endif
 }
 

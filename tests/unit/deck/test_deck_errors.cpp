@@ -381,6 +381,44 @@ TEST(DeckErrors, WhatIsReadIsNotReplaced) {
   }
 }
 
+// A result, history or checkpoint is written to no file twice, whatever it is called, and to none of another kind.
+TEST(DeckErrors, FilesThatAreOne) {
+  namespace fs = std::filesystem;
+  const DeckFolder folder;
+  run_on_root(folder.world(), [&] {
+    fs::create_directory(folder / "sub");
+    fs::create_symlink("run.e", folder / "soft");
+    std::ofstream(folder / "notes.txt") << "of mine\n";
+    std::ofstream(folder / "run.lock") << "of mine\n";
+    std::ofstream(folder / "other.csv") << "# strut 0.1; units: s\nTime\n0\n";
+  });
+  const auto told = [&](const std::string& output, const std::string& history, const std::string& checkpoint) {
+    const auto file = [&](const char* section, const char* key, const std::string& name) {
+      return std::string("<ParameterList name=\"") + section + "\"><Parameter name=\"" + key +
+             "\" type=\"string\" value=\"" + (folder / name).string() + "\"/></ParameterList>";
+    };
+    const std::string end = "</ParameterList>";
+    std::string text = small_deck.substr(0, small_deck.rfind(end));
+    text += file("Output", "Output Filename", output) + file("History", "Filename", history);
+    return folder.error(text + file("Restart", "Filename", checkpoint) + end);
+  };
+  EXPECT_EQ(told("run.e", "run.csv", "run.restart"), "");
+  for (const char* alias : {"run.e", "./run.e", "sub/../run.e", "soft", "RUN.e"}) {
+    const std::string problem = std::string(" > Filename: '") + alias + "' is Output's file, too; expected another";
+    EXPECT_NE(told("run.e", alias, "run.restart").find("History" + problem), std::string::npos) << alias;
+    EXPECT_NE(told("run.e", "run.csv", alias).find("Restart" + problem), std::string::npos) << alias;
+  }
+  for (const char* beside : {"run.restart.old", "run.restart.part", "run.restart.lock"}) {
+    EXPECT_NE(told("run.e", beside, "run.restart").find("is History's file, too"), std::string::npos) << beside;
+  }
+  EXPECT_NE(told("notes.txt", "run.csv", "run.restart").find("'notes.txt' is there and is no result of strut"),
+            std::string::npos);
+  EXPECT_NE(told("run.e", "notes.txt", "run.restart").find("'notes.txt' is there and is no history of strut"),
+            std::string::npos);
+  EXPECT_NE(told("other.csv", "run.csv", "run.restart").find("is no result of strut"), std::string::npos);
+  EXPECT_NE(told("run.e", "run.csv", "run").find("'run.lock' is there and is no lock of a run"), std::string::npos);
+}
+
 TEST(DeckErrors, DecksThatNeverEnd) {
   const DeckFolder folder;
   std::string deep;

@@ -1,0 +1,60 @@
+// A run that goes on writes the row and the frame at its checkpoint anew: they are the same to the last byte.
+#include <gtest/gtest.h>
+
+#include <iterator>
+
+#include "output/observables.hpp"
+#include "regression/scenes.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class Restored : public testing::TestWithParam<AnyScene> {};
+
+// The last checkpoint of a run stands before its last row and frame; here these have all that can be asked for.
+TEST_P(Restored, RunWritesTheSameRowAndFrame) {
+  const RunFolder folder;
+  folder.write("points.txt", points_of_scenes());
+  AnyScene scene = GetParam();
+  std::string variables;
+  {
+    const deck::Deck deck = deck::read(folder.write("deck.xml", scene.text()), folder.world);
+    for (const std::string& name : names_of(observables(set_up(deck, folder.world).body)))
+      variables += key(name, "true");
+  }
+  scene.parts.output = key("Output Filename", (folder / "run.e").string()) + key("Output Frequency", "5") +
+                       section("Output Variables", variables);
+  std::string columns;
+  for (const char* name :
+       {"Contact_Force_X(block_1:block_2)", "Contact_Force_Z(block_2:block_1)", "Max_Velocity", "Max_Force",
+        "Max_Von_Mises_Stress", "Min_Dilatation", "Mean_Displacement_Z", "Max_Damage"}) {
+    columns += key(name, "true");
+  }
+  columns += scene.is_static ? key("Reaction_X(drag)", "true") + key("Reaction_Z(plate)", "true")
+                             : key("Reaction_Z(wall)", "true") + key("Reaction_Z(punch)", "true");
+  scene.parts.history =
+      key("Filename", (folder / "run.csv").string()) + key("Frequency", "1") + section("Variables", columns);
+  const auto deck =
+      folder.write("deck.xml", scene.text(section("Restart", key("Filename", (folder / "run.restart").string()))));
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(run(deck, folder.world));
+  const std::string history = bytes_of(folder / "run.csv"), result = bytes_of(folder / "run.e");
+  folder.world.barrier();
+  EXPECT_TRUE(run(deck, folder.world, Start::continued));
+  const std::string told = testing::internal::GetCapturedStdout();
+  if (folder.world.rank() == 0) EXPECT_NE(told.find("going on from"), std::string::npos) << told;
+  EXPECT_EQ(bytes_of(folder / "run.csv"), history);
+  EXPECT_TRUE(bytes_of(folder / "run.e") == result);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Restored, testing::ValuesIn(all_scenes()),
+                         [](const auto& scene) { return scene.param.name; });
+
+}  // namespace
+}  // namespace strut::regression
