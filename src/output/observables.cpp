@@ -208,8 +208,10 @@ volumes: `Mean_Displacement_Z(top)`. Where the brackets name a section of `Histo
 its layers, `Mean_Velocity_Z(slices 1)`, ….
 
 Besides, the history knows `Contact_Force_X(foam:plate)`, `_Y` and `_Z`, the force of contact on the block `foam` from the
-block `plate`, with friction (N); `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
-on the body (N), and of a crack that the section `History` > `Cracks` names `Crack_Tip(notch)`, how far it has come along its
+block `plate`, with friction (N), and `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
+on the body (N). Both are means from the row before to this one, so that each times its interval is an impulse and all of them together
+the change of momentum; the first row has 0. With `Instant_` in front, `Instant_Reaction_Z(wall)`, they are those of the one step at the
+row's time. Of equilibria all are those of the row's time. Of a crack that the section `History` > `Cracks` names there are `Crack_Tip(notch)`, how far it has come along its
 direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m/s).
 
 X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of

@@ -14,11 +14,16 @@ const std::vector<std::string> reaction_names = {"Reaction_X", "Reaction_Y", "Re
 const std::vector<std::string> contact_names = {"Contact_Force_X", "Contact_Force_Y", "Contact_Force_Z"};
 const std::vector<std::string> crack_names = {"Crack_Tip", "Crack_Speed"};
 
+const std::string instant = "Instant_";
+
 std::string before_bracket(const std::string& name) { return name.substr(0, name.find('(')); }
+
+bool is_instant(const std::string& name) { return name.starts_with(instant); }
+std::string without_instant(const std::string& name) { return is_instant(name) ? name.substr(instant.size()) : name; }
 
 // Right or nearly so.
 bool means(const std::string& name, const std::string& first_word, const std::vector<std::string>& names) {
-  const std::string kind = before_bracket(name);
+  const std::string kind = before_bracket(without_instant(name));
   return kind.starts_with(first_word) || !did_you_mean(kind, names).empty();
 }
 
@@ -53,8 +58,10 @@ std::pair<std::size_t, std::string> in_brackets(const std::string& name, const s
 }
 
 ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const std::string& name) {
-  const auto [component, wanted] = in_brackets(name, reaction_names, "Boundary Conditions", "Reaction_Z(wall)");
-  return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component)};
+  const auto [component, wanted] =
+      in_brackets(without_instant(name), reaction_names, "Boundary Conditions", "Reaction_Z(wall)");
+  return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component),
+          is_instant(name)};
 }
 
 // Collective. Adds the crack where it is the first column of it.
@@ -86,17 +93,19 @@ int block_of(const std::vector<std::string>& names, const std::string& wanted, c
 ContactComponent contact_force(const contact::Contact& contact, const std::vector<std::string>& blocks,
                                const std::string& name) {
   const std::string path = where + " > " + name;
-  const std::string kind = before_bracket(name);
+  const std::string kind = before_bracket(without_instant(name));
   const auto found = std::find(contact_names.begin(), contact_names.end(), kind);
-  const std::size_t colon = name.find(':');
-  if (found == contact_names.end() || kind == name || name.back() != ')' || colon == std::string::npos) {
+  const std::size_t bracket = name.find('('), colon = name.find(':');
+  if (found == contact_names.end() || bracket == std::string::npos || name.back() != ')' ||
+      colon == std::string::npos) {
     throw Error(path + ": expected one of " + joined(contact_names) + did_you_mean(kind, contact_names) +
                 " and in brackets two blocks, e.g. Contact_Force_Z(foam:plate), the force on foam from plate");
   }
-  const int first = block_of(blocks, name.substr(kind.size() + 1, colon - kind.size() - 1), path);
+  const int first = block_of(blocks, name.substr(bracket + 1, colon - bracket - 1), path);
   const int second = block_of(blocks, name.substr(colon + 1, name.size() - colon - 2), path);
   if (first == second) throw Error(path + ": the forces of a block on itself add up to nothing; expected two blocks");
-  if (contact.between(first, second)) return {name, first, second, static_cast<int>(found - contact_names.begin())};
+  const int component = static_cast<int>(found - contact_names.begin());
+  if (contact.between(first, second)) return {name, first, second, component, is_instant(name)};
   throw Error(path + ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
 }
 

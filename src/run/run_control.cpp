@@ -49,6 +49,7 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   services_.monitor.check_step(solver);
   services_.monitor.check_passing(solver.time(), solver.contact());
   const bool last = ends_here(solver);
+  services_.writers.history.gather(solver.impulses(), solver.contact(), services_.scene.body.domain);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
   if (ledger) services_.monitor.check_energy(*ledger);

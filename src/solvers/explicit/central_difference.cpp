@@ -155,7 +155,11 @@ void CentralDifference::gather_reactions(int conditions) {
 // velocities that conditions have not changed, and so they answer for half of it.
 void CentralDifference::take_reactions(const ReactionImpulses& now, double impulse_time) {
   const double length = steps_ == 0 ? 0.5 * impulse_time : impulse_time;
+  const double before = steps_ == 0 ? 0 : 0.5;  // of them, as ledger() has the velocities at time()
+  impulses_ = {0.5 * impulse_time, 0.5 * impulse_time, substep_impulses_.sums(), now.sums()};
   for (std::size_t c = 0; c < reaction_forces_.size(); ++c) {
+    impulses_.conditions_before[c] += before * now.sums()[c];
+    impulses_.conditions_after[c] *= 1 - before;
     reaction_forces_[c] = now.sums()[c] / length + substep_impulses_.sums()[c] / previous_dt_;
   }
   substep_impulses_ = ReactionImpulses(static_cast<int>(reaction_forces_.size()));
