@@ -179,12 +179,21 @@ Observable state_variable(const std::string& name) {
       std::visit(copy, block.material.law);
     }
   };
-  return {name, 1, false, "state of the material law; by quadratic correspondence the mean over the cell", fill};
+  return {name, 1, false, "state of material laws that have it; by quadratic correspondence the mean over the cell",
+          fill};
 }
 
 template <class L>
 void add_state_names(std::set<std::string>& names) {
   names.insert(L::state_names.begin(), L::state_names.end());
+}
+
+std::set<std::string> states_of_all_laws() {
+  std::set<std::string> states;
+  [&]<class... L>(std::type_identity<std::variant<L...>>) {
+    (add_state_names<L>(states), ...);
+  }(std::type_identity<materials::AnyLaw>());
+  return states;
 }
 
 // The fixed observables, and the state variables of these names.
@@ -215,8 +224,8 @@ row's time. Of equilibria all are those of the row's time. Of a crack that the s
 direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m/s).
 
 X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of
-the [glossary](../docs/glossary.md). What the state variables of the laws mean, and their units, stand at `State` in the
-headers of [materials](../materials/README.md).
+the [glossary](../docs/glossary.md). A state variable is there where a material of the deck has a law with it: `Failed` of
+metal foams alone, say. What they mean, and their units, stand at `State` in the headers of [materials](../materials/README.md).
 
 | variable | components | in the Exodus file | meaning, with its unit |
 |---|---|---|---|
@@ -252,12 +261,8 @@ std::vector<Observable> observables(const Body& body) {
 }
 
 std::string observables_page() {
-  std::set<std::string> states;
-  [&]<class... L>(std::type_identity<std::variant<L...>>) {
-    (add_state_names<L>(states), ...);
-  }(std::type_identity<materials::AnyLaw>());
   std::string text = introduction;
-  for (const Observable& o : with_states(states)) {
+  for (const Observable& o : with_states(states_of_all_laws())) {
     text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
             escaped(o.meaning) + " |\n";
   }
@@ -286,8 +291,11 @@ std::vector<Observable> chosen(const std::vector<Observable>& all, const std::ve
     if (const Observable* found = find(all, name)) {
       result.push_back(*found);
     } else {
-      problems.push_back(where + " > " + name + ": no such variable" + did_you_mean(name, valid) + "; valid are " +
-                         joined(valid));
+      const bool of_others = states_of_all_laws().contains(name);
+      problems.push_back(where + " > " + name + ": " +
+                         (of_others ? "no material of this deck has a law with this state variable"
+                                    : "no such variable" + did_you_mean(name, valid)) +
+                         "; valid are " + joined(valid));
     }
   }
   if (!problems.empty()) throw Error(joined(problems, "\n"));

@@ -71,12 +71,13 @@ void History::open(const Body& body) {
                                          {"Momentum_Y", "kg m/s"},
                                          {"Momentum_Z", "kg m/s"}};
   for (const Extreme& extreme : extremes_) columns.push_back({extreme.name(), extreme.unit()});
-  for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, "N"});
+  const auto unit = [this](bool is_instant) { return is_instant || !has_means_ ? "N" : "N (mean)"; };
+  for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, unit(reaction.is_instant)});
   for (const CrackColumn& column : crack_columns_) columns.push_back({column.name, column.is_speed ? "m/s" : "m"});
   for (const Mean& mean : means_) {
     for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
-  for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, "N"});
+  for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
   file_.emplace(path_, body.domain.communicator, columns, before_);
 }
 
