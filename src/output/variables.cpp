@@ -23,7 +23,7 @@ std::string without_instant(const std::string& name) { return is_instant(name) ?
 
 // Right or nearly so.
 bool means(const std::string& name, const std::string& first_word, const std::vector<std::string>& names) {
-  const std::string kind = before_bracket(without_instant(name));
+  const std::string kind = before_bracket(name);
   return kind.starts_with(first_word) || !did_you_mean(kind, names).empty();
 }
 
@@ -45,21 +45,23 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
               (valid.empty() ? "is none" : "are " + joined(valid)));
 }
 
-// "Kind(wanted)": the place of Kind in `kinds`, and what is wanted. `of`: the section whose sections may be.
+// "Kind(wanted)", after `prefix`: the place of Kind in `kinds`, and what is wanted. `of`: the section whose sections
+// may be.
 std::pair<std::size_t, std::string> in_brackets(const std::string& name, const std::vector<std::string>& kinds,
-                                                const std::string& of, const std::string& example) {
-  const std::string kind = before_bracket(name);
+                                                const std::string& of, const std::string& example,
+                                                const std::string& prefix = "") {
+  const std::string rest = name.substr(prefix.size()), kind = before_bracket(rest);
   const auto found = std::find(kinds.begin(), kinds.end(), kind);
-  if (found == kinds.end() || kind == name || name.back() != ')') {
+  if (found == kinds.end() || kind == rest || name.back() != ')') {
     throw Error(where + " > " + name + ": expected one of " + joined(kinds) + did_you_mean(kind, kinds) +
                 " and in brackets the name of a section of " + of + ", e.g. " + example);
   }
-  return {found - kinds.begin(), name.substr(kind.size() + 1, name.size() - kind.size() - 2)};
+  return {found - kinds.begin(), rest.substr(kind.size() + 1, rest.size() - kind.size() - 2)};
 }
 
 ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const std::string& name) {
   const auto [component, wanted] =
-      in_brackets(without_instant(name), reaction_names, "Boundary Conditions", "Reaction_Z(wall)");
+      in_brackets(name, reaction_names, "Boundary Conditions", "Reaction_Z(wall)", is_instant(name) ? instant : "");
   return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component),
           is_instant(name)};
 }
@@ -134,11 +136,11 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
   }
   for (const std::string& name : deck.history.variables) {
     attempt([&] {
-      if (means(name, "Reaction", reaction_names)) {
+      if (means(without_instant(name), "Reaction", reaction_names)) {
         variables.reactions.push_back(reaction(deck.conditions, name));
       } else if (means(name, "Crack", crack_names)) {
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
-      } else if (means(name, "Contact", contact_names)) {
+      } else if (means(without_instant(name), "Contact", contact_names)) {
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
       } else if (name.starts_with("Mean_")) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
