@@ -54,7 +54,11 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
   contact_pair.pairs = find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins);
-  if (contact_pair.surfaces) contact_pair.surfaces->take(blocks, contact_pair.pairs);
+  if (contact_pair.surfaces) {
+    contact_pair.surfaces->take(blocks, contact_pair.pairs);
+  } else if (contact_pair.model.friction > 0) {
+    contact_pair.couples.take(kinematics.domain, contact_pair.pairs.owned);
+  }
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
@@ -115,10 +119,10 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
 void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, ContactPair& contact_pair,
                          std::vector<Vector>& force_density) {
   Pairs& pairs = contact_pair.pairs;
-  if (pairs.empty() && !pairs.halo) return;
+  const Model& model = contact_pair.model;
+  if (pairs.empty() && !pairs.halo && !contact_pair.couples.any()) return;
   static Teuchos::Time& timer = phase("Contact forces");
   const Timed timed(timer);
-  const Model& model = contact_pair.model;
   const bool rubs = model.friction > 0 && (dt > 0 || sliding.is_trial);
   std::vector<Vector>& friction = contact_pair.friction;
   if (Surfaces* surfaces = contact_pair.surfaces ? &*contact_pair.surfaces : nullptr) {
@@ -128,7 +132,9 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding&
   } else {
     const auto& law = std::get<PairLaw>(model.law);
     contact_pair.result = add_normal_forces(kinematics, law, pairs, force_density);
-    if (rubs) contact::add_friction(kinematics, law, model.friction, dt, pairs, force_density, friction);
+    if (rubs) {
+      contact::add_friction(kinematics, law, model.friction, dt, pairs, contact_pair.couples, force_density, friction);
+    }
   }
 }
 
@@ -221,8 +227,12 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
                              Vector::Zero());  // the solver has them; here are pairs and friction
   for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.due = true;
   add_forces(kinematics, dt, forces);
-  for (ContactPair& contact_pair : contact_pairs_)
+  for (ContactPair& contact_pair : contact_pairs_) {
     contact_pair.due = true;  // how far points may go in the next step, nobody has asked
+    // An equilibrium has no step whose friction could be made anew: it is that of the last commit.
+    const bool rubs = contact_pair.surfaces && contact_pair.model.friction > 0;
+    if (rubs && dt == 0) contact_pair.friction = contact_pair.surfaces->committed_friction();
+  }
 }
 
 double Contact::energy() const {
@@ -248,6 +258,11 @@ bool is_of(const BlockPair& blocks, int first, int second) {
 bool Contact::between(int first, int second) const {
   return std::any_of(contact_pairs_.begin(), contact_pairs_.end(),
                      [&](const ContactPair& c) { return is_of(c.blocks, first, second); });
+}
+
+bool Contact::by_surfaces(int first, int second) const {
+  return std::any_of(contact_pairs_.begin(), contact_pairs_.end(),
+                     [&](const ContactPair& c) { return c.surfaces && is_of(c.blocks, first, second); });
 }
 
 void Contact::visit_normal_forces(const ContactPair& contact_pair,
@@ -286,12 +301,14 @@ Vector Contact::force(const Domain& domain, int first, int second) const {
 FrictionWork Contact::friction_work(double impulse_time, std::span<const Vector> before,
                                     std::span<const Vector> after) const {
   FrictionWork work;
+  const auto add = [&](int i, const Vector& force) {
+    work.before += 0.5 * impulse_time * force.dot(before[i]);
+    work.after += 0.5 * impulse_time * force.dot(after[i]);
+  };
   for (const ContactPair& contact_pair : contact_pairs_) {
-    for (std::size_t k = 0; k < contact_pair.friction.size(); ++k) {
-      const int i = contact_pair.pairs.owned[k];
-      work.before += 0.5 * impulse_time * contact_pair.friction[k].dot(before[i]);
-      work.after += 0.5 * impulse_time * contact_pair.friction[k].dot(after[i]);
-    }
+    for (std::size_t k = 0; k < contact_pair.friction.size(); ++k)
+      add(contact_pair.pairs.owned[k], contact_pair.friction[k]);
+    contact_pair.couples.for_each_force(add);
   }
   return work;
 }

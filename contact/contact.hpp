@@ -66,9 +66,10 @@ class Contact {
   double penetration() const { return penetration_; }
   DeepestPenetration deepest() const;
 
-  // Whether there is an interaction between two blocks; of the last forces, what the block `first` of this rank feels
-  // from all points of `second`, with friction, N.
+  // Whether there is an interaction between two blocks, one of surfaces; of the last forces, what the block `first` of
+  // this rank feels from all points of `second`, with friction, N.
   bool between(int first, int second) const;
+  bool by_surfaces(int first, int second) const;
   Vector force(const Domain& domain, int first, int second) const;
 
   // Of the last forces of friction on this rank's points, over the time of an impulse (s) from the velocities `before`
@@ -93,6 +94,7 @@ class Contact {
     std::vector<Vector> places = {};  // of blocks.points, m
     SkinDistances skins = {};
     Pairs pairs = {};
+    Couples couples = {};  // of friction of points
     bool searched = false;
     std::vector<std::size_t> broken_counts = {};  // how many bonds of blocks.points had broken
     // As of the last look.

@@ -66,23 +66,44 @@ void for_each_touch(const Pairs& pairs, const L& law, std::size_t k, Visit&& vis
 // What the partners of a point must know of it for friction.
 struct Slider {
   Vector velocity = Vector::Zero();
+  Vector spin = Vector::Zero();  // of its neighborhood, 1/s
   Vector push = Vector::Zero();  // the sum of its normal forces, N
-  double contacts = 0;           // how many
+  double mobility = 0;           // velocity that its contacts give it by a unit of impulse each, 1/kg
+  double turns = 0;              // 1: its neighborhood can take up couples
+
+  // Of the body at a place so far from the point, m.
+  Vector velocity_at(const Vector& arm) const { return velocity + spin.cross(arm); }
 };
 constexpr int slider_width = sizeof(Slider) / sizeof(double);
 
-std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto& law, Pairs& pairs) {
+std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto& law, Pairs& pairs,
+                            const Couples& couples, std::vector<Couples::Neighborhood>& neighborhoods) {
   std::vector<Slider> all(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    all[k].velocity = kinematics.velocities[pairs.owned[k]];
+    Slider& slider = all[k];
+    slider.velocity = kinematics.velocities[pairs.owned[k]];
+    double contacts = 0;
     for_each_touch(pairs, law, k, [&](const auto& touch) {
-      all[k].push -= touch.force() * touch.direction;
-      all[k].contacts += 1;
+      slider.push -= touch.force() * touch.direction;
+      contacts += 1;
     });
+    slider.mobility = contacts / pairs.masses[k];
+    if (contacts == 0) continue;
+    neighborhoods[k] = couples.of(kinematics, pairs.owned[k]);
+    const Patch& patch = neighborhoods[k].patch;
+    if (!patch.turns) continue;
+    // A neighborhood is turned by all its points that touch.
+    slider.mobility *= 1 + 0.25 * law.radius * law.radius * patch.weight / patch.smallest;
+    slider.spin = neighborhoods[k].spin;
+    slider.turns = 1;
   }
   if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(all.data()), slider_width, slider_width);
   return all;
 }
+
+// How far from a point, of the way to its partner, friction acts on both: midway, or at one that cannot take up a
+// couple.
+double place_of_friction(const Slider& here, const Slider& there) { return 0.5 * (1 + here.turns - there.turns); }
 
 // The normal of two surfaces of points, from the pushes on both. That of a single pair sways as points pass each other:
 // with it, the friction of a flat face would be larger than μ times its load.
@@ -112,20 +133,31 @@ ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>&
   return result;
 }
 
-// Of friction, on pairs.owned[k], N.
+// Of friction on pairs.owned[k]: force, N, and couple about the point, N m.
+struct Friction {
+  std::vector<Vector> forces, couples;
+};
+
+// None between two points that both have no neighbors, or one row of them: nothing could take up its couple.
 template <ContactLaw L>
-std::vector<Vector> friction_forces(const Kinematics& kinematics, const L& law, double coefficient, double dt,
-                                    Pairs& pairs) {
-  std::vector<Vector> friction(pairs.owned.size(), Vector::Zero());
-  const std::vector<Slider> all = sliders(kinematics, law, pairs);
+Friction friction_forces(const Kinematics& kinematics, const L& law, double coefficient, double dt, Pairs& pairs,
+                         const Couples& couples, std::vector<Couples::Neighborhood>& neighborhoods) {
+  const std::vector<Vector> none(pairs.owned.size(), Vector::Zero());
+  Friction friction{none, none};
+  const std::vector<Slider> all = sliders(kinematics, law, pairs, couples, neighborhoods);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const Slider& here = all[k];
     for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
       const Slider& there = all[touch.partner];
+      if (here.turns + there.turns == 0) return;
       const Vector normal = surface_normal(here, there, touch.direction);
       const double load = touch.force() * std::abs(normal.dot(touch.direction));
-      const double mobility = here.contacts / pairs.masses[k] + there.contacts / pairs.masses[touch.partner];
-      friction[k] += friction_force(coefficient, load, there.velocity - here.velocity, normal, mobility, dt);
+      const Vector way = touch.distance * touch.direction, arm = place_of_friction(here, there) * way,
+                   other_arm = -place_of_friction(there, here) * way;
+      const Vector velocity = there.velocity_at(other_arm) - here.velocity_at(arm);
+      const Vector force = friction_force(coefficient, load, velocity, normal, here.mobility + there.mobility, dt);
+      friction.forces[k] += force;
+      friction.couples[k] += arm.cross(force);
     });
   }
   return friction;
@@ -153,10 +185,16 @@ ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, 
 }
 
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
-                  std::vector<Vector>& force_density, std::vector<Vector>& friction) {
-  friction = std::visit([&](const auto& one) { return friction_forces(kinematics, one, coefficient, dt, pairs); }, law);
+                  Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction) {
+  couples.bring_to_present(kinematics);
+  std::vector<Couples::Neighborhood> neighborhoods(pairs.owned.size());
+  Friction found = std::visit(
+      [&](const auto& one) { return friction_forces(kinematics, one, coefficient, dt, pairs, couples, neighborhoods); },
+      law);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k)
-    force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
+    force_density[pairs.owned[k]] += found.forces[k] / pairs.sites[k].volume();
+  couples.add_forces(kinematics.domain, neighborhoods, found.couples, force_density);
+  friction = std::move(found.forces);
 }
 
 void for_each_normal_force(const PairLaw& law, const Pairs& pairs,

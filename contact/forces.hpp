@@ -4,16 +4,18 @@
 #include <functional>
 #include <vector>
 
+#include "contact/couples.hpp"
 #include "contact/laws/laws.hpp"
 #include "contact/search/pairs.hpp"
 
 namespace strut::contact {
 
 // The owned point that another has come nearest to, as a part of the distance at which the two touch: 0 where none
-// touches, 1 at the same place.
+// touches, 1 at the same place. Of surfaces, the overlap in spacings.
 struct DeepestPenetration {
   double penetration = 0;
   int point = -1;  // local index in the body
+  bool of_surfaces = false;
 
   void take(const DeepestPenetration& other) {
     if (other.penetration > penetration) *this = other;
@@ -37,9 +39,10 @@ ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, 
                               std::vector<Vector>& force_density);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
-// pairs.owned[k] (N), so that its work can be counted. dt: the length of the step (s).
+// pairs.owned[k] (N), so that its work can be counted, beside that of `couples`, which has taken pairs.owned. dt: the
+// length of the step (s).
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
-                  std::vector<Vector>& force_density, std::vector<Vector>& friction);
+                  Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);
 
 // After add_normal_forces. What each point pairs.owned[k] feels, by visit(k, force in N).
 void for_each_normal_force(const PairLaw& law, const Pairs& pairs,

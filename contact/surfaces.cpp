@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/at_surface.hpp"
 #include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/friction.hpp"
 #include "contact/search/search.hpp"
@@ -31,26 +32,6 @@ double reach_to_surface(const PointCloud& cloud, double volume, int i) {
   const double area = surface.norm();
   if (!(area > 0.1 * std::pow(cloud.spacings[i], 2))) return std::sqrt(trace(cloud.shapes[i].moments));
   return reach_of_cell(cloud, volume, i, surface / area);
-}
-
-// Σ V ξ over the family, in units of its volume and the horizon: 0 inside a body.
-double one_sidedness(const Domain& domain, int i) {
-  Vector sum = Vector::Zero();
-  double volume = 0;
-  domain.families.for_each(i, [&](int j) {
-    sum += domain.volume(j) * (domain.reference(j) - domain.reference(i));
-    volume += domain.volume(j);
-  });
-  return volume > 0 ? sum.norm() / (volume * domain.horizon(i)) : 1;
-}
-
-// Whether the body's surface may be a point's: its family is one-sided (0.3 at a flat face, horizon 1.75 spacings) or,
-// in thin plates, not full (0.4 of the volume within the horizon; inside it is 0.94 or more on a lattice). One too many
-// costs time; none may be missed.
-bool is_at_surface(const Domain& domain, int i) {
-  constexpr double least_one_sided = 0.15, least_full = 0.85;
-  const double full = 4 * std::numbers::pi / 3 * std::pow(domain.horizon(i), 3);
-  return one_sidedness(domain, i) > least_one_sided || family_volume(domain, i) < least_full * full;
 }
 
 SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other) {
@@ -262,7 +243,7 @@ ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
     gradient_[k] = felt.gradient;
     facing_[k] = facing(law, point, felt, pairs.masses[k], overlap);
     result.energy += point.area * law.energy(overlap);
-    result.deepest.take({overlap / point.spacing, pairs.owned[k]});
+    result.deepest.take({overlap / point.spacing, pairs.owned[k], true});
   }
   return result;
 }
@@ -302,19 +283,49 @@ void Surfaces::for_each_normal_force(const Pairs& pairs, const std::function<voi
 
 namespace {
 
-// What the partners of a point must know of it for friction.
+// What the partners of a point must know of the friction on it.
 struct Rubbing {
-  Vector way = Vector::Zero();   // m
-  Vector drag = Vector::Zero();  // the friction on it over its ρ, N
+  Vector drag = Vector::Zero();    // over its ρ, N
+  Vector twist = Vector::Zero();   // θ of their patch, N/m
+  Vector middle = Vector::Zero();  // of their patch, from the point, m
+
+  // What a partner η before the point feels per V W.
+  Vector reaction(const Vector& eta) const { return twist.cross(Vector(eta - middle)) - drag; }
 };
+
+// A force on the point, N, and what it makes of the patch that the point feels.
+Rubbing rubbing_of(const Patch& patch, const Vector& force) {
+  return {force / patch.weight, patch.per_couple * patch.middle.cross(force), patch.middle};
+}
 
 }  // namespace
 
+// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, where the point is, less its own.
+template <class MotionOf>
+Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const MotionOf& motion) const {
+  Vector mean = Vector::Zero(), turning = Vector::Zero();
+  over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    const Vector part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2) * motion(partner);
+    mean += part;
+    turning += (eta - patch.middle).cross(part);
+  });
+  return mean / patch.weight + patch.middle.cross(patch.per_couple * turning) - motion(static_cast<int>(k));
+}
+
+Patch Surfaces::felt_patch(const Pairs& pairs, std::size_t k) const {
+  PatchSums sums;
+  over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    sums.add(pairs.sites[partner].volume() * Smoothing(reach).value(distance2), eta);
+  });
+  return sums.patch();
+}
+
 void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,
                             std::vector<Vector>& force_density, std::vector<Vector>& friction) {
+  std::vector<Vector> ways(pairs.sites.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways[k] = sliding.times * sliding.of[pairs.owned[k]];
+  exchange_records(pairs, ways);
   std::vector<Rubbing> rubbing(pairs.sites.size());
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) rubbing[k].way = sliding.times * sliding.of[pairs.owned[k]];
-  exchange_records(pairs, rubbing);
   friction.assign(pairs.owned.size(), Vector::Zero());
   grips_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
   if (!sliding.is_trial) slips_before_ = slips_;
@@ -322,34 +333,29 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
     Vector& slip = slips_[places_[k]];
     slip.setZero();
     if (!facing_[k].touches()) continue;
-    Vector way = Vector::Zero();
-    double share = 0;
-    over_felt(pairs, k, [&](int partner, const Vector&, double distance2, double reach) {
-      const double part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2);
-      share += part;
-      way += part * rubbing[partner].way;
-    });
+    const Patch patch = felt_patch(pairs, k);
     const Vector normal = gradient_[k].stableNormalized();
-    slip = slips_before_[places_[k]] + (way / share - rubbing[k].way);
+    slip = slips_before_[places_[k]] + slip_of(pairs, k, patch, [&](int site) { return ways[site]; });
     slip -= slip.dot(normal) * normal;
+    slip = bearable(patch, Vector::Zero(), slip);
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
     const double most = coefficient * facing_[k].push * gradient_[k].norm(), wanted = stiffness * slip.norm();
     friction[k] = yielding_spring(most, stiffness, slip);
-    rubbing[k].drag = friction[k] / share;
+    rubbing[k] = rubbing_of(patch, friction[k]);
     if (!sliding.is_trial) continue;
     const bool slides = wanted > most;
     grips_[k] = {.along = friction[k].stableNormalized(),
                  .normal = normal,
                  .spring = slides ? stiffness * most / wanted : stiffness,
                  .by_share = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
-                 .share = share,
+                 .patch = patch,
                  .slides = slides};
   }
   exchange_records(pairs, rubbing);
   if (!any_touches_) return;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    over_feeling(pairs, k, [&](int partner, const Vector&, double distance2, double reach) {
-      friction[k] -= pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].drag;
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+      friction[k] += pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].reaction(-eta);
     });
     force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
   }
@@ -359,6 +365,12 @@ void Surfaces::commit(const std::vector<Vector>& friction) {
   slips_before_ = slips_;
   friction_before_.assign(points_.size(), Vector::Zero());
   for (std::size_t k = 0; k < friction.size(); ++k) friction_before_[places_[k]] = friction[k];
+}
+
+std::vector<Vector> Surfaces::committed_friction() const {
+  std::vector<Vector> friction;
+  for (const int place : places_) friction.push_back(friction_before_[place]);
+  return friction;
 }
 
 double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
@@ -374,39 +386,38 @@ double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& fr
 void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
   struct Change {
     Vector of_place = Vector::Zero();
-    Vector drag = Vector::Zero();  // the change of the friction over ρ
-    double tension = 0;            // κ times the change of ρ
+    Rubbing friction;    // of the change of the friction
+    double tension = 0;  // κ times the change of ρ
   };
   std::vector<Change> changes(pairs.sites.size());
+  std::vector<Vector> drags(pairs.owned.size(), Vector::Zero());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) changes[k].of_place = field[pairs.owned[k]];
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     if (!facing_[k].touches()) continue;
     double share = gradient_[k].dot(changes[k].of_place);
-    Vector way = Vector::Zero();
     over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      const Smoothing around(reach);
-      const double volume = pairs.sites[partner].volume();
-      share += volume * around.slope_over_distance(distance2) * eta.dot(changes[partner].of_place);
-      if (!grips_.empty()) way += volume * around.value(distance2) * changes[partner].of_place;
+      share += pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2) *
+               eta.dot(changes[partner].of_place);
     });
     changes[k].tension = facing_[k].stiffness * share;
     if (grips_.empty()) continue;
     const Grip& grip = grips_[k];
-    Vector slip = way / grip.share - changes[k].of_place;
+    Vector slip = slip_of(pairs, k, grip.patch, [&](int site) { return changes[site].of_place; });
     slip -= slip.dot(grip.normal) * grip.normal;
+    slip = bearable(grip.patch, Vector::Zero(), slip);
     if (grip.slides) slip -= slip.dot(grip.along) * grip.along;
-    changes[k].drag = (grip.spring * slip + grip.by_share * share * grip.along) / grip.share;
+    drags[k] = grip.spring * slip + grip.by_share * share * grip.along;
+    changes[k].friction = rubbing_of(grip.patch, drags[k]);
   }
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    Vector sum = changes[k].tension * gradient_[k];
-    if (!grips_.empty()) sum -= grips_[k].share * changes[k].drag;
+    Vector sum = changes[k].tension * gradient_[k] - drags[k];
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       const Smoothing around(reach);
       const double volume = pairs.sites[k].volume();
       sum -= changes[partner].tension * volume * around.slope_over_distance(distance2) * eta;
-      sum += volume * around.value(distance2) * changes[partner].drag;
+      sum -= volume * around.value(distance2) * changes[partner].friction.reaction(-eta);
     });
     result[pairs.owned[k]] += sum;
   }

@@ -4,8 +4,9 @@
 // opposite, and what a contact has stored it gives back. With a_i = A_i p(g_i)/slope_i and η = y_j − y_i
 //   f_i = Σ_j (a_i V_j W'_i + a_j V_i W'_j) η/|η|.
 //
-// Friction is a spring from each such point to the mean of what it feels, which takes the reaction in the same shares.
-// It yields at μ times the normal force (Coulomb): what sticks does not creep.
+// Friction is a spring from each such point to the patch that it feels, which takes the reaction where the point is: in
+// the same shares, and as a couple (patch.hpp). It yields at μ times the normal force (Coulomb): what sticks does not
+// creep.
 #pragma once
 
 #include <functional>
@@ -15,6 +16,7 @@
 
 #include "base/archive.hpp"
 #include "contact/forces.hpp"
+#include "contact/patch.hpp"
 
 namespace strut::contact {
 
@@ -55,6 +57,7 @@ class Surfaces {
   // What the last trial has come to is where the next ones start. Before that: the work of friction since the last
   // time, by the mean of the forces at both ends, J; `way`: of owned points since then, m.
   void commit(const std::vector<Vector>& friction);
+  std::vector<Vector> committed_friction() const;  // on the owned points of the last search, N
   double friction_work(const Pairs& pairs, const std::vector<Vector>& friction, std::span<const Vector> way) const;
 
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
@@ -82,7 +85,7 @@ class Surfaces {
     Vector normal = Vector::Zero();  // of the surface
     double spring = 0;               // N/m, along the surface; of what slides across its direction only
     double by_share = 0;             // N: the force of what slides, by the change of ρ
-    double share = 1;                // ρ
+    Patch patch;                     // that it feels, seen from the point
     bool slides = false;
   };
 
@@ -92,6 +95,9 @@ class Surfaces {
   void over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   template <class Visit>
   void over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const;
+  Patch felt_patch(const Pairs& pairs, std::size_t k) const;
+  template <class MotionOf>
+  Vector slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const MotionOf& motion) const;
   void set_smallest_reaches(const Pairs& pairs);
   void take_broken(const Domain& domain, const Pairs& pairs);
   void note_touching();

@@ -1,6 +1,7 @@
 // strut: correspondence peridynamics of foams and bars under impact.
 // What it can be told stands in `help`.
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -38,8 +39,10 @@ usage: strut [option] deck.xml              on one core
 
 Files: deck.xml names the mesh (relative to the deck's folder), the result (Exodus II), the history (CSV) and the
 checkpoint (relative to this folder).
-Signals: SIGTERM, SIGINT and SIGUSR1 end a run after the current step, with a last frame and a checkpoint; so does the
-deck's Wall Time.
+A file that is there is replaced only where it is of the kind that is to be written: a result, history, checkpoint or log
+of strut. What a run reads is never written.
+Signals: SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU end a run after the current step, with a last frame and a
+checkpoint; so does the deck's Wall Time. A file that may not grow any more (ulimit -f) is an error, as a full disk is.
 Exit status: 0 done, 1 an error, which is told on standard error, 2 wrong use, 3 ended by a signal or the wall time, also
 of tools/run, which hands the signal on, and of an mpirun that gets SIGUSR1. Open MPI's, where it gets SIGTERM or SIGINT,
 ends with 1, a status of its own, and kills ranks that take longer than a second.
@@ -141,6 +144,7 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
 
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // a write that is too much fails, and is told as a full disk is
   const strut::Communicator world;
   try {
     return reported({argv + 1, argv + argc}, world);

@@ -1,6 +1,7 @@
 // strut-mesh RECIPE OUT.g: bodies of hexahedra or spheres, from a recipe (tools/README.md).
 //   strut-mesh inputs/taylor/bar.recipe bar.g
 // strut-mesh --arrays OUT.g: the mesh that another program hands over on standard input.
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,6 +10,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "io/exodus/exodus.hpp"
 #include "mesh/arrays.hpp"
 #include "mesh/body.hpp"
@@ -18,17 +20,22 @@ namespace {
 
 constexpr std::size_t most_sets = 64;  // that a run can tell apart
 
-// What is read is not written over, by whatever name or link.
+// What is read is not written over.
 void check_output(const std::string& output, const std::filesystem::path& read, const std::string& what) {
-  std::error_code failure;
-  if (!std::filesystem::equivalent(output, read, failure)) return;
-  throw strut::Error(output + " is " + what + "; expected another file for the mesh");
+  if (strut::same_file(output, read))
+    throw strut::Error(output + " is " + what + "; expected another file for the mesh");
+}
+
+// What is there and is no mesh stays.
+void check_replaceable(const std::string& output) {
+  if (const std::string why = strut::obstacle(output, strut::FileKind::mesh); !why.empty()) throw strut::Error(why);
 }
 
 strut::io::Mesh from_recipe(const std::string& recipe, const std::string& output) {
   check_output(output, recipe, "the recipe");
   const std::vector<strut::mesh::Body> bodies = strut::mesh::read_recipe(recipe);
   for (const strut::mesh::Body& body : bodies) check_output(output, body.file, "a mesh that the recipe reads");
+  check_replaceable(output);
   strut::io::Mesh mesh;
   std::string summary;
   for (const strut::mesh::Body& body : bodies) {
@@ -60,6 +67,7 @@ void write(const strut::io::Mesh& mesh, const std::string& source, const std::st
 
 void make(const std::string& source, const std::string& output) {
   if (source != "--arrays") return write(from_recipe(source, output), source, output);
+  check_replaceable(output);
   std::ios::sync_with_stdio(false);
   std::string summary;
   const strut::io::Mesh mesh = strut::mesh::read_arrays(std::cin, "standard input", &summary);
@@ -74,6 +82,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: strut-mesh RECIPE OUT.g\n       strut-mesh --arrays OUT.g < STREAM\n", stderr);
     return EXIT_FAILURE;
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a write that is too much fails, and is told as a full disk is
   try {
     make(argv[1], argv[2]);
   } catch (const std::exception& error) {

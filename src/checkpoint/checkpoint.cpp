@@ -4,14 +4,14 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "base/timing.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 
 namespace strut {
 
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator) {
-  std::error_code failure;
-  const bool there = communicator.rank() == 0 && std::filesystem::exists(deck.restart.file, failure);
+  const bool there = communicator.rank() == 0 && io::checkpoint_is_there(deck.restart.file);
   return communicator.max(there ? 1.0 : 0.0) > 0;
 }
 
@@ -23,14 +23,12 @@ Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator,
       serialize_(std::move(serialize)),
       schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
   schedule_.done(deck.solver.initial_time);
-  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_file()); });
+  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_of(settings_.file)); });
 }
-
-std::filesystem::path Checkpoint::lock_file() const { return settings_.file.string() + ".lock"; }
 
 Checkpoint::~Checkpoint() {
   std::error_code ignored;
-  if (lock_) std::filesystem::remove(lock_file(), ignored);
+  if (lock_) std::filesystem::remove(lock_of(settings_.file), ignored);
 }
 
 void Checkpoint::close() {
@@ -42,7 +40,7 @@ void Checkpoint::load() {
   Snapshot snapshot;
   Archive asks = Archive::saving_to(snapshot);
   serialize_(asks);
-  const std::string deck = io::read_checkpoint(settings_.file, communicator_, snapshot);
+  const auto [deck, note] = io::read_checkpoint(settings_.file, communicator_, snapshot);
   Archive restores = Archive::loading_from(snapshot);
   serialize_(restores);
   last_step_ = static_cast<int>(snapshot.numbers.at("steps"));
@@ -50,6 +48,7 @@ void Checkpoint::load() {
   schedule_.done(last_time_);
   written_ = true;
   if (communicator_.rank() != 0) return;
+  if (!note.empty()) std::cout << "WARNING: " << note << "\n";
   std::cout << "going on from " << settings_.file.string() << ", t = " << last_time_ << " s, step " << last_step_
             << "\n";
   if (deck != deck_text_) std::cout << "note: " << deck_name_ << " is not as it was when this was written\n";

@@ -41,8 +41,6 @@ class Checkpoint {
   std::string hint() const;
 
  private:
-  std::filesystem::path lock_file() const;
-
   deck::Restart settings_;
   std::string deck_name_, deck_text_;
   Communicator communicator_;

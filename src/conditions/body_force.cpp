@@ -4,16 +4,25 @@
 
 namespace strut {
 
+namespace {
+
+// N/m³. What a condition takes of the inertia of a point for another body's bears its own part of the load.
+double load_at(const Function& value, const Body& body, int i, double t) {
+  return body.inertia_share(i) * value_at_point(value, body, i, t);
+}
+
+}  // namespace
+
 void BodyForce::add_forces(double t, Body& body) const {
   for (const int c : components) {
-    for (const int i : points) body.force_density[i][c] += value_at_point(value, body, i, t);
+    for (const int i : points) body.force_density[i][c] += load_at(value, body, i, t);
   }
 }
 
 void BodyForce::add_work(double t, double impulse_time, const Body& body, ImpulseWork& work) const {
   for (const int c : components) {
     for (const int i : points) {
-      const double half_impulse = 0.5 * value_at_point(value, body, i, t) * body.domain.volume(i) * impulse_time;
+      const double half_impulse = 0.5 * load_at(value, body, i, t) * body.domain.volume(i) * impulse_time;
       work.before.*ledger_entry += half_impulse * body.previous_velocity[i][c];
       work.after.*ledger_entry += half_impulse * body.velocity[i][c];
     }

@@ -68,8 +68,8 @@ template <class T>
 concept Reacts = std::is_member_object_pointer_v<decltype(&T::reaction_place)>;
 
 // A deck makes a prototype: what it says of the condition, without points. Set-up completes it.
-//   values_at_points  the functions of the deck that it evaluates at its points: set-up has seen to it that they are
-//                     numbers there
+//   values_at_points  the functions of the deck that it evaluates at its points, or of the time alone: set-up has seen
+//                     to it that they are numbers there at the initial time, solvers ask later (first_not_finite)
 //   on                the condition on these points, at this place in the deck
 template <class T>
 concept IsPrototype = requires(const T& prototype, std::vector<int> points, int place, const Body& body) {
@@ -89,8 +89,9 @@ concept AddsForces = requires(const T& condition, double t, double impulse_time,
   { condition.add_work(t, impulse_time, after, work) } -> std::same_as<void>;
 };
 
-// Where acts_at_start: used by the check for undeclared contact (setup), which looks ahead.
-//   predict_velocities  puts the velocities that it imposes at time t, as a mean over `moment` (s), into `velocities`
+// Where acts_at_start: of the initial velocities, and of the check for undeclared contact (setup), which looks ahead.
+//   predict_velocities  puts the velocities that it imposes at time t, as a mean over `moment` (s) where it imposes
+//                       places, into `velocities`
 template <class T>
 concept PredictsVelocities = requires(const T& condition, double t, double moment, const Body& body,
                                       std::vector<Vector>& velocities) {
@@ -100,9 +101,10 @@ concept PredictsVelocities = requires(const T& condition, double t, double momen
 // All other stages.
 //   change_velocities  changes velocities, as the forces at update.t leave them, to what it allows, and records each
 //                      change. update.steps.of(i) is the time for which the velocity then carries point i on: the next
-//                      step, or the part of it that is the point's own step
+//                      step, or the part of it that is the point's own step; of_impulse(i) the time for which forces
+//                      have acted
 //   in_substeps        its part for the points that move between whole steps; nothing: it does not act there
-//   acts_at_start      initial velocities are changed, too, so that the first step needs no impulse
+//   acts_at_start      initial velocities are changed, too
 template <class T>
 concept ChangesVelocities = requires(const T& condition, VelocityUpdate& update, const MovingPoints& moving) {
   { condition.change_velocities(update) } -> std::same_as<void>;

@@ -22,8 +22,18 @@ void take_turn(const ChangesVelocities auto& condition, VelocityUpdate& update) 
 }  // namespace
 
 void Conditions::add(Condition condition) {
+  for (Function& value : std::visit([](const auto& one) { return one.values_at_points(); }, condition)) {
+    if (!value.is_constant()) expressions_.push_back(std::move(value));
+  }
   const auto later = [](const Condition& one, const Condition& other) { return stage_of(one) < stage_of(other); };
   in_order_.insert(std::upper_bound(in_order_.begin(), in_order_.end(), condition, later), std::move(condition));
+}
+
+std::string Conditions::first_not_finite() const {
+  for (const Function& value : expressions_) {
+    if (const std::string text = value.first_not_finite(); !text.empty()) return text;
+  }
+  return "";
 }
 
 void add_forces(const Conditions& conditions, double t, Body& body) {
@@ -36,17 +46,6 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
                         ImpulseWork& work) {
   conditions.visit([&]<class Type>(const Type& one) {
     if constexpr (Type::stage == Stage::forces) one.add_work(t, impulse_time, body, work);
-  });
-}
-
-void change_initial_velocities(const Conditions& conditions, double t, double dt, Body& body) {
-  ReactionImpulses none;
-  const PointTimeSteps steps{dt};
-  VelocityUpdate update{t, steps, body, none};
-  conditions.visit([&]<class Type>(const Type& one) {
-    if constexpr (Type::stage != Stage::forces) {
-      if constexpr (Type::acts_at_start) take_turn(one, update);
-    }
   });
 }
 

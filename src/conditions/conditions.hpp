@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -23,8 +24,13 @@ class Conditions {
     for (const Condition& one : in_order_) std::visit(visit, one);
   }
 
+  // Of the values on this rank so far, the first that was no number: where it stands in the deck, time and place. ""
+  // where all are.
+  std::string first_not_finite() const;
+
  private:
   std::vector<Condition> in_order_;
+  std::vector<Function> expressions_;
 };
 
 // Adds the forces of conditions at time t (s) to the force density.
@@ -33,9 +39,6 @@ void add_forces(const Conditions& conditions, double t, Body& body);
 // Adds the work of these forces over the time of an impulse (s), once velocities are final.
 void add_work_of_forces(const Conditions& conditions, double t, double impulse_time, const Body& body,
                         ImpulseWork& work);
-
-// Changes the initial velocities to what conditions impose on them at time t, so that the first step needs no impulse.
-void change_initial_velocities(const Conditions& conditions, double t, double dt, Body& body);
 
 // Changes the velocities after the impulse of forces at time t, which carry each point on for its step, to what the
 // conditions allow. Adds the work of these changes, and the impulses of conditions that have a reaction.

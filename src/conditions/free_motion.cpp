@@ -22,13 +22,10 @@ void FreeMotion::advance(double t, double dt, const Body& body) {
   for (int c = 0; c < 3; ++c) {
     if (force[c]) load[c] = (*force[c])(0, 0, 0, t);
   }
-  if (!begun) {
-    velocity -= 0.5 * dt / mass * load;  // the initial velocity is that of the initial time
-    step = dt, begun = true;
-  } else {
-    offset = offset_at(t);
-  }
+  if (begun) offset = offset_at(t);
+  begun = true;  // by half an impulse: the initial velocity is that of the initial time
   before = velocity, time = t;
+  mid_steps.before = step / (step + dt);
   force_impulse = 0.5 * (step + dt) * load;
   owed_impulse = sum_of_points(body, owed);
   owed.assign(owed.size(), Vector::Zero());

@@ -8,6 +8,7 @@
 #include "base/archive.hpp"
 #include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
+#include "conditions/mid_steps.hpp"
 
 namespace strut {
 
@@ -22,7 +23,8 @@ struct FreeMotion {
 
   Vector before = Vector::Zero();  // m/s, over the step before
   Vector offset = Vector::Zero();  // m, how far it has come at `time`
-  double time = 0, step = 0;       // s
+  double time = 0, step = 0;       // s; the step that begins at `time`
+  MidSteps mid_steps;
   bool begun = false;
   std::vector<Vector> owed = {};  // N s, what it has given to the points of this rank in substeps since; may be empty
 
@@ -33,8 +35,9 @@ struct FreeMotion {
   // It has given this impulse (N s) to the points of all ranks at `time`. Adds its work and that of the force on it.
   void push_back(const Vector& impulse, const Body& body, ImpulseWork& work);
 
-  // m v²/2 with the velocities before and after a time: what central differences conserve, J.
-  double kinetic_energy() const { return 0.5 * mass * before.dot(velocity); }
+  double kinetic_energy() const {  // J, at `time`
+    return 0.5 * mass * mid_steps.conserved_square(mid_steps.velocity(before, velocity), velocity);
+  }
 
   void serialize(Archive& archive, const std::string& name, int owned);  // at the group of all owned points
 

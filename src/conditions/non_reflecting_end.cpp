@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "conditions/velocity_update.hpp"
 
@@ -15,26 +16,35 @@ double dragged(double before, double change, double rate, double dt) {
   return (before * (1 - 0.5 * rate * dt) + change) / (1 + 0.5 * rate * dt);
 }
 
+// Of the volume that normals span: less is none, for they are in one plane, or two of them one.
+constexpr double least_span = 0.1;
+
+double span(const std::vector<Vector>& normals) {
+  if (normals.size() == 2) return normals[0].cross(normals[1]).norm();
+  return normals.size() == 3 ? std::abs(normals[0].cross(normals[1]).dot(normals[2])) : normals.size() < 2;
+}
+
 }  // namespace
 
-NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int, const Body& body) const {
-  NonReflectingEnd end{normal};
+NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int at, const Body& body) const {
+  NonReflectingEnd end{.normal = normal, .place = at};
   for (const int i : points) {
     const BlockMaterial& material = body.blocks[body.domain.cloud.blocks[i]].material;
     const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, material.law);
     const double s = body.domain.cloud.spacings[i];
     end.drags.push_back({.point = i,
                          .along = 2 / s * std::sqrt(moduli.longitudinal() / material.density),
-                         .across = 2 / s * std::sqrt(moduli.shear / material.density),
-                         .gain = std::max(1.0, 2 * body.domain.volume(i) / (s * s * s))});
+                         .across = 2 / s * std::sqrt(moduli.shear / material.density)});
   }
   return end;
 }
 
+// Where ends meet, one acts after the other on what the ones before leave: the drag of both together but for the
+// product of their rates over a step, and no less stable.
 void NonReflectingEnd::change_velocities(VelocityUpdate& update) const {
-  for (const auto& [i, along, across, gain] : drags) {
-    const Vector before = update.body.previous_velocity[i], change = gain * (update.body.velocity[i] - before);
-    const double speed = normal.dot(before), push = normal.dot(change), dt = update.steps.of(i);
+  for (const auto& [i, along, across] : drags) {
+    const Vector before = update.body.previous_velocity[i], change = update.body.velocity[i] - before;
+    const double speed = normal.dot(before), push = normal.dot(change), dt = update.steps.of_impulse(i);
     const Vector sliding = before - speed * normal, shear = change - push * normal;
     Vector& v = update.body.velocity[i];
     const Vector before_end = v;
@@ -48,6 +58,25 @@ std::optional<NonReflectingEnd> NonReflectingEnd::in_substeps(const MovingPoints
   NonReflectingEnd part = *this;
   std::erase_if(part.drags, [&](const Drag& drag) { return !moving.include(drag.point); });
   return part;
+}
+
+// The share of the full angle: of a wedge by the angle between its faces, of a trihedral corner by Girard's theorem.
+double part_within(const std::vector<Vector>& normals) {
+  const auto between = [&](std::size_t a, std::size_t b) {
+    return std::acos(std::clamp(normals[a].dot(normals[b]), -1.0, 1.0));
+  };
+  const double pi = std::numbers::pi;
+  if (span(normals) < least_span) return 0;
+  switch (normals.size()) {
+    case 0:
+      return 1;
+    case 1:
+      return 0.5;
+    case 2:
+      return (pi - between(0, 1)) / (2 * pi);
+    default:
+      return (2 * pi - between(0, 1) - between(1, 2) - between(2, 0)) / (4 * pi);
+  }
 }
 
 }  // namespace strut

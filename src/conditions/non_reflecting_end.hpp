@@ -15,10 +15,10 @@ struct NonReflectingEnd {
   struct Drag {
     int point;
     double along, across;  // traction over speed and mass of half a layer: 2 c_p/s and 2 c_s/s, s the spacing; 1/s
-    double gain;           // mass of the point over that of half a layer
   };
   Vector normal = Vector::UnitX();  // of unit length
   std::vector<Drag> drags = {};
+  int place = 0;  // in the deck
 
   static constexpr Stage stage = Stage::drags;
   static constexpr double Work::*ledger_entry = &Work::external;
@@ -29,12 +29,18 @@ struct NonReflectingEnd {
       "motion, a load, a plane or a tool";
 
   std::vector<Function> values_at_points() const { return {}; }
-  // The drags are by the moduli of the undeformed blocks.
-  NonReflectingEnd on(std::vector<int> points, int, const Body& body) const;
+  // The drags are by the moduli of the undeformed blocks. What is beyond the ends still has to be taken off the inertia
+  // of the points: part_within, of all ends of a point together.
+  NonReflectingEnd on(std::vector<int> points, int place, const Body&) const;
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<NonReflectingEnd> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = false;
 };
+
+// The part of a whole cell that is within ends through its middle with these outward normals (of unit length): half of
+// it within one, a quarter at an edge of a box, an eighth at a corner; 0 where they are more than three, in
+// one plane, or two of them one.
+double part_within(const std::vector<Vector>& normals);
 
 }  // namespace strut

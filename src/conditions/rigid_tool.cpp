@@ -83,6 +83,14 @@ constexpr double accuracy = 1e-12;  // of the tool's velocity: what is left chan
 
 }  // namespace
 
+std::vector<Function> RigidTool::values_at_points() const {
+  std::vector<Function> all;
+  for (const std::optional<Function>& one : free ? free->force : travel) {
+    if (one) all.push_back(*one);
+  }
+  return all;
+}
+
 Vector RigidTool::offset(double t) const {
   if (free) return free->offset_at(t);
   Vector sum = Vector::Zero();

@@ -49,7 +49,7 @@ struct RigidTool {
   static constexpr double Work::*ledger_entry = &Work::tools;
   static constexpr InEquilibria in_equilibria = InEquilibria::tool;
 
-  std::vector<Function> values_at_points() const { return {}; }
+  std::vector<Function> values_at_points() const;  // of the time alone
   RigidTool on(std::vector<int> all, int place, const Body&) const {
     return {std::move(all), shape, travel, friction, place, free ? std::make_shared<FreeMotion>(*free) : nullptr};
   }

@@ -6,14 +6,18 @@ namespace strut {
 
 void SymmetryPlane::change_velocities(VelocityUpdate& update) const {
   for (const int i : points) {
-    const Vector change = -normal.dot(update.body.velocity[i]) * normal;
+    const Vector change = -normal.dot(update.body.velocity[i]) * push.value_or(normal);
     update.body.velocity[i] += change;
     update.record(i, change);
   }
 }
 
 std::optional<SymmetryPlane> SymmetryPlane::in_substeps(const MovingPoints& moving) const {
-  return SymmetryPlane{moving.among(points), normal, reaction_place};
+  return SymmetryPlane{moving.among(points), normal, reaction_place, push};
+}
+
+void SymmetryPlane::predict_velocities(double, double, const Body&, std::vector<Vector>& velocities) const {
+  for (const int i : points) velocities[i] -= normal.dot(velocities[i]) * normal;
 }
 
 std::vector<HeldDirection> SymmetryPlane::held_directions(const Body& body, double, double) const {

@@ -14,6 +14,9 @@ struct SymmetryPlane {
   std::vector<int> points = {};
   Vector normal = Vector::UnitX();  // of unit length
   int reaction_place = no_reaction;
+  // Along the normal in the directions that other conditions leave free: what takes 1 m/s along it from a point.
+  // Without: the normal.
+  std::optional<Vector> push = {};
 
   static constexpr Stage stage = Stage::planes;
   static constexpr double Work::*ledger_entry = &Work::external;
@@ -25,8 +28,7 @@ struct SymmetryPlane {
   void change_velocities(VelocityUpdate& update) const;
   std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = true;
-  // Nothing: the plane sets nothing in motion.
-  void predict_velocities(double, double, const Body&, std::vector<Vector>&) const {}
+  void predict_velocities(double t, double moment, const Body& body, std::vector<Vector>& velocities) const;
   std::vector<HeldDirection> held_directions(const Body& body, double t, double dt) const;
 };
 

@@ -16,9 +16,11 @@ namespace strut {
 struct PointTimeSteps {
   double whole;                                       // s
   const std::vector<std::uint8_t>* levels = nullptr;  // of owned points; none if null or empty
+  double impulse = 1;  // the time that the impulse of forces stands for, the mean of two steps, as a part of the next
 
   int level(int i) const { return !levels || levels->empty() ? 0 : (*levels)[i]; }
   double of(int i) const { return level(i) == 0 ? whole : std::ldexp(whole, -level(i)); }
+  double of_impulse(int i) const { return impulse * of(i); }
 };
 
 // What one condition after the other does to the velocities at the time t, and a record of it: reactions are summed up

@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "deck/check.hpp"
 #include "deck/numbers.hpp"
 #include "deck/peridigm/peridigm.hpp"
@@ -41,15 +42,36 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   return deck;
 }
 
+std::vector<WrittenFile> written_files(const Deck& deck) {
+  std::vector<WrittenFile> written;
+  if (deck.output.enabled) {
+    written.push_back({"Output > Output Filename", "Output", deck.output.file, FileKind::result});
+  }
+  if (deck.history.enabled) written.push_back({"History > Filename", "History", deck.history.file, FileKind::history});
+  if (!deck.restart.enabled) return written;
+  const fs::path& checkpoint = deck.restart.file;
+  for (const auto& [file, kind] : {std::pair(checkpoint, FileKind::unchecked),
+                                   {before_of(checkpoint), FileKind::unchecked},
+                                   {part_of(checkpoint), FileKind::checkpoint},
+                                   {lock_of(checkpoint), FileKind::lock}}) {
+    written.push_back({"Restart > Filename", "Restart", file, kind});
+  }
+  return written;
+}
+
+std::vector<ReadFile> read_files(const Deck& deck) {
+  std::vector<ReadFile> read{{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}};
+  for (const NodeSet& set : deck.node_sets) {
+    if (!set.file.empty()) read.push_back({"the file of node set '" + set.name + "'", set.file});
+  }
+  return read;
+}
+
 // Files are looked at on one rank only: the others may not see them, and need not.
 void look_at_files(Deck& deck, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   read_numbers(deck.node_sets, problems);
-  std::vector<WrittenFile> written;
-  if (deck.output.enabled) written.push_back({"Output > Output Filename", "Output", deck.output.file});
-  if (deck.history.enabled) written.push_back({"History > Filename", "History", deck.history.file});
-  if (deck.restart.enabled) written.push_back({"Restart > Filename", "Restart", deck.restart.file});
-  check_files(written, {{"the input mesh", deck.discretization.mesh}, {"this deck", deck.file}}, problems);
+  check_files(written_files(deck), read_files(deck), problems);
 }
 
 bool is_xml(const std::string& text) {
@@ -59,17 +81,14 @@ bool is_xml(const std::string& text) {
 
 enum class FileCheck { no, yes };
 
-Deck parse(const std::string& text, const fs::path& file, FileCheck file_check) {
-  Problems problems;
-  Deck deck;
-  if (auto list = is_xml(text) ? parse_xml(text, problems) : parse_yaml(text, problems)) {
-    translate_peridigm(*list, problems);
-    const Values values = check(*list, schema(), "", problems);
-    deck = build(values, file, problems);
-    deck.text = text;
-    if (file_check == FileCheck::yes) look_at_files(deck, problems);
-  }
-  problems.raise(file.string());
+Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, Problems& problems) {
+  auto list = is_xml(text) ? parse_xml(text, problems) : parse_yaml(text, problems);
+  if (!list) problems.raise(file.string());
+  translate_peridigm(*list, problems);
+  const Values values = check(*list, schema(), "", problems);
+  Deck deck = build(values, file, problems);
+  deck.text = text;
+  if (file_check == FileCheck::yes) look_at_files(deck, problems);
   deck.notes = problems.notes();
   return deck;
 }
@@ -92,18 +111,26 @@ std::string contents(const fs::path& file) {
 
 }  // namespace
 
-Deck read(const fs::path& file, const Communicator& communicator) {
+Deck read(const fs::path& file, const Communicator& communicator, Problems& problems) {
   std::string text;
   Deck deck;
   run_on_root(communicator, [&] {
     text = contents(file);
-    deck = parse(text, file, FileCheck::yes);
+    deck = parse(text, file, FileCheck::yes, problems);
   });
   communicator.broadcast(text);
-  if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no);
+  if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no, problems);
+  for (const std::string& line : broadcast_names(problems.lines(), communicator)) problems.add(line);
   for (NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) communicator.broadcast(*set.numbers);
   }
+  return deck;
+}
+
+Deck read(const fs::path& file, const Communicator& communicator) {
+  Problems problems;
+  Deck deck = read(file, communicator, problems);
+  problems.raise(file.string());
   return deck;
 }
 

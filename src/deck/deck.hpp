@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "deck/problems.hpp"
 #include "deck/sections/blocks.hpp"
 #include "deck/sections/conditions.hpp"
 #include "deck/sections/contact.hpp"
@@ -48,6 +49,9 @@ struct Deck {
 // Collective. Reads and checks `file`; throws one Error on all ranks that lists every problem, each with its path
 // (Blocks > foam > Horizon), the value, what was expected with its unit, and the nearest valid name.
 Deck read(const std::filesystem::path& file, const Communicator& communicator);
+// The same, but what is wrong is added to `problems`, so that more may be found; what the deck has in the place of that
+// is zero, empty or false. Throws where the file is no deck at all.
+Deck read(const std::filesystem::path& file, const Communicator& communicator, Problems& problems);
 
 // The reference page of all keys (Markdown), generated from the schema.
 std::string reference_page();

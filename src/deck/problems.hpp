@@ -14,6 +14,11 @@ class Problems {
 
   void add(const std::string& line);  // path and what in one; what has been said is not said again
 
+  bool empty() const { return lines_.empty(); }
+  const std::vector<std::string>& lines() const { return lines_; }
+  // Whether any is of this path, or of one within it.
+  bool about(const std::string& path) const;
+
   // What is accepted but told: "Contact > Search Radius has no effect here: …".
   void note(const std::string& path, const std::string& what) { notes_.push_back(path + " " + what); }
   const std::vector<std::string>& notes() const { return notes_; }

@@ -34,13 +34,13 @@ class Values {
   template <class T>
   T operator[](const TypedKey<T>& key) const {
     const T* value = find<T>(key);
-    return value ? *value : nothing<T>();
+    return value ? with_path(*value, key) : nothing<T>();
   }
 
   template <class T>
   std::optional<T> operator[](const OptionalKey<T>& key) const {
     const T* value = find<T>(key);
-    return value ? std::optional<T>(*value) : std::nullopt;
+    return value ? std::optional<T>(with_path(*value, key)) : std::nullopt;
   }
 
   template <class T>
@@ -97,6 +97,13 @@ class Values {
   const T* find(const Key& key) const {
     expect_declared(key);
     return std::get_if<T>(value(key.name));
+  }
+
+  // An expression says where it stands, later in the run, too.
+  template <class T>
+  T with_path(T value, const Key& key) const {
+    if constexpr (std::is_same_v<T, Function>) value.set_path(path_to(key));
+    return value;
   }
 
   template <class T>

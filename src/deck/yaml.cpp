@@ -4,8 +4,11 @@
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_YamlParameterListCoreHelpers.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "deck/numbers.hpp"
@@ -58,13 +61,46 @@ List read_list(const Teuchos::ParameterList& yaml, const std::string& path, Prob
   return list;
 }
 
+// Teuchos wants one key around all. A deck whose sections are the outermost keys is put into one.
+const std::string outermost = "deck:\n", indent = "  ";
+
+bool has_one_outermost_key(const std::string& text) {
+  std::istringstream lines(text);
+  int keys = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool begins_here = !line.empty() && std::string_view(" \t\r#%-.").find(line[0]) == std::string_view::npos;
+    keys += begins_here && line.find(':') != std::string::npos ? 1 : 0;
+  }
+  return keys <= 1;
+}
+
+std::string within_one_key(const std::string& text) {
+  std::istringstream lines(text);
+  std::string all = outermost;
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_mark = line.starts_with("---") || line.starts_with("...") || line.starts_with("%");
+    all += (is_mark ? "#" : line.empty() ? "" : indent) + line + "\n";
+  }
+  return all;
+}
+
+// "line 2 column 3", as in the text before it was put into one key.
+std::string place_in_deck(const std::string& place, bool was_put_into_one) {
+  int line = 0, column = 0;
+  if (!was_put_into_one || std::sscanf(place.c_str(), "line %d column %d", &line, &column) != 2) return place;
+  return "line " + std::to_string(line - 1) + " column " +
+         std::to_string(std::max(1, column - static_cast<int>(indent.size())));
+}
+
 // Of Teuchos' many lines: "Parser failure at line 2 column 3 of …" and, if it has one, its own last word.
-void add_syntax_error(const std::string& what, Problems& problems) {
+void add_syntax_error(const std::string& what, bool was_put_into_one, Problems& problems) {
   const std::string mark = "Parser failure at ";
   const std::size_t begin = what.find(mark);
-  const std::string place = begin == std::string::npos
-                                ? "YAML"
-                                : what.substr(begin + mark.size(), what.find(" of ", begin) - begin - mark.size());
+  const std::string place =
+      begin == std::string::npos
+          ? "YAML"
+          : place_in_deck(what.substr(begin + mark.size(), what.find(" of ", begin) - begin - mark.size()),
+                          was_put_into_one);
   const std::size_t twice = what.find("already exists"),
                     name = twice == std::string::npos ? twice : what.rfind('\n', twice);
   if (twice != std::string::npos && name != std::string::npos) {
@@ -95,10 +131,12 @@ std::optional<List> parse_yaml(const std::string& text, Problems& problems) {
     problems.add("YAML", "more than a hundred levels; expected few");
     return std::nullopt;
   }
+  const bool put_into_one = !has_one_outermost_key(text);
   try {
-    return read_list(*Teuchos::getParametersFromYamlString(text), "", problems);
+    const auto yaml = Teuchos::getParametersFromYamlString(put_into_one ? within_one_key(text) : text);
+    return read_list(*yaml, "", problems);
   } catch (const std::exception& error) {
-    add_syntax_error(error.what(), problems);
+    add_syntax_error(error.what(), put_into_one, problems);
   }
   return std::nullopt;
 }

@@ -215,6 +215,8 @@ struct Body {
     return std::any_of(blocks.begin(), blocks.end(), [&](const MaterialBlock& b) { return b.has_springs(residual); });
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
+  // What is its own of the inertia of its cell, 1 but where a condition takes a part for another body's.
+  double inertia_share(int i) const { return density[i] / block_of(i).material.density; }
   Vector current(int i) const { return domain.current(i); }
   // The law point of block.points[k] at the place q.
   const MaterialPoint& law_point(const MaterialBlock& block, std::size_t k, int q) const {

@@ -11,7 +11,8 @@ namespace strut {
 
 inline constexpr int site_stride = sizeof(Site) / sizeof(double);
 
-inline double* places(std::vector<Site>& sites) { return sites.data()->current.data(); }
+// The present places, for a halo: none on a rank without points.
+inline double* places(std::vector<Site>& sites) { return sites.empty() ? nullptr : sites[0].current.data(); }
 
 // Runs `interior` while the halo of `data` is under way, then `boundary`.
 template <class Interior, class Boundary>

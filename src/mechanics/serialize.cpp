@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "mechanics/fracture/fracture.hpp"
+#include "mechanics/passes.hpp"
 
 namespace strut {
 
@@ -106,7 +107,7 @@ void serialize(Archive& archive, Body& body) {
   serialize_motion(archive, body);
   keep_points(archive, body);
   if (archive.loading()) {
-    body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+    body.domain.halo.exchange(places(body.domain.sites), site_stride, 3);
   }
   if (body.fracture) body.fracture->serialize(archive, body);
 }

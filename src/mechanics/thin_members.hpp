@@ -5,15 +5,18 @@
 
 namespace strut {
 
-// Collective. 4 volume/surface of a block in spacings: of round and square rods their thickness, of plates twice that.
-// 0 where the surface is not known: points that stand on no lattice or are not bonded to all around them, and bring no
-// shapes. The surface is that of the cells where points have shapes; otherwise it is counted by Crofton's formula, from
-// the directions to the 26 neighbors of a lattice in which there is none (weights: Ohser & Mücklich 2000).
-double thickness_of(const Domain& domain, int block);
+// Collective. 4 volume/surface of each block in spacings: of round and square rods their thickness, of plates twice
+// that. Within a seventh where it is a hundred at most, else 0, of any mesh in any direction, for the surface is told
+// by what is missing of the material around points. What blocks of one body have in common is no surface.
+std::vector<double> thicknesses(const Domain& domain);
 
 // The share of the bending stiffness that struts so many spacings thick keep, by tests/reference/bench_thin_members
 // (elements; mean gradient at a horizon of 1.75 spacings and of 3; cells that know what is in them). 1 where nothing is
 // known or nothing is lost.
 double bending_stiffness_kept(Formulation formulation, double horizon, double thickness);
+
+// Young's modulus of bars so many spacings thick of ordinary points, in that of the material, as it was found; between
+// what was measured, in between. Horizon in spacings. 1 where the members are thicker than what was measured.
+double tension_stiffness_found(Influence influence, double horizon, double thickness);
 
 }  // namespace strut

@@ -145,7 +145,8 @@ Observable fragment() {
 std::vector<Observable> fixed_properties() {
   return {
       observable("Volume", "reference volume, m³", [](const Body& b, int i) { return b.domain.volume(i); }),
-      observable("Density", "in the reference state, kg/m³", [](const Body& b, int i) { return b.density[i]; }),
+      observable("Density", "in the reference state, kg/m³",
+                 [](const Body& b, int i) { return b.block_of(i).material.density; }),
       observable("Horizon", "δ, m", [](const Body& b, int i) { return b.domain.horizon(i); }),
       weighted_volume(),
       observable("Number_Of_Neighbors", "size of the family",

@@ -17,7 +17,7 @@ void FieldWriter::open(const Body& body) {
   if (!enabled_) return;
   std::vector<io::OutputField> fields;
   for (const Observable& v : variables_) fields.push_back({v.name, v.components, v.nodal});
-  writer_.emplace(file_, body.domain.communicator, whole_cloud(body.domain), std::move(fields), before_);
+  writer_.emplace(file_, body.domain.communicator, whole_cloud(body.domain), std::move(fields), before_, sum_);
 }
 
 void FieldWriter::write(double time, const Body& body) {
@@ -32,9 +32,10 @@ void FieldWriter::write(double time, const Body& body) {
 void FieldWriter::serialize(Archive& archive, double time) {
   if (writer_) {
     writer_->sync();
-    before_ = writer_->frames();
+    before_ = writer_->frames(), sum_ = writer_->sum();
   }
   archive.number("frames", before_);
+  archive.number("frames_sum", sum_);
   archive.number("last_frame", last_);
   schedule.serialize(archive, "frames", time);
 }
@@ -78,7 +79,7 @@ void History::open(const Body& body) {
     for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
   for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
-  file_.emplace(path_, body.domain.communicator, columns, before_);
+  file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
 }
 
 // On this rank; of a column each.
@@ -155,9 +156,10 @@ void History::write(const Ledger& now, const Reactions& reactions, const contact
 void History::serialize(Archive& archive, double time) {
   if (file_) {
     file_->sync();
-    before_ = file_->bytes();
+    before_ = file_->bytes(), sum_ = file_->sum();
   }
   archive.number("history_bytes", before_);
+  archive.number("history_sum", sum_);
   archive.number("last_line", last_);
   schedule.serialize(archive, "history", time);
   for (CrackTip& crack : cracks_) crack.serialize(archive);

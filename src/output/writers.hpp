@@ -40,6 +40,7 @@ class FieldWriter {
   std::vector<Observable> variables_;
   std::vector<std::vector<double>> columns_;
   int before_ = 0;  // frames that a restored run finds
+  double sum_ = 0;  // their check sum
   std::optional<io::ExodusWriter> writer_;
 };
 
@@ -77,6 +78,7 @@ class History {
   bool has_means_;              // equilibria have none: all forces are those of the time
   MeanForces means_of_forces_;  // of reactions_, then contacts_
   std::int64_t before_ = 0;     // bytes that a restored run finds
+  double sum_ = 0;              // their check sum
   std::optional<io::HistoryFile> file_;
 };
 
@@ -98,17 +100,18 @@ struct OutputWriters {
     history.serialize(archive, time);
   }
   // Collective. Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked
-  // where a line is written. Returns its ledger.
+  // where a line is written. Returns the ledger where there is either.
   template <class Solver, class OfConditions>
   std::optional<Ledger> write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
     const double now = solver.time();
     const auto wanted = [&](const auto& sink) {
       return sink.enabled() && !sink.has(now) && (last || sink.schedule.due(solver.steps(), now));
     };
-    if (wanted(frames)) frames.write(now, body);
-    if (!wanted(history)) return std::nullopt;
+    const bool frame = wanted(frames), line = wanted(history);
+    if (!frame && !line) return std::nullopt;
+    if (frame) frames.write(now, body);
     const Ledger ledger = solver.ledger();
-    history.write(ledger, reactions(), solver.contact(), body);
+    if (line) history.write(ledger, reactions(), solver.contact(), body);
     return ledger;
   }
 

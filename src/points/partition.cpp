@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <utility>
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 
 namespace strut {
 
@@ -55,27 +55,14 @@ void append(PointCloud& cloud, const PointCloud& from, std::size_t i) {
   if (!from.joints.empty()) cloud.joints.push_back(from.joints[i]);
 }
 
-// To and from the bytes of a parcel, one thing after the other.
-template <class T>
-void put(char*& place, const T* values, std::size_t count) {
-  std::memcpy(place, values, count * sizeof(T));
-  place += count * sizeof(T);
-}
-template <class T>
-void take(const char*& place, T* values, std::size_t count) {
-  std::memcpy(values, place, count * sizeof(T));
-  place += count * sizeof(T);
-}
-
-// What Zoltan's callbacks read and fill.
-struct Migration {
-  const PointCloud& from;
+// What Zoltan's callbacks read.
+struct Parted {
+  const PointCloud& cloud;
   const std::vector<double>& costs;
   Vector lengths;
-  PointCloud arrived;
 };
 
-const PointCloud& cloud_of(void* data) { return static_cast<Migration*>(data)->from; }
+const PointCloud& cloud_of(void* data) { return static_cast<const Parted*>(data)->cloud; }
 
 int count(void* data, int* error) {
   *error = ZOLTAN_OK;
@@ -84,7 +71,7 @@ int count(void* data, int* error) {
 
 void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int weights, float* weight, int* error) {
   const PointCloud& cloud = cloud_of(data);
-  const std::vector<double>& costs = static_cast<Migration*>(data)->costs;
+  const std::vector<double>& costs = static_cast<const Parted*>(data)->costs;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     global[i] = static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]);
     local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
@@ -99,41 +86,8 @@ int dimensions(void*, int* error) {
 }
 
 void place(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* position, int* error) {
-  Eigen::Map<Vector>{position} = cloud_of(data).positions[*local].cwiseProduct(static_cast<Migration*>(data)->lengths);
-  *error = ZOLTAN_OK;
-}
-
-int parcel_size(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int* error) {
-  *error = ZOLTAN_OK;
-  const Parcel parcel = packed(cloud_of(data), *local);
-  return static_cast<int>(sizeof parcel + (parcel.has_shape ? sizeof(ShapeNumbers) : 0) +
-                          parcel.joints * sizeof(std::int64_t));
-}
-
-void pack(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int, int, char* buffer, int* error) {
-  const PointCloud& cloud = cloud_of(data);
-  const Parcel parcel = packed(cloud, *local);
-  put(buffer, &parcel, 1);
-  if (parcel.has_shape) put(buffer, numbers_of(cloud.shapes[*local]).data(), ShapeNumbers().size());
-  if (parcel.has_joints) put(buffer, cloud.joints[*local].data(), parcel.joints);
-  *error = ZOLTAN_OK;
-}
-
-void unpack(void* data, int, ZOLTAN_ID_PTR, int, char* buffer, int* error) {
-  PointCloud& cloud = static_cast<Migration*>(data)->arrived;
-  const char* place = buffer;
-  Parcel parcel;
-  take(place, &parcel, 1);
-  append(cloud, parcel);
-  if (parcel.has_shape) {
-    ShapeNumbers numbers;
-    take(place, numbers.data(), numbers.size());
-    cloud.shapes.push_back(shape_of(numbers));
-  }
-  if (parcel.has_joints) {
-    std::vector<std::int64_t>& joints = cloud.joints.emplace_back(parcel.joints);
-    take(place, joints.data(), joints.size());
-  }
+  Eigen::Map<Vector>{position} =
+      cloud_of(data).positions[*local].cwiseProduct(static_cast<const Parted*>(data)->lengths);
   *error = ZOLTAN_OK;
 }
 
@@ -141,7 +95,7 @@ void require(int status, const char* what) {
   if (status != ZOLTAN_OK && status != ZOLTAN_WARN) throw Error(std::string("Zoltan failed to ") + what);
 }
 
-Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
+Zoltan started_zoltan(const Communicator& communicator, Parted& parted) {
   float version = 0;
   require(Zoltan_Initialize(0, nullptr, &version), "start");
   const auto mpi = Teuchos::rcp_dynamic_cast<const Teuchos::MpiComm<int>>(communicator.teuchos());
@@ -150,13 +104,10 @@ Zoltan started_zoltan(const Communicator& communicator, Migration& migration) {
   zoltan.Set_Param("LB_METHOD", "RCB");
   zoltan.Set_Param("RETURN_LISTS", "EXPORT");
   zoltan.Set_Param("OBJ_WEIGHT_DIM", "1");
-  zoltan.Set_Num_Obj_Fn(count, &migration);
-  zoltan.Set_Obj_List_Fn(list, &migration);
-  zoltan.Set_Num_Geom_Fn(dimensions, &migration);
-  zoltan.Set_Geom_Fn(place, &migration);
-  zoltan.Set_Obj_Size_Fn(parcel_size, &migration);
-  zoltan.Set_Pack_Obj_Fn(pack, &migration);
-  zoltan.Set_Unpack_Obj_Fn(unpack, &migration);
+  zoltan.Set_Num_Obj_Fn(count, &parted);
+  zoltan.Set_Obj_List_Fn(list, &parted);
+  zoltan.Set_Num_Geom_Fn(dimensions, &parted);
+  zoltan.Set_Geom_Fn(place, &parted);
   return zoltan;
 }
 
@@ -170,30 +121,62 @@ PointCloud emptied(const PointCloud& cloud) {
   return result;
 }
 
-// In the form in which Zoltan takes what leaves a rank.
-struct Exports {
-  std::vector<ZOLTAN_ID_TYPE> ids, places;
-  std::vector<int> ranks;
+// What goes to each rank, one rank after the other; shapes and joints only where there are any.
+struct Load {
+  std::vector<Parcel> parcels;
+  std::vector<ShapeNumbers> shapes;
+  std::vector<std::int64_t> joints;
 };
 
-PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator) {
-  const std::vector<double> no_costs;
-  Migration migration{cloud, no_costs, Vector::Ones(), emptied(cloud)};
-  Exports leaving;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (ranks[i] == communicator.rank()) {
-      append(migration.arrived, cloud, i);
-      continue;
-    }
-    leaving.ids.push_back(static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]));
-    leaving.places.push_back(static_cast<ZOLTAN_ID_TYPE>(i));
-    leaving.ranks.push_back(ranks[i]);
+// How many of each go to, or come from, each rank.
+struct Counts {
+  std::vector<std::int64_t> parcels, shapes, joints;
+
+  explicit Counts(int ranks) : parcels(ranks, 0), shapes(parcels), joints(parcels) {}
+  void add(int rank, const Parcel& parcel) {
+    ++parcels[rank];
+    shapes[rank] += parcel.has_shape;
+    joints[rank] += parcel.joints;
   }
-  Zoltan zoltan = started_zoltan(communicator, migration);
-  require(zoltan.Migrate(-1, nullptr, nullptr, nullptr, nullptr, static_cast<int>(leaving.ids.size()),
-                         leaving.ids.data(), leaving.places.data(), leaving.ranks.data(), leaving.ranks.data()),
-          "move the points");
-  return std::move(migration.arrived);
+};
+
+// Not by Zoltan, whose messages end at 2 GB.
+PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator) {
+  std::vector<int> order(cloud.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&ranks](int i) { return ranks[i]; });
+  Load leaving;
+  Counts to(communicator.size()), from(communicator.size());
+  for (const int i : order) {
+    leaving.parcels.push_back(packed(cloud, i));
+    to.add(ranks[i], leaving.parcels.back());
+    if (!cloud.shapes.empty()) leaving.shapes.push_back(numbers_of(cloud.shapes[i]));
+    if (!cloud.joints.empty()) {
+      leaving.joints.insert(leaving.joints.end(), cloud.joints[i].begin(), cloud.joints[i].end());
+    }
+  }
+  const auto sent = [&]<class T>(const std::vector<T>& values, std::vector<std::int64_t> Counts::*which) {
+    return exchange(communicator, std::span<const T>(values), to.*which, from.*which);
+  };
+  from.parcels = counts_from_ranks(communicator, to.parcels);
+  const std::vector<Parcel> parcels = sent(leaving.parcels, &Counts::parcels);
+  std::size_t next = 0;
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    for (const std::size_t end = next + from.parcels[rank]; next < end; ++next) {
+      from.shapes[rank] += parcels[next].has_shape;
+      from.joints[rank] += parcels[next].joints;
+    }
+  }
+  const std::vector<ShapeNumbers> shapes = sent(leaving.shapes, &Counts::shapes);
+  const std::vector<std::int64_t> joints = sent(leaving.joints, &Counts::joints);
+  PointCloud arrived = emptied(cloud);
+  auto joint = joints.begin();
+  for (const Parcel& parcel : parcels) {
+    append(arrived, parcel);
+    if (parcel.has_joints) arrived.joints.emplace_back(joint, joint + parcel.joints), joint += parcel.joints;
+  }
+  for (const ShapeNumbers& numbers : shapes) arrived.shapes.push_back(shape_of(numbers));
+  return arrived;
 }
 
 // The place of a cell of the 2²¹ cube along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004).
@@ -254,14 +237,26 @@ std::vector<int> along_curve(const PointCloud& cloud) {
   return order;
 }
 
+// Zoltan's messages, of some 100 bytes a point, end at 2 GB.
+void check_size(const PointCloud& cloud, const Communicator& communicator) {
+  constexpr double most = 16e6;
+  const double largest = communicator.max(static_cast<double>(cloud.size()));
+  if (largest <= most) return;
+  raise_together(communicator,
+                 "a rank has " + std::to_string(static_cast<std::int64_t>(largest)) +
+                     " points of the mesh, more than Zoltan can spread over the ranks; expected at most " +
+                     std::to_string(static_cast<std::int64_t>(most)) + ": take more ranks");
+}
+
 }  // namespace
 
 std::vector<int> bisected(const PointCloud& cloud, const std::vector<double>& costs, const Vector& lengths,
                           const Communicator& communicator) {
   std::vector<int> ranks(cloud.size(), communicator.rank());
   if (communicator.size() == 1) return ranks;
-  Migration migration{cloud, costs, lengths, {}};
-  Zoltan zoltan = started_zoltan(communicator, migration);
+  check_size(cloud, communicator);
+  Parted parted{cloud, costs, lengths};
+  Zoltan zoltan = started_zoltan(communicator, parted);
   int changed, gid_size, lid_size, imports, exports;
   ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
   int *import_ranks, *import_parts, *export_ranks, *export_parts;

@@ -4,7 +4,9 @@
 #include <cstring>
 #include <string>
 
+#include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "base/files.hpp"
 
 namespace strut {
 
@@ -40,11 +42,21 @@ class Log::Both : public std::streambuf {
   std::string line_;
 };
 
+namespace {
+
+// The first line, by which the next run knows that the file may be replaced.
+std::string log_of_strut() { return log_mark + strut_version() + "\n"; }
+
+}  // namespace
+
 Log::Log(const std::filesystem::path& file, const Communicator& communicator)
     : terminal_out_(std::cout.rdbuf()), terminal_errors_(std::cerr.rdbuf()) {
   run_on_root(communicator, [&] {
+    if (const std::string why = obstacle(file, FileKind::log); !why.empty()) throw Error("--log: " + why);
     errno = 0;
-    if (!std::ofstream(file)) throw Error(file.string() + ": cannot create it: " + std::strerror(errno));
+    if (!(std::ofstream(file) << log_of_strut() << std::flush)) {
+      throw Error("--log: '" + file.string() + "': cannot create it: " + std::strerror(errno));
+    }
   });
   file_.open(file, std::ios::app);
   out_ = std::make_unique<Both>(terminal_out_, file_);

@@ -14,7 +14,8 @@ namespace strut {
 // has not ended.
 class Log {
  public:
-  // Collective. Replaces the file; throws Error on all ranks where it cannot be created.
+  // Collective. Replaces the file, if it is a log; throws Error on all ranks where it is something else or cannot be
+  // created.
   Log(const std::filesystem::path& file, const Communicator& communicator);
   ~Log();
   Log(const Log&) = delete;

@@ -1,10 +1,14 @@
 #include "run/monitor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "conditions/crossing.hpp"
 #include "contact/passing.hpp"
+#include "contact/undeclared.hpp"
+#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -12,6 +16,16 @@ namespace {
 
 // Ledgers at the start of a run: its energies are still small, and what is small beside later ones is a large part.
 constexpr int first_ledgers = 10;
+
+// Above this part of the internal energy at the end the springs of the stabilization bear what the law should: users of
+// explicit finite elements look at 5 to 10 % of hourglass energy. In the first microseconds of an impact it is more.
+constexpr double much_in_springs = 0.1;
+
+// Neighbors that have been drawn so many spacings apart: what lies between them is not resolved any more.
+constexpr double far_stretched = 8;
+
+// As parts of the largest energy. What is gained out of nothing ends the run where it is this part of what may be lost.
+constexpr double worth_telling = 0.01, of_gains = 0.2;
 
 // Where the rank has what is largest of all ranks: `text`, else nothing.
 std::string of_largest(const Body& body, double own, const std::string& text) {
@@ -42,12 +56,31 @@ std::string at(double time) {
   return text.str();
 }
 
+std::string balance_of(const Ledger& ledger) {
+  std::ostringstream text;
+  text << "the balance of energy has an error of " << 100 * ledger.balance_error << " % of the largest energy, "
+       << std::abs(ledger.gained) << " J "
+       << (ledger.gained > 0 ? "out of nothing: the run is unstable, or" : "that nothing accounts for: the run")
+       << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
+          "load too sudden, too few load steps; the last frame shows where points fly off";
+  return text.str();
+}
+
 }  // namespace
 
 void Monitor::passed(What what, const std::string& text) {
   if (limits_.stops) raise_together(body_.domain.communicator, text);
+  tell_once(what, text);
+}
+
+void Monitor::tell_once(What what, const std::string& text) {
   if (!told_[what] && !text.empty()) tell_("WARNING: " + text + " (told once)");
   told_[what] = true;
+}
+
+void Monitor::passed(What what, const std::string& text) {
+  if (limits_.stops) raise_together(body_.domain.communicator, text);
+  tell_once(what, text);
 }
 
 void Monitor::check_step(const CentralDifference& solver) {
@@ -72,9 +105,14 @@ void Monitor::check_step(const CentralDifference& solver) {
     const contact::DeepestPenetration deepest = contact.deepest();
     std::ostringstream text;
     if (deepest.point >= 0 && deepest.penetration == contact.penetration()) {
-      text << at(solver.time()) << "contact is penetrated by " << 100 * deepest.penetration
-           << " % of the distance at which points touch (Watch > Penetration): " << locate(body_, deepest.point)
-           << ". Likely causes: a Spring Constant that is too small for the speed, a Contact Radius below the spacing";
+      text << at(solver.time()) << "contact is penetrated by " << 100 * deepest.penetration << " % of "
+           << (deepest.of_surfaces ? "a spacing" : "the distance at which points touch")
+           << " (Watch > Penetration): " << locate(body_, deepest.point) << ". Likely causes: "
+           << (deepest.of_surfaces
+                   ? "a Stiffness Factor that is too small for the speed, a Largest Overlap of 0 (no limit) or near 1"
+                   : "a Spring Constant that is too small for the speed (of Hertz an Effective Modulus), a Contact "
+                     "Radius below "
+                     "the spacing");
     }
     passed(penetration, text.str());
   }
@@ -91,29 +129,131 @@ void Monitor::check_passing(double time, const contact::Contact& contact) {
     text << at(time) << "blocks " << names[found->first] << " and " << names[found->second]
          << " pass through each other: " << found->points << " points, " << 100 * found->part
          << " % of the smaller one, are inside the other (Watch > Passing): " << locate(body_, found->point)
-         << ". Likely causes: contact too soft for the speed or the load, a Contact Radius far below the spacing";
+         << ". Likely causes: contact too soft for the speed or the load"
+         << (contact.by_surfaces(found->first, found->second) ? " (Stiffness Factor, Largest Overlap)"
+                                                              : ", a Contact Radius far below the spacing");
   }
   passed(passing, text.str());
+}
+
+void Monitor::check_undeclared(double time, const contact::Contact& contact) {
+  if (told_[undeclared] || time < next_undeclared_) return;
+  next_undeclared_ = time + costly * pause_;
+  const auto found = contact::find_undeclared(body_.domain, contact);
+  if (!found) return;
+  std::ostringstream text;
+  if (found->point >= 0) {
+    const std::vector<std::string>& names = body_.domain.cloud.block_names;
+    text << at(time);
+    if (found->first == found->second) {
+      text << "block " << names[found->first] << " passes through itself";
+    } else {
+      text << "blocks " << names[found->first] << " and " << names[found->second] << " pass through each other";
+    }
+    text << ", for the deck declares no contact between them: " << found->points
+         << " points are inside of material that was elsewhere: " << locate(body_, found->point)
+         << ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for bodies "
+            "that meet";
+  }
+  tell_once(undeclared, text.str());
+}
+
+void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
+  if (tools.empty() || told_[crossing] || time < next_tools_) return;
+  next_tools_ = time + pause_;
+  const std::vector<Vector> places = present_places(body_.domain);
+  std::size_t n = 0;
+  conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, RigidTool>) {
+      const std::string& name = tools[n++].name;
+      if (told_[crossing] || std::holds_alternative<HalfSpace>(one.shape)) return;
+      const auto found = find_crossing(one, time, body_.domain, places);
+      if (!found) return;
+      std::ostringstream text;
+      if (found->point >= 0) {
+        text << at(time) << "the tool '" << name
+             << "' stands between points that are bonded to each other: " << locate(body_, found->point)
+             << ". Tools stop points only, and one that is thinner than 1.5 spacings, or an edge of it, passes between "
+                "them; expected a finer mesh or a thicker tool";
+      }
+      tell_once(crossing, text.str());
+    }
+  });
 }
 
 void Monitor::serialize(Archive& archive) {
   archive.number("first_step", first_step_);
   archive.number("ledgers", ledgers_);
   archive.number("next_look", next_look_);
+  archive.number("told_error", told_error_);
+  archive.number("next_undeclared", next_undeclared_);
+  archive.number("next_tools", next_tools_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
 }
 
-void Monitor::check_energy(const Ledger& ledger) {
-  const bool early = ++ledgers_ <= first_ledgers && std::isfinite(ledger.balance_error);
-  if (early || ledger.balance_error <= limits_.balance_error) return;
+// Known to all ranks, so told by the first one.
+void Monitor::warn(What what, const std::string& text) {
+  tell_once(what, body_.domain.communicator.rank() == 0 ? text : "");
+}
+
+void Monitor::check_energy(const Ledger& ledger, bool last) {
+  const double error = ledger.balance_error;
+  if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
+  const std::string text = at(ledger.time) + balance_of(ledger);
+  const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;
+  if (!(error <= limit)) {
+    const std::string once = body_.domain.communicator.rank() == 0 ? text : "";
+    passed(energy, once);
+    if (!std::isfinite(error)) raise_together(body_.domain.communicator, once);
+  } else if (error > worth_telling) {
+    if (last && error > 2 * told_error_) told_[imbalance] = false;
+    if (!told_[imbalance]) told_error_ = error;
+    warn(imbalance, text);
+  }
+  if (ledger.kinetic < -worth_telling * ledger.largest) {
+    std::ostringstream negative;
+    negative << at(ledger.time) << "the kinetic energy is negative, " << ledger.kinetic
+             << " J: velocities turn round from one step to the next. Likely causes: noise whose periods are of a few "
+                "steps, or a load too sudden; a smaller Safety Factor follows it";
+    warn(turning, negative.str());
+  }
+}
+
+void Monitor::check_resolution(const Ledger& ledger, bool last) {
+  if (last) check_springs(ledger);
+  if (!told_[stretch]) check_stretch(ledger.time);
+}
+
+void Monitor::check_springs(const Ledger& ledger) {
+  const double internal = ledger.elastic + ledger.dissipated;
+  if (!(ledger.dissipated > ledger.elastic && ledger.stabilization > much_in_springs * internal)) return;
   std::ostringstream text;
-  text << at(ledger.time) << "the balance of energy has an error of " << 100 * ledger.balance_error
-       << " % of the largest energy (Watch > Balance Error): the run has become unstable or is far too coarse in "
-          "time. Likely causes: a Fixed dt above the critical time step, a load too sudden, too few load steps; the "
-          "last "
-          "frame shows where points fly off";
-  passed(energy, text.str());
-  if (!std::isfinite(ledger.balance_error)) raise_together(body_.domain.communicator, text.str());
+  text << at(ledger.time) << "the springs of the stabilization hold " << 100 * ledger.stabilization / internal
+       << " % of what the body has taken up; up to 10 % is usual. The motion is finer than the points resolve: expect "
+          "wrong stresses. Likely causes: too few points, metal that is too soft to hold together, another "
+          "Stabilization Coefficient than the default";
+  warn(springs, text.str());
+}
+
+// The largest stretch of a point with all its bonds is at most the norm of F.
+void Monitor::check_stretch(double time) {
+  double largest = 0;
+  int point = -1;
+  for (int i = 0; i < body_.owned(); ++i) {
+    const double here = has_lost_bonds(body_, i) ? 0 : body_.points[i].deformation_gradient.norm();
+    if (here > largest) largest = here, point = i;
+  }
+  if (!(body_.domain.communicator.max(largest) > far_stretched)) return;
+  std::ostringstream text;
+  if (point >= 0) {
+    text << at(time) << "neighbors have been drawn " << largest
+         << " spacings apart: the shape between them is not resolved, and nothing tears where the deck has no Damage "
+            "Model: "
+         << locate(body_, point)
+         << ". Likely causes: metal near its melting temperature, a speed far above what the metal bears, a load that "
+            "pulls without an end";
+  }
+  tell_once(stretch, of_largest(body_, largest, text.str()));
 }
 
 }  // namespace strut

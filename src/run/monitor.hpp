@@ -8,6 +8,7 @@
 
 #include "deck/deck.hpp"
 #include "mechanics/body.hpp"
+#include "setup/scene.hpp"
 #include "solvers/explicit/central_difference.hpp"
 #include "solvers/ledger.hpp"
 
@@ -21,24 +22,50 @@ class Monitor {
 
   // Where a limit is passed each throws Error on all ranks, or tells of it once where the deck says that the run goes
   // on; else they are free.
-  void check_step(const CentralDifference& solver);  // after advance_velocity()
-  void check_energy(const Ledger& ledger);
+  void check_step(const CentralDifference& solver);    // after advance_velocity()
+  void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
   void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
+  // What the points do not resolve, after a step with diagnostics: told once, and never the end of a run.
+  void check_resolution(const Ledger& ledger, bool last);
+  // What the deck has forgotten or cannot have, at some looks: material that goes through material without contact,
+  // and tools (named as in `tools`) between points that are bonded to each other.
+  void check_undeclared(double time, const contact::Contact& contact);
+  void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
 
   void serialize(Archive& archive);
 
  private:
-  enum What { step, energy, penetration, passing, point, count };
-  static constexpr double looks = 200;  // in a run, for bodies inside each other
+  enum What {
+    step,
+    energy,
+    penetration,
+    passing,
+    point,
+    imbalance,
+    turning,
+    springs,
+    stretch,
+    undeclared,
+    crossing,
+    count
+  };
+  static constexpr double looks = 200;  // in a run, for bodies inside each other, and for tools between points
+  static constexpr double costly = 10;  // of these looks, one is for material without contact
   void passed(What what, const std::string& text);
+  void tell_once(What what, const std::string& text);
+  void warn(What what, const std::string& text);
+  void check_springs(const Ledger& ledger);
+  void check_stretch(double time);
 
   deck::Watch limits_;
-  double pause_;                                              // s, between looks
-  double next_look_ = std::numeric_limits<double>::lowest();  // s
+  double pause_;  // s, between looks
+  // s
+  double next_look_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_look_, next_tools_ = next_look_;
   const Body& body_;
   std::function<void(const std::string&)> tell_;
   double first_step_ = 0;  // s, stable
   int ledgers_ = 0;
+  double told_error_ = 0;  // of the balance
   bool told_[count] = {};
 };
 

@@ -13,7 +13,10 @@ std::atomic<int> signalled = 0;  // the handler may be called by any thread
 }  // namespace
 
 void catch_signals(std::initializer_list<int> signals) {
-  for (const int signal : signals) std::signal(signal, [](int) { signalled = 1; });
+  for (const int signal : signals) {
+    const auto before = std::signal(signal, [](int) { signalled = 1; });
+    if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // by nohup
+  }
 }
 
 bool is_signalled() { return signalled != 0; }
@@ -48,11 +51,17 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   warn_of_fixed_step(solver);
   services_.monitor.check_step(solver);
   services_.monitor.check_passing(solver.time(), solver.contact());
+  services_.monitor.check_undeclared(solver.time(), solver.contact());
+  services_.monitor.check_tools(solver.time(), solver.conditions(), services_.scene.tools);
   const bool last = ends_here(solver);
   services_.writers.history.gather(solver.impulses(), solver.contact(), services_.scene.body.domain);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
-  if (ledger) services_.monitor.check_energy(*ledger);
+  if (ledger || last) {
+    const Ledger now = ledger ? *ledger : solver.ledger();
+    services_.monitor.check_energy(now, last);
+    services_.monitor.check_resolution(now, last);
+  }
   progress_.show(solver.steps(), solver.time(), solver.dt());
   return last;
 }

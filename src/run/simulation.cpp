@@ -71,8 +71,10 @@ Ledger load_through(const RunServices& services, QuasiStatic& solver) {
     if (over) save = checkpoint.due_at_the_end();
     if (save || checkpoint.due(solver.steps(), solver.time())) checkpoint.write(solver.steps(), solver.time());
     const auto ledger = record(last);
-    if (ledger) monitor.check_energy(*ledger);
+    if (ledger || last) monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
     monitor.check_passing(solver.time(), solver.contact());
+    monitor.check_undeclared(solver.time(), solver.contact());
+    monitor.check_tools(solver.time(), solver.conditions(), scene.tools);
     if (last) return solver.ledger();
     try {
       ending = !solver.advance();
@@ -111,7 +113,7 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
   }
   writers.open(scene.body);
   const int before = solver.steps();
-  catch_signals({SIGINT, SIGTERM});
+  catch_signals({SIGINT, SIGTERM, SIGHUP});
   const Ledger ledger = [&] {
     try {
       return through(RunServices{deck, scene, writers, checkpoint, monitor, early_end});
@@ -135,7 +137,8 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
   forget_signals();
-  catch_signals({SIGUSR1});  // a job that ends while the mesh is read goes on in the next; the others end it at once
+  catch_signals({SIGUSR1, SIGUSR2,
+                 SIGXCPU});  // a job that ends while the mesh is read goes on in the next; the others end it at once
   const deck::Deck deck = deck::read(deck_file, communicator);
   io::set_trial_reads(deck.discretization.trial_reads);
   const EarlyEnd early_end(began, deck.solver.wall_time);

@@ -28,10 +28,14 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 
-// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness.
+// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness or, of
+// ordinary points, are off by a tenth in tension.
 std::string thin_members(const Body& body);
 
 // A line for each block whose points fail without softening, as its fracture energy is too small for its spacing.
 std::string sudden_failure(const Body& body);
+
+// A warning for each block whose bonds break by quadratic correspondence.
+std::string noisy_cracks(const Body& body);
 
 }  // namespace strut

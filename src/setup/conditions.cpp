@@ -7,23 +7,22 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "points/point_group.hpp"
+#include "setup/contradictions.hpp"
 #include "setup/finite_value.hpp"
+#include "setup/open_ends.hpp"
+#include "setup/sudden_motion.hpp"
 
 namespace strut {
 
 namespace {
 
-// The points of this rank in a node set, a block, or all; none where there is no such set.
+// The points of this rank in a node set, a block, or all, by a name that has been checked.
 std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
-  const auto position = [&set](const std::vector<std::string>& names) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), set) - names.begin());
-  };
-  const std::size_t bit = position(cloud.set_names), block = position(cloud.block_names);
+  const PointGroup group(cloud, set, "Node Set");
   std::vector<int> points;
   for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
-    const bool in = set == "all" || (bit < cloud.set_names.size() ? (cloud.sets[i] >> bit & 1) != 0
-                                                                  : cloud.blocks[i] == static_cast<int>(block));
-    if (in) points.push_back(i);
+    if (group.counts(cloud, i)) points.push_back(i);
   }
   return points;
 }
@@ -50,12 +49,37 @@ void put(const ActsOnce auto& prototype, const std::string&, const std::vector<i
   prototype.set_initial_state(points, t, scene.body);
 }
 
+// A plane whose points other conditions hold in directions that are not across its normal pushes them in the directions
+// that these leave free: a part for each.
+void put(const SymmetryPlane& prototype, std::vector<int> points, int place, const SharedPoints& shared, Scene& scene) {
+  std::vector<SymmetryPlane> parts;
+  const auto add_to_part = [&](int i, const Vector& push) {
+    const auto same = [&](const SymmetryPlane& one) { return *one.push == push; };
+    auto part = std::find_if(parts.begin(), parts.end(), same);
+    if (part == parts.end()) part = parts.insert(part, {{}, prototype.normal, place, push});
+    part->points.push_back(i);
+  };
+  std::erase_if(points, [&](int i) {
+    const auto found = shared.find(i);
+    if (found == shared.end()) return false;
+    const Vector push = push_of_plane(found->second, place);
+    if (!push.isZero(0)) add_to_part(i, push);
+    return true;
+  });
+  scene.conditions.add(prototype.on(std::move(points), place, scene.body));
+  for (SymmetryPlane& part : parts) scene.conditions.add(std::move(part));
+}
+
 // `place`: of the condition in the deck.
-void add_condition(const deck::Condition& condition, int place, double t, Scene& scene) {
-  std::vector<int> points = points_of(scene.body.domain.cloud, condition.node_set);
-  const auto add = [&](const auto& prototype) {
+void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
+                   double t, Scene& scene) {
+  const auto add = [&]<class Type>(const Type& prototype) {
     check_values(prototype.values_at_points(), points, t, scene.body.domain);
-    put(prototype, condition.name, std::move(points), place, t, scene);
+    if constexpr (std::is_same_v<Type, SymmetryPlane>) {
+      put(prototype, std::move(points), place, shared, scene);
+    } else {
+      put(prototype, condition.name, std::move(points), place, t, scene);
+    }
   };
   std::visit(add, condition.kind);
 }
@@ -64,37 +88,46 @@ void add_condition(const deck::Condition& condition, int place, double t, Scene&
 
 void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems) {
-  std::vector<std::string> valid{"all"};
-  valid.insert(valid.end(), cloud.set_names.begin(), cloud.set_names.end());
-  valid.insert(valid.end(), cloud.block_names.begin(), cloud.block_names.end());
+  const auto path = [](const deck::Condition& one) { return "Boundary Conditions > " + one.name + " > Node Set"; };
+  std::vector<const deck::Condition*> known;
   std::vector<double> counts;
   for (const deck::Condition& condition : deck.conditions) {
-    counts.push_back(static_cast<double>(points_of(cloud, condition.node_set).size()));
+    try {
+      const PointGroup group(cloud, condition.node_set, path(condition));
+      counts.push_back(static_cast<double>(group.points(cloud)));
+      known.push_back(&condition);
+    } catch (const Error& error) {
+      problems.add(error.what());
+    }
   }
   communicator.sum(counts);
   for (std::size_t c = 0; c < counts.size(); ++c) {
-    const std::string& set = deck.conditions[c].node_set;
-    const std::string path = "Boundary Conditions > " + deck.conditions[c].name + " > Node Set";
-    if (std::find(valid.begin(), valid.end(), set) == valid.end()) {
-      problems.add(path, "there is no node set or block '" + set + "'" + did_you_mean(set, valid) + "; there are " +
-                             joined(valid));
-    } else if (counts[c] == 0) {
-      problems.add(path, "'" + set + "' holds no point");
-    }
+    const std::string& set = known[c]->node_set;  // whose expression may be among the problems
+    if (counts[c] > 0 || problems.about("Node Sets > " + set) || problems.about("Boundary Conditions > " + set))
+      continue;
+    problems.add(path(*known[c]), "'" + set + "' holds no point");
   }
 }
 
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
   deck::Problems problems;
   if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
+  PointsOfConditions points;
+  for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
+  scene.warnings += let_the_last_count(deck, scene.body, points);
+  check_contradictions(deck, points, scene.body, problems);
+  scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
+  scene.warnings += sudden_motions(deck, points, scene.body);
+  const SharedPoints shared = shared_points(deck, points);
   for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
-    const deck::Condition& condition = deck.conditions[place];
     try {
-      add_condition(condition, place, deck.solver.initial_time, scene);
+      add_condition(deck.conditions[place], place, points[place], shared, deck.solver.initial_time, scene);
     } catch (const Error& error) {
-      problems.add("Boundary Conditions > " + condition.name + " > Value", error.what());
+      problems.add(error.what());
     }
   }
+  raise_together(communicator, problems.text(deck.file.string()));
+  take_off_what_is_beyond_ends(deck, scene, problems);
   raise_together(communicator, problems.text(deck.file.string()));
 }
 

@@ -1,18 +1,26 @@
 #include "setup/mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/portions.hpp"
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/grid/grid.hpp"
+#include "points/coincident.hpp"
 #include "setup/blocks.hpp"
 #include "setup/finite_value.hpp"
 
 namespace strut {
 
 namespace {
+
+const std::string mesh_key = "Discretization > Input Mesh File";
 
 // Whether anything meets the faces of cells: points at nodes lie on them.
 bool meets_faces(const deck::Deck& deck) {
@@ -51,6 +59,27 @@ void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
   }
 }
 
+std::string path_of(const deck::NodeSet& set) {
+  return (set.numbers ? "Boundary Conditions > " : "Node Sets > ") + set.name;
+}
+
+// A set that the mesh, or the deck, has already: which of both is meant is not known.
+bool is_taken(const deck::NodeSet& set, const PointCloud& cloud, std::size_t sets_of_mesh, deck::Problems& problems) {
+  const auto place = [&set](const std::vector<std::string>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), set.name) - names.begin());
+  };
+  const std::size_t same = place(cloud.set_names);
+  const std::string expected = "' already; expected another name";
+  if (same < cloud.set_names.size()) {
+    problems.add(path_of(set), (same < sets_of_mesh ? "the mesh has a node set '" : "the deck has a node set '") +
+                                   set.name + expected);
+    return true;
+  }
+  if (place(cloud.block_names) < cloud.block_names.size())
+    problems.add(path_of(set), "the mesh has a block '" + set.name + expected);
+  return false;
+}
+
 // Collective. Every number of a set is that of a point.
 void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems) {
@@ -58,10 +87,38 @@ void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& c
   const auto found = communicator.sum(static_cast<std::int64_t>(mark_numbers(numbers, bit, cloud)));
   const auto points = communicator.sum(static_cast<std::int64_t>(cloud.size()));
   if (found == static_cast<std::int64_t>(numbers.size())) return;
-  problems.add("Boundary Conditions > " + set.name, "names " + std::to_string(numbers.size()) +
-                                                        " points, up to number " + std::to_string(numbers.back()) +
-                                                        ", of which the mesh has " + std::to_string(found) +
-                                                        "; it has " + std::to_string(points) + " points");
+  problems.add(path_of(set), "names " + std::to_string(numbers.size()) + " points, up to number " +
+                                 std::to_string(numbers.back()) + ", of which the mesh has " + std::to_string(found) +
+                                 "; it has " + std::to_string(points) + " points");
+}
+
+// Collective. The first point, in the order of the file, whose place is not known to a hundredth of its cell's edge;
+// "" where there is none.
+std::string unresolved_place(const PointCloud& cloud, const Communicator& communicator) {
+  constexpr double least = 0.01, none = std::numeric_limits<double>::infinity();
+  const auto round_off = [&](std::size_t i) {
+    return std::numeric_limits<double>::epsilon() * cloud.positions[i].cwiseAbs().maxCoeff();
+  };
+  double first = none;
+  std::string text;
+  for (std::size_t i = 0; i < cloud.size() && first == none; ++i) {
+    const double volume = cloud.volumes[i], edge = std::cbrt(volume);
+    if (std::isnormal(volume) && round_off(i) < least * edge) continue;
+    first = static_cast<double>(cloud.ids[i]);
+    std::ostringstream line;
+    line << word(cloud.at) << " " << cloud.element_ids[i] << " of block '" << cloud.block_names[cloud.blocks[i]]
+         << "' at (" << cloud.positions[i].transpose() << ") m has a volume of " << volume << " m³: an edge of " << edge
+         << " m, where numbers are " << round_off(i)
+         << " m apart; expected places and volumes in m and m³ that numbers tell apart";
+    text = line.str();
+  }
+  const double of_all = communicator.min(first);
+  if (of_all == none) return "";
+  if (of_all != first) text.clear();
+  const std::vector<char> told = gather(communicator, std::span<const char>(text));
+  text.assign(told.begin(), told.end());
+  communicator.broadcast(text);
+  return text;
 }
 
 }  // namespace
@@ -79,11 +136,47 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator) {
   return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements, with_cells);
 }
 
+void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems) {
+  for (std::size_t k = 0; k < cloud.set_names.size(); ++k) {
+    if (cloud.set_names[k] != "all") continue;
+    const auto in = [k](std::uint64_t sets) { return (sets >> k & 1) != 0; };
+    const auto inside = communicator.sum(std::int64_t{std::count_if(cloud.sets.begin(), cloud.sets.end(), in)});
+    const auto points = communicator.sum(std::ssize(cloud.ids));
+    if (inside == points) continue;
+    problems.add(mesh_key, "its node set 'all' holds " + std::to_string(inside) + " of " + std::to_string(points) +
+                               " points, and in a deck 'all' means all of them; expected another name in the mesh");
+  }
+  for (const std::string& name : cloud.block_names) {
+    if (cloud.block_names.size() == 1 || (name != "all" && name != "default")) continue;
+    problems.add(mesh_key, "its block '" + name + "' is one of several, and in a deck '" + name +
+                               "' means more than it (Blocks > Block Names); expected another name in the mesh");
+  }
+}
+
+void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
+                  deck::Problems& problems) {
+  const std::string unresolved = unresolved_place(cloud, communicator);
+  const bool is_grid = deck.discretization.type == deck::MeshType::grid;
+  if (!unresolved.empty()) return problems.add(is_grid ? "Discretization" : mesh_key, unresolved);
+  if (is_grid || (cloud.at == PointsAt::nodes && !problems.empty())) return;
+  // Cells never overlap. Nodes may be at one place, of bodies that touch and of the faces of a crack, where no bond is
+  // between them.
+  std::vector<BlockBonds> bonds;
+  if (cloud.at == PointsAt::nodes) bonds = block_bonds(deck, cloud);
+  const auto by_elements = [&](int b) { return bonds[b].through_material || bonds[b].touching; };
+  const auto allowed = [&](int a, int b) {
+    return !bonds.empty() && (bonds[a].body != bonds[b].body || by_elements(a) || by_elements(b));
+  };
+  const std::string twins = coincident_points(cloud, communicator, allowed);
+  if (!twins.empty()) problems.add(mesh_key, twins);
+}
+
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,
                    deck::Problems& problems) {
+  const std::size_t sets_of_mesh = cloud.set_names.size();
   for (const deck::NodeSet& set : sets) {
-    const std::string path = "Node Sets > " + set.name;
-    if (cloud.set_names.size() >= 64) return problems.add(path, "mesh and deck have more than 64 node sets");
+    if (is_taken(set, cloud, sets_of_mesh, problems)) continue;
+    if (cloud.set_names.size() >= 64) return problems.add(path_of(set), "mesh and deck have more than 64 node sets");
     const std::uint64_t bit = std::uint64_t{1} << cloud.set_names.size();
     cloud.set_names.push_back(set.name);
     if (set.numbers) {
@@ -93,7 +186,7 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
     try {
       mark(set, bit, cloud);
     } catch (const Error& error) {
-      problems.add(path, error.what());
+      problems.add(path_of(set), error.what());
     }
   }
 }

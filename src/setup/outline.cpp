@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <type_traits>
 
 #include "points/bounding_box.hpp"
 
@@ -45,7 +46,7 @@ Eigen::AlignedBox3d box_of(const Body& body) {
 
 double mass_of(const Body& body) {
   double mass = 0;
-  for (int i = 0; i < body.owned(); ++i) mass += body.mass(i);
+  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
   return body.domain.communicator.sum(mass);
 }
 
@@ -98,6 +99,57 @@ std::string improbable_materials(const Body& body) {
     if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
       text << "WARNING: block '" << block.name << "' yields at " << yield
            << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
+    }
+  }
+  return text.str();
+}
+
+namespace {
+
+// The part of a law that knows its temperature, or nullptr.
+const materials::ThermalJ2* hot_metal(const materials::AnyLaw& law) {
+  const auto metal_of = []<class L>(const L& one) -> const materials::ThermalJ2* {
+    if constexpr (std::is_same_v<L, materials::ThermalJ2>) return &one;
+    if constexpr (requires { requires std::is_same_v<decltype(one.metal), materials::ThermalJ2>; }) return &one.metal;
+    return nullptr;
+  };
+  return std::visit(metal_of, law);
+}
+
+// Below it a metal does not soften; not finite where no law has such a limit, K.
+double reference_temperature(const materials::ThermalJ2& metal) {
+  const auto* flow = std::get_if<materials::SoftenedFlow>(&metal.flow);
+  const auto* softening = flow ? std::get_if<materials::JohnsonCookSoftening>(&flow->softening) : nullptr;
+  return softening ? softening->reference : -std::numeric_limits<double>::infinity();
+}
+
+double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
+  metal.set_initial_temperature(temperature);
+  return metal.flow_stress(metal.virgin_state());
+}
+
+}  // namespace
+
+std::string improbable_temperatures(const Body& body) {
+  constexpr double room = materials::room_temperature;
+  constexpr double cold = 150;            // K: few tests are colder, and what is in °C is below
+  constexpr double below_reference = 25;  // K: room temperatures differ by less
+  constexpr double melted = 1e-3;         // of the flow stress at room temperature
+  std::ostringstream text;
+  text.precision(4);
+  for (const MaterialBlock& block : body.blocks) {
+    const materials::ThermalJ2* metal = hot_metal(block.material.law);
+    if (!metal) continue;
+    const double initial = metal->heating.initial, reference = reference_temperature(*metal);
+    const std::string begins = "WARNING: block '" + block.name + "' has an Initial Temperature of ";
+    if (flow_stress_at(*metal, initial) <= melted * flow_stress_at(*metal, room)) {
+      text << begins << initial << " K, at which its metal is molten: its flow stress is "
+           << flow_stress_at(*metal, initial) << " Pa; is it in K?\n";
+    } else if (initial < cold) {
+      text << begins << initial << " K, which is " << initial - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
+    } else if (initial < reference - below_reference) {
+      text << begins << initial << " K, below the Reference Temperature of " << reference
+           << " K at which its softening begins: its flow stress is that at the reference\n";
     }
   }
   return text.str();

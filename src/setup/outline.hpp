@@ -17,6 +17,9 @@ std::string outline(const Scene& scene, const std::vector<Trajectory>& trajector
 // units.
 std::string improbable_materials(const Body& body);
 
+// A warning for each block of a metal that begins molten, or so cold that its temperature may be in °C.
+std::string improbable_temperatures(const Body& body);
+
 // Collective. Warnings of a body that is improbably large or small, by itself or for the duration of the run (s), and
 // of bodies that meet faster than waves run.
 std::string improbable_scales(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,

@@ -14,6 +14,7 @@
 #include "setup/filled_tools.hpp"
 #include "setup/mesh.hpp"
 #include "setup/outline.hpp"
+#include "setup/tool_paths.hpp"
 #include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
 #include "setup/weak_contact.hpp"
@@ -66,16 +67,35 @@ Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& commun
   return scene;
 }
 
-Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
-  PointCloud cloud = read_mesh(deck, communicator);
-  deck::Problems problems;
+PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
+  if (problems.about("Discretization")) return {};
+  PointCloud cloud;
+  try {
+    cloud = read_mesh(deck, communicator);
+  } catch (const Error& error) {
+    if (problems.empty()) throw;
+    problems.add(error.what());
+    return {};
+  }
+  check_names(cloud, communicator, problems);
   check_blocks(deck, cloud, problems);
-  const std::vector<double> spacing = mean_spacings(cloud, communicator);
-  check_horizons(deck, cloud, spacing, problems);
+  check_horizons(deck, cloud, mean_spacings(cloud, communicator), problems);
+  check_places(deck, cloud, communicator, problems);
   add_node_sets(deck.node_sets, cloud, communicator, problems);
   check_conditions(deck, cloud, communicator, problems);
   check_interactions(deck, cloud, problems);
+  return cloud;
+}
+
+Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
+  deck::Problems problems;
+  PointCloud cloud = mesh_of(deck, communicator, problems);
   raise_together(communicator, problems.text(deck.file.string()));
+  return set_up(deck, std::move(cloud), communicator);
+}
+
+Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator) {
+  const std::vector<double> spacing = mean_spacings(cloud, communicator);
   Cuts by;
   {
     const Timed timed(phase("Partition"));
@@ -92,10 +112,15 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   const std::vector<Trajectory> ways = trajectories(scene, start, duration);
   scene.outline = outline(scene, ways, start, duration);
   scene.warnings += improbable_materials(scene.body);
+  scene.warnings += improbable_temperatures(scene.body);
   scene.warnings += improbable_scales(scene, ways, start, duration);
   scene.warnings += filled_tools(scene, start);
+  scene.warnings += thin_tools(scene, ways, spacing, start, duration);
+  scene.warnings += apart_tools(scene, start, duration);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
+  scene.warnings += noisy_cracks(scene.body);
+  scene.warnings += bonded_contacts(deck, scene.body.domain);
   scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
   scene.warnings += weak_contacts(deck, scene, interactions, ways, spacing);
   return scene;

@@ -2,13 +2,22 @@
 #pragma once
 
 #include "deck/deck.hpp"
+#include "deck/problems.hpp"
+#include "points/cloud.hpp"
 #include "setup/scene.hpp"
 
 namespace strut {
 
-// Collective. Reads the mesh, makes node sets, partition, families, body, initial velocities and conditions.
-// Throws one Error on all ranks for what only mesh and deck together show: blocks and node sets that do not exist or
-// hold no point, horizons that do not fit the spacing; then one for points with too few neighbors.
+// Collective. The mesh with the node sets that the deck makes, and what only deck and mesh together show to be wrong:
+// blocks and node sets that do not exist, mean two things or hold no point, points that are given twice, horizons that
+// do not fit the spacing. The deck may have problems of its own already; without a mesh, as the deck's section on it is
+// wrong, the cloud is empty.
+PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems);
+
+// Collective. Partition, families, body, initial velocities and conditions, of a mesh and a deck without problems.
+// Throws one Error on all ranks for points with too few neighbors.
+Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator);
+// Both; all problems are one Error.
 Scene set_up(const deck::Deck& deck, const Communicator& communicator);
 
 // What is made anew when a partition is, of a scene that has to be gone by then.

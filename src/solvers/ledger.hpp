@@ -5,18 +5,29 @@
 
 namespace strut {
 
+struct Body;
+
 struct Ledger {
   double time = 0, dt = 0;                                             // s
   double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
   double fracture = 0;                                                 // J, dissipated by bonds that broke
-  double heat = 0;      // J, ρ c_p (T − T₀) of metals: no further term of the balance
-  double external = 0;  // J, work of loads and prescribed motion on the points so far
+  double heat = 0;          // J, ρ c_p (T − T₀) of metals: no further term of the balance
+  double external = 0;      // J, work of loads and prescribed motion on the points so far
   double tool_kinetic = 0;  // J, of rigid tools with a mass
-  double tools = 0;     // J, work of rigid tools on the points so far: what walls take is negative
+  double tools = 0;         // J, work of rigid tools on the points so far: what walls take is negative
   // J, work of contact between bodies on the points so far: what penalties store and friction takes is negative.
   double contact = 0;
-  double balance_error = 0;          // |stored + dissipated − put in| over the largest sum of energies so far
+  double gained = 0;                 // J, stored + dissipated − put in: out of nothing; lost where negative
+  double largest = 0;                // J, the largest sum of energies so far, no less than round-off makes
+  double balance_error = 0;          // |gained| over that
   Vector momentum = Vector::Zero();  // kg m/s
+
+  // `largest_so_far`: of the ledgers before this one, energy_of_round_off() before the first.
+  void balance(double held, double put_in, double& largest_so_far);
 };
+
+// Collective. What less energy than this is may be round-off: that of a strain of 1e-12, J. Round-off of places makes
+// strains of some 1e-16 times their distance from the origin in spacings.
+double energy_of_round_off(const Body& body);
 
 }  // namespace strut

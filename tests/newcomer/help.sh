@@ -50,11 +50,15 @@ says 2 "'--log' needs a file, and a deck" --log log
 says 2 "does not say what to do" --log deck.xml deck.xml
 log=$(mktemp) || exit 1
 says 1 "nothere.xml: the deck does not exist" --log "$log" nothere.xml
-[ "$(cat "$log")" = "strut: nothere.xml: the deck does not exist" ] || fail "the log has: $(cat "$log")"
+of_log() { tail -n +2 "$log"; }  # the first line says that it is one
+[ "$(of_log)" = "strut: nothere.xml: the deck does not exist" ] || fail "the log has: $(cat "$log")"
 says 0 "strut 0" --log "$log" --version
-[ "$(cat "$log")" = "$said" ] || fail "the log of --version has: $(cat "$log")"
+[ "$(of_log)" = "$said" ] || fail "the log of --version has: $(cat "$log")"
+echo "shape = box" > "$log"
+says 1 "'$log' is there and is no log of strut" --log "$log" nothere.xml
+[ "$(cat "$log")" = "shape = box" ] || fail "--log has replaced a recipe"
 rm -f "$log"
-says 1 "/nowhere/log: cannot create it" --log /nowhere/log nothere.xml
+says 1 "'/nowhere/log': cannot create it" --log /nowhere/log nothere.xml
 says 1 "nothere.xml: the deck does not exist" nothere.xml
 
 # Two processes that a launcher of another MPI made two runs: the first tells and fails, and neither does anything.

@@ -252,21 +252,6 @@ TEST(BendingStiffnessKept, IsWhatIsMeasured) {
   }
 }
 
-// 4 volume/surface, with the ends. Too much by a quarter at most: 26 directions see 0.93 of a flat face, and at edges a
-// cell counts the resultant of its faces.
-TEST(Thickness, IsThatOfPrisms) {
-  for (const int across : {4, 6}) {
-    const double exact = across / (1 + 1.0 / 8);
-    PointCloud cloud = square_prism(across, PointsAt::elements);
-    for (const bool with_shapes : {true, false}) {
-      if (!with_shapes) cloud.shapes.clear();
-      const double found = thickness_of(body_of(cloud).domain, 0);
-      EXPECT_GT(found, exact);
-      EXPECT_LT(found, 1.25 * exact);
-    }
-  }
-}
-
 // A uniform stress along a round strut leaves its surface free: there should be no force away from the ends. Without
 // the correction, which needs to know the surface, there is; with it 0.64 of that at its ridge
 // (src/mechanics/formulation/quadratic.md).

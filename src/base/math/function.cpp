@@ -1,8 +1,11 @@
 #include "base/math/function.hpp"
 
+#include <atomic>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/math/expression.hpp"
@@ -31,6 +34,11 @@ std::string shortened(const std::string& text) {
 
 }  // namespace
 
+struct Function::NotFinite {
+  std::atomic<bool> taken = false, complete = false;
+  double x, y, z, t, value;
+};
+
 Function::Function(double constant) : constant_(constant), text_(std::to_string(constant)) {}
 
 Function Function::parse(const std::string& text) {
@@ -42,6 +50,7 @@ Function Function::parse(const std::string& text) {
   }
   try {
     function.program_ = std::make_shared<Expression>(Expression::compile(text));
+    function.not_finite_ = std::make_shared<NotFinite>();
   } catch (const Error& error) {
     throw Error("'" + shortened(text) + "' is not an expression in x, y, z, t: " + error.what());
   }
@@ -49,7 +58,32 @@ Function Function::parse(const std::string& text) {
 }
 
 double Function::operator()(double x, double y, double z, double t) const {
+  if (is_constant()) return constant_;
+  const double value = (*program_)(x, y, z, t);
+  if (!std::isfinite(value) && !not_finite_->taken.exchange(true)) {
+    NotFinite& first = *not_finite_;
+    first.x = x, first.y = y, first.z = z, first.t = t, first.value = value;
+    first.complete = true;
+  }
+  return value;
+}
+
+double Function::evaluate(double x, double y, double z, double t) const {
   return is_constant() ? constant_ : (*program_)(x, y, z, t);
+}
+
+std::string Function::describe(double x, double y, double z, double t, double value) const {
+  std::ostringstream text;
+  if (!path_.empty()) text << path_ << ": ";
+  text << "'" << shortened(text_) << "' is " << value << " at (" << x << ", " << y << ", " << z << ") m, t = " << t
+       << " s; expected a number everywhere";
+  return text.str();
+}
+
+std::string Function::first_not_finite() const {
+  if (!not_finite_ || !not_finite_->complete) return "";
+  const NotFinite& first = *not_finite_;
+  return describe(first.x, first.y, first.z, first.t, first.value);
 }
 
 bool Function::depends_on_time() const { return program_ && program_->uses_time(); }

@@ -3,7 +3,7 @@
 #include <mpi.h>
 
 #include <Teuchos_DefaultMpiComm.hpp>
-#include <cstring>
+#include <algorithm>
 
 namespace strut {
 
@@ -19,35 +19,6 @@ void in_portions(std::size_t count, const Portion& portion) {
     portion(begin, std::min(largest_portion, count - begin));
   }
 }
-
-// Values of so many bytes, so that counts in messages are of values: they are ints.
-class ValueType {
- public:
-  explicit ValueType(std::size_t size) {
-    MPI_Type_contiguous(static_cast<int>(size), MPI_BYTE, &type_);
-    MPI_Type_commit(&type_);
-  }
-  ~ValueType() { MPI_Type_free(&type_); }
-  ValueType(const ValueType&) = delete;
-  ValueType& operator=(const ValueType&) = delete;
-  operator MPI_Datatype() const { return type_; }
-
- private:
-  MPI_Datatype type_ = MPI_DATATYPE_NULL;
-};
-
-// As MPI wants them: counts, and where each begins.
-struct Layout {
-  std::vector<int> counts, begins;
-  explicit Layout(const std::vector<std::int64_t>& of_ranks) {
-    int begin = 0;
-    for (const std::int64_t count : of_ranks) {
-      counts.push_back(static_cast<int>(count));
-      begins.push_back(begin);
-      begin += counts.back();
-    }
-  }
-};
 
 }  // namespace
 
@@ -104,17 +75,34 @@ std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
   return from_ranks;
 }
 
+// Counts in messages of MPI are ints: what is larger goes in several, which arrive as they leave.
 void portions::exchange(const Communicator& communicator, const char* leaving,
                         const std::vector<std::int64_t>& to_ranks, char* arriving,
-                        const std::vector<std::int64_t>& from_ranks, std::size_t size) {
-  if (communicator.size() == 1) {
-    if (to_ranks[0] > 0) std::memcpy(arriving, leaving, static_cast<std::size_t>(to_ranks[0]) * size);
-    return;
-  }
-  const ValueType type(size);
-  const Layout to(to_ranks), from(from_ranks);
-  MPI_Alltoallv(leaving, to.counts.data(), to.begins.data(), type, arriving, from.counts.data(), from.begins.data(),
-                type, raw(communicator));
+                        const std::vector<std::int64_t>& from_ranks, std::size_t size, std::size_t largest_message) {
+  const MPI_Comm comm = raw(communicator);
+  const auto own = static_cast<std::size_t>(communicator.rank());
+  std::vector<MPI_Request> requests;
+  const auto over_ranks = [&](const std::vector<std::int64_t>& counts, const auto& visit) {
+    std::size_t begin = 0;  // bytes
+    for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+      const std::size_t end = begin + static_cast<std::size_t>(counts[rank]) * size;
+      if (rank == own) visit(static_cast<int>(rank), begin, end - begin);
+      for (; rank != own && begin < end; begin += largest_message) {
+        visit(static_cast<int>(rank), begin, std::min(largest_message, end - begin));
+      }
+      begin = end;
+    }
+  };
+  std::size_t own_place = 0;
+  over_ranks(from_ranks, [&](int rank, std::size_t begin, std::size_t bytes) {
+    if (rank == communicator.rank()) return void(own_place = begin);
+    MPI_Irecv(arriving + begin, static_cast<int>(bytes), MPI_BYTE, rank, 0, comm, &requests.emplace_back());
+  });
+  over_ranks(to_ranks, [&](int rank, std::size_t begin, std::size_t bytes) {
+    if (rank == communicator.rank()) return void(std::copy_n(leaving + begin, bytes, arriving + own_place));
+    MPI_Isend(leaving + begin, static_cast<int>(bytes), MPI_BYTE, rank, 0, comm, &requests.emplace_back());
+  });
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
 // Lengths first, then the names as one text.

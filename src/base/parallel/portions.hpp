@@ -26,8 +26,10 @@ using Give = std::function<void(std::int64_t begin, char* values, std::size_t co
 void collect(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size, const Take& take);
 void deal(const Communicator& communicator, const std::vector<std::int64_t>& counts, char* mine, std::size_t size,
           const Give& give);
+constexpr std::size_t largest_message = std::size_t{1} << 30;  // bytes
 void exchange(const Communicator& communicator, const char* leaving, const std::vector<std::int64_t>& to_ranks,
-              char* arriving, const std::vector<std::int64_t>& from_ranks, std::size_t size);
+              char* arriving, const std::vector<std::int64_t>& from_ranks, std::size_t size,
+              std::size_t largest_message);
 
 }  // namespace portions
 
@@ -66,15 +68,17 @@ std::vector<T> deal(const Communicator& communicator, const std::vector<std::int
 std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
                                             const std::vector<std::int64_t>& to_ranks);
 
-// `leaving`: to_ranks[r] values for each rank r, one rank after the other. Returns the from_ranks[r] of each rank r.
+// `leaving`: to_ranks[r] values for each rank r, one rank after the other. Returns the from_ranks[r] of each rank r, as
+// many as there may be; `largest_message` in bytes, the same on all ranks.
 template <class T>
 std::vector<T> exchange(const Communicator& communicator, std::span<const T> leaving,
-                        const std::vector<std::int64_t>& to_ranks, const std::vector<std::int64_t>& from_ranks) {
+                        const std::vector<std::int64_t>& to_ranks, const std::vector<std::int64_t>& from_ranks,
+                        std::size_t largest_message = portions::largest_message) {
   static_assert(std::is_trivially_copyable_v<T>);
   std::vector<T> arriving(
       static_cast<std::size_t>(std::accumulate(from_ranks.begin(), from_ranks.end(), std::int64_t{0})));
   portions::exchange(communicator, reinterpret_cast<const char*>(leaving.data()), to_ranks,
-                     reinterpret_cast<char*>(arriving.data()), from_ranks, sizeof(T));
+                     reinterpret_cast<char*>(arriving.data()), from_ranks, sizeof(T), largest_message);
   return arriving;
 }
 

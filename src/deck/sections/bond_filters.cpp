@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "deck/problems.hpp"
+#include "deck/sections/tools.hpp"
 #include "deck/values.hpp"
 
 namespace strut::deck {
@@ -24,10 +25,9 @@ struct ComponentKeys {
   // Of length 1.
   Vector direction(const Values& values, Problems& problems) const {
     const Vector given = of(values);
-    if (!(given.norm() > 0) && values.has(axes[2])) {
-      problems.add(values.path_to(axes[0]), "the vector has no length; expected a direction");
-    }
-    return given.norm() > 0 ? Vector(given.normalized()) : Vector(Vector::UnitZ());
+    if (!given.isZero(0)) return unit_vector(given);
+    if (values.has(axes[2])) problems.add(values.path_to(axes[0]), "the vector has no length; expected a direction");
+    return Vector::UnitZ();
   }
 
  private:

@@ -40,11 +40,13 @@ ConditionPrototype read_body_force(const Values& values, Problems&) {
 const VectorKey end_normal({.name = "Normal", .meaning = "Of the end's surface, of any length but zero."});
 
 Section non_reflecting_end() {
-  return {.name = "Non-Reflecting End",
-          .meaning =
-              "Waves leave through the set, one layer of points, as if the body went on behind it: viscous traction "
-              "ρ c v with the speeds of longitudinal and shear waves in the undeformed material.",
-          .keys = {end_normal}};
+  return {
+      .name = "Non-Reflecting End",
+      .meaning =
+          "Waves leave through the set, one layer of points, as if the body went on behind it: viscous traction "
+          "ρ c v with the speeds of longitudinal and shear waves in the undeformed material. Ends may meet at edges "
+          "and corners.",
+      .keys = {end_normal}};
 }
 
 ConditionPrototype read_non_reflecting_end(const Values& values, Problems& problems) {
@@ -59,9 +61,10 @@ struct ConditionEntry {
 const std::vector<ConditionEntry>& entries() {
   static const std::vector<ConditionEntry> all = {
       {along_axes("Initial Velocity", "m/s", "The velocity at the initial time."), read_initial_velocity},
-      {along_axes("Prescribed Displacement", "m", "The displacement at every time."), read_prescribed_motion<false>},
+      {along_axes("Prescribed Displacement", "m", "The displacement at every time; with Verlet 0 at the initial one."),
+       read_prescribed_motion<false>},
       {along_axes("Prescribed Velocity", "m/s", "The velocity at every time."), read_prescribed_motion<true>},
-      {along_axes("Body Force", "N/m³", "A force per reference volume."), read_body_force},
+      {along_axes("Body Force", "N/m³", "A force per reference volume. Several at a point add up."), read_body_force},
       {symmetry_plane_section(), read_symmetry_plane},
       {rigid_plane_section(), read_rigid_plane},
       {rigid_cylinder_section(), read_rigid_cylinder},
@@ -91,7 +94,9 @@ Section conditions_section() {
                         {"Thermal Flux", no_temperature}}};
   Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};
   return {.name = boundary_conditions,
-          .meaning = "What is imposed on points, initial conditions included.",
+          .meaning =
+              "What is imposed on points, initial conditions included. Two that prescribe a point along the same axis, "
+              "or along axes that are not across each other, must agree.",
           .any_key = numbered_set(),
           .sections = {with_cases(std::move(one), std::move(type), schemas_of(entries()))}};
 }

@@ -148,10 +148,16 @@ ConditionPrototype read_rigid_box(const Values& values, Problems& problems) {
   return block;
 }
 
+// By way of its largest component: the squares of 1e-300 and 1e300 are no numbers.
+Vector unit_vector(const Vector& direction) {
+  const double largest = direction.cwiseAbs().maxCoeff();
+  return largest > 0 ? Vector((direction / largest).normalized()) : direction;
+}
+
 Vector read_direction(const Values& values, const VectorKey& key, Problems& problems) {
   const Vector direction = values[key];
   if (values.has(key) && direction.isZero(0)) problems.add(values.path_to(key), "is zero; expected a direction");
-  return direction.normalized();
+  return unit_vector(direction);
 }
 
 }  // namespace strut::deck

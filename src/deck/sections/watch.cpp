@@ -27,8 +27,9 @@ const RealKey balance_error(
     {.name = "Balance Error",
      .range = positive,
      .fallback = "0.5",
-     .meaning = "The largest error of the balance of energy, as a part of the largest energy, looked at "
-                "with each line of the history after the first ten."});
+     .meaning = "The largest error of the balance of energy, as a part of the largest energy; a fifth of it where "
+                "energy is gained out of nothing. Looked at with each frame and line of the history after the first "
+                "ten, and at the end of the run. From 1 % on a warning tells of it once."});
 
 const RealKey smallest_step({.name = "Smallest Step",
                              .range = {.low = 0, .high = 1},

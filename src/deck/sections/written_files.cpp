@@ -1,57 +1,33 @@
 #include "deck/sections/written_files.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
 #include "deck/problems.hpp"
 
 namespace strut::deck {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-bool same(const fs::path& one, const fs::path& other) {
-  std::error_code failure;
-  if (fs::equivalent(one, other, failure)) return true;
-  failure.clear();
-  const fs::path a = fs::weakly_canonical(one, failure), b = fs::weakly_canonical(other, failure);
-  return !failure && !a.empty() && a == b;
-}
-
-// Why the file cannot be written, or nothing.
-std::string obstacle(const fs::path& file) {
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  std::error_code failure;
-  if (!fs::is_directory(folder, failure)) return "there is no folder '" + folder.string() + "'";
-  const fs::path asked = fs::exists(file, failure) ? file : folder;
-  return access(asked.c_str(), W_OK) == 0 ? "" : "'" + asked.string() + "': " + std::strerror(errno);
-}
-
-void check_replaceable(const WrittenFile& written, const std::vector<ReadFile>& read, Problems& problems) {
-  const std::string expected = "; expected a file that may be replaced";
+// What speaks against writing the file, beside others that are written; or nothing.
+std::string problem_of(const WrittenFile& written, const std::vector<ReadFile>& read) {
   for (const ReadFile& one : read) {
-    if (!same(written.file, one.file)) continue;
-    return problems.add(written.path, "'" + written.file.string() + "' is " + one.what + expected);
+    if (!same_file(written.file, one.file)) continue;
+    return "'" + written.file.string() + "' is " + one.what + "; expected a file that may be replaced";
   }
-  std::error_code failure;
-  const fs::file_status status = fs::status(written.file, failure);
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    return problems.add(written.path, "'" + written.file.string() + "' is a folder or a device" + expected);
-  }
-  const std::string why_not = obstacle(written.file);
-  if (!why_not.empty()) problems.add(written.path, "'" + written.file.string() + "': cannot create it: " + why_not);
+  return obstacle(written.file, written.kind);
 }
 
 }  // namespace
 
 void check_files(const std::vector<WrittenFile>& written, const std::vector<ReadFile>& read, Problems& problems) {
-  for (const WrittenFile& one : written) check_replaceable(one, read, problems);
+  std::string told;  // whose files have a problem: one is enough of each
+  for (const WrittenFile& one : written) {
+    const std::string problem = one.path == told ? "" : problem_of(one, read);
+    if (problem.empty()) continue;
+    problems.add(one.path, problem);
+    told = one.path;
+  }
   for (auto one = written.begin(); one != written.end(); ++one) {
     for (auto other = written.begin(); other != one; ++other) {
-      if (!same(one->file, other->file)) continue;
+      if (!same_file(one->file, other->file)) continue;
       problems.add(one->path, "'" + one->file.string() + "' is " + other->owner + "'s file, too; expected another");
     }
   }

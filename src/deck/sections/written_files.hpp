@@ -1,10 +1,11 @@
-// The files that a run writes: may each be replaced, and can it be written?
+// The files that a run writes: may each be replaced, and can it be written (base/files.hpp)?
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "base/files.hpp"
 #include "deck/forward.hpp"
 
 namespace strut::deck {
@@ -13,6 +14,7 @@ namespace strut::deck {
 struct WrittenFile {
   std::string path, owner;
   std::filesystem::path file;
+  FileKind kind;
 };
 
 struct ReadFile {

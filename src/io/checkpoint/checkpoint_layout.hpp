@@ -1,17 +1,14 @@
 // How a snapshot stands in its file: what the writer and the reader agree on.
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <span>
 #include <string>
+
+#include "base/archive.hpp"
 
 namespace strut::io::checkpoint_layout {
 
 // Of the layout below: raise it with every change of what the file holds.
-constexpr int version = 4;
-constexpr const char* mark = "strut_restart";
+constexpr int version = 5;
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }
 inline std::string name_of(std::size_t group, const std::string& column) {
@@ -19,27 +16,13 @@ inline std::string name_of(std::size_t group, const std::string& column) {
 }
 inline std::string name_of_share(const std::string& name) { return "share_" + name; }
 inline std::string name_of_number(const std::string& name) { return "number_" + name; }
+// Of check sums: that of the numbers and the deck, then one for each list, in the order of the snapshot.
+constexpr const char* name_of_sums = "sums";
 
-// FNV-1a of all that is written, word by word: a disk or a copy that has changed a bit is found out.
-class Sum {
- public:
-  template <class T>
-  void add(std::span<const T> values) {
-    static_assert(sizeof(T) == 8);
-    for (const T& value : values) {
-      std::uint64_t word;
-      std::memcpy(&word, &value, 8);
-      sum_ = (sum_ ^ word) * 0x100000001b3u;
-    }
-  }
-  void add(double value) { add(std::span<const double>(&value, 1)); }
-  double value() const { return static_cast<double>(sum_ >> 12); }
-
- private:
-  std::uint64_t sum_ = 0xcbf29ce484222325u;
-};
-
-// What is written, until it is whole and takes the place of the file.
-inline std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }
+inline std::size_t number_of_lists(const Snapshot& snapshot) {
+  std::size_t lists = snapshot.shares.size();
+  for (const Snapshot::Group& group : snapshot.groups) lists += 1 + group.columns.size();
+  return lists;
+}
 
 }  // namespace strut::io::checkpoint_layout

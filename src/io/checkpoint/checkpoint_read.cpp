@@ -4,7 +4,9 @@
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
+#include "io/check_sum.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 #include "io/checkpoint/checkpoint_layout.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
@@ -28,8 +30,8 @@ NetcdfLists opened(const fs::path& path) {
   }
   if (is_hdf5(path)) throw Error(path.string() + ": is no checkpoint of strut");  // which HDF5 might not survive
   NetcdfLists file = NetcdfLists::open(path);
-  if (!file.has_number(mark)) throw Error(path.string() + ": is no checkpoint of strut");
-  if (const double found = file.number(mark); found != version) {
+  if (!file.has_number(checkpoint_mark)) throw Error(path.string() + ": is no checkpoint of strut");
+  if (const double found = file.number(checkpoint_mark); found != version) {
     throw Error(path.string() + ": has version " + std::to_string(static_cast<int>(found)) + "; this strut reads " +
                 std::to_string(version) + " (" + build_facts() + ", the file is by " + file.text("written_by") + ")");
   }
@@ -44,7 +46,7 @@ NetcdfLists opened(const fs::path& path) {
 // That the file has what the snapshot has. The numbers of points are those over all ranks.
 void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot,
              const std::vector<std::int64_t>& counts) {
-  int lists = 1 + static_cast<int>(snapshot.shares.size());  // with the check sum
+  int lists = 1 + static_cast<int>(snapshot.shares.size());  // with the check sums
   for (const auto& [name, value] : snapshot.numbers) {
     if (!file.has_number(name_of_number(name))) differs(path, "it has no number '" + name + "'");
   }
@@ -71,30 +73,42 @@ void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snap
   }
 }
 
-// The values of a list in portions, in their order.
+// The check sum of a list, read in portions.
 template <class T>
-void add_list(const NetcdfLists& file, const std::string& name, Sum& sum) {
+double sum_of(const NetcdfLists& file, const std::string& name) {
   const std::size_t size = file.size(name);
+  CheckSum sum;
   std::vector<T> values;
   for (std::size_t begin = 0; begin < size; begin += values.size()) {
     values.resize(std::min(largest_portion, size - begin));
     file.get(name, values, static_cast<std::int64_t>(begin));
     sum.add(std::span<const T>(values));
   }
+  return sum.value();
 }
 
-void check_sum(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot) {
-  Sum sum;
+double sum_of_head(const NetcdfLists& file, const Snapshot& snapshot) {
+  CheckSum sum;
+  sum.add(file.text("deck"));
   for (const auto& [name, value] : snapshot.numbers) sum.add(file.number(name_of_number(name)));
-  for (const auto& [name, value] : snapshot.shares) add_list<double>(file, name_of_share(name), sum);
+  return sum.value();
+}
+
+void check_sums(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot) {
+  const std::vector<double> sums = file.reals(name_of_sums);
+  std::size_t next = 0;
+  const auto check = [&](double sum, const std::string& what) {
+    if (next < sums.size() && sums[next++] == sum) return;
+    throw Error(path.string() + ": is damaged: the check sum of " + what + " is not that of its contents");
+  };
+  check(sum_of_head(file, snapshot), "its numbers");
+  for (const auto& [name, value] : snapshot.shares) check(sum_of<double>(file, name_of_share(name)), "'" + name + "'");
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
-    add_list<std::int64_t>(file, name_of_ids(g), sum);
-    for (const Snapshot::Column& column : snapshot.groups[g].columns) {
-      add_list<double>(file, name_of(g, column.name), sum);
+    const Snapshot::Group& group = snapshot.groups[g];
+    check(sum_of<std::int64_t>(file, name_of_ids(g)), "the ids of " + group.name);
+    for (const Snapshot::Column& column : group.columns) {
+      check(sum_of<double>(file, name_of(g, column.name)), "'" + column.name + "' of " + group.name);
     }
-  }
-  if (file.reals("sum") != std::vector<double>{sum.value()}) {
-    throw Error(path.string() + ": is damaged: its check sum is not that of its contents");
   }
 }
 
@@ -123,20 +137,43 @@ bool restore(const Communicator& communicator, const std::optional<NetcdfLists>&
   return ids == slices.ids();
 }
 
+// Calls open() for the newest file; where that fails and there is one before it, for that. The first error counts where
+// both fail.
+template <class Open>
+void open_either(const fs::path& newest, fs::path& path, const Open& open, std::string& note) {
+  try {
+    return open();
+  } catch (const Error& error) {
+    note = error.what();
+  }
+  try {
+    path = before_of(newest);
+    open();
+  } catch (const Error&) {
+    throw Error(note);
+  }
+  note += "; going on from the one before, " + path.string();
+}
+
 }  // namespace
 
-std::string read_checkpoint(const fs::path& path, const Communicator& communicator, Snapshot& snapshot) {
+Restored read_checkpoint(const fs::path& newest, const Communicator& communicator, Snapshot& snapshot) {
   std::vector<std::int64_t> counts;
   for (const Snapshot::Group& group : snapshot.groups) counts.push_back(communicator.sum(std::ssize(group.ids)));
   std::optional<NetcdfLists> file;
-  std::string deck;
+  fs::path path = newest;
+  Restored restored;
+  const auto open = [&] {
+    NetcdfLists found = opened(path);
+    compare(path, found, snapshot, counts);
+    check_sums(path, found, snapshot);
+    file.emplace(std::move(found));
+  };
   run_on_root(communicator, [&] {
-    file.emplace(opened(path));
-    compare(path, *file, snapshot, counts);
-    check_sum(path, *file, snapshot);
-    deck = file->text("deck");
+    open_either(newest, path, open, restored.note);
+    restored.deck = file->text("deck");
   });
-  communicator.broadcast(deck);
+  communicator.broadcast(restored.deck);
   const auto from_root = [&](const auto& get) {
     std::vector<double> values;
     run_on_root(communicator, [&] { values = get(); });
@@ -160,22 +197,26 @@ std::string read_checkpoint(const fs::path& path, const Communicator& communicat
     known = restore(communicator, file, g, snapshot.groups[g]) && known;
   }
   raise_together(communicator, known ? "" : path.string() + ": is of another mesh: the ids of its points are others");
-  return deck;
+  return restored;
+}
+
+bool checkpoint_is_there(const fs::path& path) {
+  std::error_code failure;
+  return fs::exists(path, failure) || fs::exists(before_of(path), failure);
 }
 
 void remove_checkpoint(const fs::path& path, const Communicator& communicator) {
   run_on_root(communicator, [&] {
-    std::error_code failure;
-    fs::remove(part_of(path), failure);
-    if (!fs::exists(path, failure)) return;
-    const bool ours = fs::is_regular_file(path) && classic_netcdf_problem(path).empty() && !is_hdf5(path) &&
-                      NetcdfLists::open(path).has_number(mark);
-    if (!ours) {
-      throw Error(path.string() + ": is no checkpoint of strut, and a run would replace it: expected another " +
-                  "name in Restart > Filename");
+    for (const fs::path& file : {part_of(path), before_of(path), path}) {
+      std::error_code failure;
+      if (!fs::exists(file, failure)) continue;
+      if (!fs::is_regular_file(file) || !is_of_kind(file, FileKind::checkpoint)) {
+        throw Error(file.string() + ": is no checkpoint of strut, and a run would replace it: expected another " +
+                    "name in Restart > Filename");
+      }
+      fs::remove(file, failure);
+      if (failure) throw Error(file.string() + ": cannot remove it: " + failure.message());
     }
-    fs::remove(path, failure);
-    if (failure) throw Error(path.string() + ": cannot remove it: " + failure.message());
   });
 }
 

@@ -7,7 +7,9 @@
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
+#include "io/check_sum.hpp"
 #include "io/checkpoint/checkpoint_file.hpp"
 #include "io/checkpoint/checkpoint_layout.hpp"
 #include "io/netcdf/netcdf_lists.hpp"
@@ -22,8 +24,18 @@ using namespace checkpoint_layout;
 
 namespace {
 
+// The one before stays, under another name. Where the system has no hard links it has that name alone for a moment.
+void keep_before(const fs::path& path) {
+  std::error_code failure;
+  if (!fs::exists(path, failure)) return;
+  fs::remove(before_of(path), failure);
+  fs::create_hard_link(path, before_of(path), failure);
+  if (failure) fs::rename(path, before_of(path), failure);
+}
+
 void replace(const fs::path& path, const fs::path& part) {
   force_to_disk(part);
+  keep_before(path);
   std::error_code failure;
   fs::rename(part, path, failure);
   if (failure) throw Error(path.string() + ": cannot replace it: " + failure.message());
@@ -35,7 +47,7 @@ void replace(const fs::path& path, const fs::path& part) {
 // The layout, on rank 0: of the groups, how many points all ranks have of each.
 void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
             const std::string& deck) {
-  file.put(mark, double{version});
+  file.put(checkpoint_mark, double{version});
   file.put("written_by", build_facts());
   file.put("deck", deck);
   for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
@@ -46,7 +58,7 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
       file.define(name_of(g, column.name), NetcdfLists::Of::reals, sizes[g] * static_cast<std::size_t>(column.width));
     }
   }
-  file.define("sum", NetcdfLists::Of::reals, 1);
+  file.define(name_of_sums, NetcdfLists::Of::reals, 1 + number_of_lists(snapshot));
   file.end_definitions();
 }
 
@@ -57,20 +69,24 @@ void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, co
   for (const Snapshot::Group& group : snapshot.groups) {
     sizes.push_back(static_cast<std::size_t>(communicator.sum(std::ssize(group.ids))));
   }
-  Sum sum;
+  CheckSum head;
+  head.add(deck);
+  for (const auto& [name, value] : snapshot.numbers) head.add(value);
+  std::vector<double> sums = {head.value()};
   on_root([&] {
     file.emplace(NetcdfLists::create(part));
     define(*file, snapshot, sizes, communicator.size(), deck);
   });
   const auto put = [&]<class T>(const std::string& name, std::span<const T> mine) {
     std::int64_t begin = 0;
+    CheckSum sum;
     collect(communicator, mine, [&](std::span<const T> portion) {
       on_root([&] { file->put(name, portion, begin); });
       sum.add(portion);
       begin += std::ssize(portion);
     });
+    sums.push_back(sum.value());
   };
-  for (const auto& [name, value] : snapshot.numbers) sum.add(value);
   for (const auto& [name, value] : snapshot.shares) put(name_of_share(name), std::span(&value, 1));
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
     const Slices slices(communicator, snapshot.groups[g].ids);
@@ -81,7 +97,7 @@ void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, co
     }
   }
   on_root([&] {
-    file->put("sum", std::vector<double>{sum.value()});
+    file->put(name_of_sums, sums);
     file->close();
   });
 }

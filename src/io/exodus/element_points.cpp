@@ -121,6 +121,7 @@ class Converter {
 }  // namespace
 
 PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells) {
+  check_corners(slice, file);
   return Converter(slice, file, with_cells).convert();
 }
 
@@ -134,10 +135,34 @@ void add_surfaces(const MeshSlice& slice, const Communicator& communicator, Poin
   }
 }
 
+void check_corners(const MeshSlice& slice, const std::string& file) {
+  constexpr int most = 5;
+  std::ostringstream text;
+  int found = 0;
+  std::size_t element = 0;
+  for (const Mesh::Block& block : slice.mesh.blocks) {
+    for (std::size_t e = 0; e < block.elements(); ++e, ++element) {
+      if (block.type != "HEX8") continue;
+      const std::array<Vector, 8> nodes = corners<8>(slice.mesh, block, e);
+      const int corner = folded_corner(nodes);
+      if (corner < 0 || !(hexahedron(nodes).volume > 0)) continue;  // what is inside out is told of by its volume
+      if (++found > most) break;
+      text << (found == 1 ? "" : ", ") << slice.elements[element] + 1 << " of block '" << block.name << "' (corner "
+           << corner + 1 << ")";
+    }
+  }
+  if (found == 0) return;
+  throw Error(file + ": hexahedra that are folded at a corner (its Jacobian is negative): element " + text.str() +
+              (found > most ? ", …" : "") +
+              "; expected corners whose edges are right-handed (nodes in another order?)");
+}
+
 void check_volume(double volume, const Mesh::Block& block, std::int64_t element, const std::string& file) {
   if (volume > 0 && std::isfinite(volume)) return;
-  throw Error(file + ": block '" + block.name + "', element " + std::to_string(element + 1) + ": volume " +
-              std::to_string(volume) + " m³, expected a positive one (inside out, flat or damaged?)");
+  std::ostringstream text;
+  text << file << ": block '" << block.name << "', element " << element + 1 << ": volume " << volume
+       << " m³, expected a positive one (inside out, flat or damaged?)";
+  throw Error(text.str());
 }
 
 }  // namespace strut::io

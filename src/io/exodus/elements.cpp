@@ -81,6 +81,17 @@ ElementPoint hexahedron(std::span<const Vector, 8> nodes) {
   return point;
 }
 
+int folded_corner(std::span<const Vector, 8> nodes) {
+  constexpr double rounding = 1e-6;  // of the mean: collapsed corners, and coordinates in single precision
+  double mean = 0;
+  for (const auto& g : corner) mean += gauss_point(g, nodes).weight / 8;
+  for (int n = 0; n < 8; ++n) {
+    const Vector place(corner[n][0], corner[n][1], corner[n][2]);
+    if (at_place(place, nodes).weight < -rounding * std::abs(mean)) return n;
+  }
+  return -1;
+}
+
 std::array<double, 8> hexahedron_parts(std::span<const Vector, 8> nodes) {
   std::array<double, 8> parts{};
   for (const auto& g : corner) {

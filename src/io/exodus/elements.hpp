@@ -17,6 +17,10 @@ struct ElementPoint {
 ElementPoint hexahedron(std::span<const Vector, 8> nodes);
 ElementPoint tetrahedron(std::span<const Vector, 4> nodes);
 
+// The corner (0 to 7) at which the edges are left-handed, so that the element is folded there though its volume may be
+// positive: det ∂x/∂ξ < 0. -1 where there is none; of a hexahedron collapsed to a wedge or pyramid it is 0.
+int folded_corner(std::span<const Vector, 8> nodes);
+
 // ∫ N_a dV of the shape function of each node: the parts of the volume that belong to the nodes. Their sum is the
 // volume, and Σ part × node = volume × centroid.
 std::array<double, 8> hexahedron_parts(std::span<const Vector, 8> nodes);

@@ -45,10 +45,10 @@ struct OutputField {
 class ExodusWriter {
  public:
   // `cloud`: this rank's points, in the order of the columns given to write(). Replaces a file of that name, or goes on
-  // after the first `frames` of it. Errors: the file cannot be created, another run writes to it, it does not have
-  // these points, fields or frames.
+  // after the first `frames` of it, whose check sum it must have. Errors: the file cannot be created, another run
+  // writes to it, it does not have these points, fields or frames.
   ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
-               std::vector<OutputField> fields, int frames = 0);
+               std::vector<OutputField> fields, int frames = 0, double sum = 0);
   ~ExodusWriter();
   ExodusWriter(ExodusWriter&&) noexcept;
 
@@ -56,6 +56,7 @@ class ExodusWriter {
   void write(double time, std::span<const std::vector<double>> columns);
 
   int frames() const;  // so far
+  double sum() const;  // on rank 0: a check sum of their times and of the values of the last one
   void sync() const;   // collective: they are on the disk
 
  private:

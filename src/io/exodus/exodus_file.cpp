@@ -1,6 +1,7 @@
 #include "io/exodus/exodus_file.hpp"
 
 #include <exodusII.h>
+#include <netcdf.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -141,15 +142,45 @@ ExodusFile ExodusFile::open(const fs::path& path, Access access, std::int64_t fr
   return file;
 }
 
-ExodusFile ExodusFile::create(const fs::path& path) {
-  ex_opts(0);
+namespace {
+
+// What a variable may take in the classic format with 64-bit offsets (CDF-2), in one frame, bytes.
+constexpr std::int64_t largest_of_offsets = 4'294'967'288;
+
+int created(const fs::path& path, int mode) {
   int word_size = sizeof(double);
   int file_word_size = sizeof(double);
-  // The classic format with 64-bit offsets, not HDF5: after each flush it is whole on disk, so a killed run loses
-  // nothing but the frame in hand. Its integers have 32 bits: enough for 2·10⁹ points.
-  const int mode = EX_CLOBBER | EX_LARGE_MODEL | EX_ALL_INT64_API;
   errno = 0;
-  const int handle = ex_create(path.c_str(), mode, &word_size, &file_word_size);
+  return ex_create(path.c_str(), mode | EX_CLOBBER | EX_ALL_INT64_API, &word_size, &file_word_size);
+}
+
+// The classic format with 64-bit sizes (CDF-5), which Exodus before version 7 has no word for: its default model then
+// takes netCDF's default format, and the number "file_size" says which layout it is to have.
+int created_with_64_bit_sizes(const fs::path& path) {
+#ifdef EX_64BIT_DATA
+  return created(path, EX_64BIT_DATA);
+#else
+  int before = 0;
+  nc_set_default_format(NC_FORMAT_64BIT_DATA, &before);
+  const int handle = created(path, EX_NORMAL_MODEL);
+  nc_set_default_format(before, nullptr);
+  if (handle < 0) return handle;
+  const int large = 1;
+  nc_redef(handle);
+  nc_put_att_int(handle, NC_GLOBAL, "file_size", NC_INT, 1, &large);
+  nc_enddef(handle);
+  return handle;
+#endif
+}
+
+}  // namespace
+
+// A classic format, not HDF5: after each flush it is whole on disk, so a killed run loses nothing but the frame in
+// hand. Its integers have 32 bits: enough for 2·10⁹ points.
+ExodusFile ExodusFile::create(const fs::path& path, std::int64_t largest_variable) {
+  ex_opts(0);
+  const bool fits = largest_variable <= largest_of_offsets;
+  const int handle = fits ? created(path, EX_LARGE_MODEL) : created_with_64_bit_sizes(path);
   if (handle < 0) fail(path, "create it", cause_of(handle));
   ExodusFile file(path, handle);
   file.check(ex_set_max_name_length(handle, longest_name), "set the length of names");
@@ -292,10 +323,13 @@ std::vector<std::string> ExodusFile::variable_names(On on) const {
 }
 
 std::vector<double> ExodusFile::nodal_values(int step, int variable) const {
-  std::vector<double> values(sizes().nodes);
-  check(
-      ex_get_var(handle_, step + 1, EX_NODAL, variable + 1, 1, static_cast<std::int64_t>(values.size()), values.data()),
-      "read nodal variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
+  return nodal_values(step, variable, 0, sizes().nodes);
+}
+
+std::vector<double> ExodusFile::nodal_values(int step, int variable, std::int64_t begin, std::int64_t count) const {
+  std::vector<double> values(count);
+  check(ex_get_partial_var(handle_, step + 1, EX_NODAL, variable + 1, 1, begin + 1, count, values.data()),
+        "read nodal variable " + std::to_string(variable + 1) + " of step " + std::to_string(step + 1));
   return values;
 }
 

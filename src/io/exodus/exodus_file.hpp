@@ -45,7 +45,8 @@ class ExodusFile {
   // `frames`: so many of a result must be whole; what is left of others is not to be read.
   static ExodusFile open(const std::filesystem::path& path, Access access = Access::read,
                          std::int64_t frames = all_records);
-  static ExodusFile create(const std::filesystem::path& path);  // replaces a file of that name
+  // Replaces a file of that name. `largest_variable`: bytes of what is largest in it, of a frame where it has frames.
+  static ExodusFile create(const std::filesystem::path& path, std::int64_t largest_variable = 0);
   ~ExodusFile();
   ExodusFile(ExodusFile&& other) noexcept;
   ExodusFile& operator=(ExodusFile&&) = delete;
@@ -66,7 +67,8 @@ class ExodusFile {
   std::vector<std::int64_t> numbers(On on, std::int64_t begin, std::int64_t count) const;
   std::vector<double> times() const;
   std::vector<std::string> variable_names(On on) const;
-  std::vector<double> nodal_values(int step, int variable) const;
+  std::vector<double> nodal_values(int step, int variable) const;  // of all nodes
+  std::vector<double> nodal_values(int step, int variable, std::int64_t begin, std::int64_t count) const;
   // NaN for elements of blocks on which the variable is not defined. Of one block, or of all.
   std::vector<double> element_values(int step, int variable, const Block& block, std::int64_t begin,
                                      std::int64_t count) const;

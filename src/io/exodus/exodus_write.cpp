@@ -5,13 +5,16 @@
 #include <optional>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
+#include "io/check_sum.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
 #include "io/exodus/numbering.hpp"
 #include "io/file_lock.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
+#include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 #include "io/to_disk.hpp"
@@ -56,13 +59,18 @@ struct ExodusWriter::File {
   std::vector<ExodusFile::Block> blocks;  // the same on all ranks
   std::vector<std::vector<int>> places;   // in this rank's slice, of the elements of each block
   int steps = 0;
+  std::vector<double> times;  // of them; of the last one the check sum of the values; on rank 0
+  CheckSum last_values;
 
   File(const Communicator& comm, const PointCloud& cloud, std::vector<OutputField> output)
       : communicator(comm), fields(std::move(output)), points(cloud.size()), slices(comm, cloud.ids) {}
 
-  void begin(const std::filesystem::path& path, const PointCloud& cloud);
+  void begin(const std::filesystem::path& path, const PointCloud& cloud, double sum);
   void create(const std::filesystem::path& path, const PointCloud& cloud);
-  void go_on(const std::filesystem::path& path);
+  void go_on(const std::filesystem::path& path, double sum);
+  bool fits(const ExodusFile& found) const;
+  void take_frames(const ExodusFile& found);
+  double sum() const;
   std::array<std::vector<std::string>, 2> names() const;  // of variables: element, nodal
   void define_blocks(const PointCloud& cloud);
   void define(const std::filesystem::path& path, const std::vector<ExodusFile::NodeSet>& sets);
@@ -92,12 +100,12 @@ struct ExodusWriter::File {
   }
 };
 
-void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud) {
+void ExodusWriter::File::begin(const std::filesystem::path& path, const PointCloud& cloud, double sum) {
   if (slices.size() == 0) throw Error(path.string() + ": there are no points to write");
   define_blocks(cloud);
   run_on_root(communicator, [&] { lock.emplace(path, steps > 0 ? FileLock::File::there : FileLock::File::made); });
   if (steps == 0) return create(path, cloud);
-  run_on_root(communicator, [&] { go_on(path); });
+  run_on_root(communicator, [&] { go_on(path, sum); });
 }
 
 std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
@@ -108,20 +116,60 @@ std::array<std::vector<std::string>, 2> ExodusWriter::File::names() const {
   return names;
 }
 
+bool ExodusWriter::File::fits(const ExodusFile& found) const {
+  const auto [element, nodal] = names();
+  return found.sizes().nodes == slices.size() && std::ssize(found.times()) >= steps &&
+         found.variable_names(ExodusFile::On::elements) == element &&
+         found.variable_names(ExodusFile::On::nodes) == nodal;
+}
+
+// The times of the frames, and what the last one holds, in the order in which it was written.
+void ExodusWriter::File::take_frames(const ExodusFile& found) {
+  constexpr auto portion = static_cast<std::int64_t>(largest_portion);
+  const auto add = [&](std::int64_t count, const auto& read) {
+    for (std::int64_t begin = 0; begin < count; begin += portion) {
+      last_values.add(std::span<const double>(read(begin, std::min(portion, count - begin))));
+    }
+  };
+  times = found.times();
+  times.resize(static_cast<std::size_t>(steps));
+  std::array<int, 2> next = {0, 0};  // variable: element, nodal
+  for (const OutputField& field : fields) {
+    for (int c = 0; c < field.components; ++c) {
+      const int v = next[field.nodal]++;
+      if (field.nodal) {
+        add(slices.size(),
+            [&](std::int64_t begin, std::int64_t count) { return found.nodal_values(steps - 1, v, begin, count); });
+        continue;
+      }
+      for (const ExodusFile::Block& block : blocks) {
+        add(block.elements, [&](std::int64_t begin, std::int64_t count) {
+          return found.element_values(steps - 1, v, block, begin, count);
+        });
+      }
+    }
+  }
+}
+
+double ExodusWriter::File::sum() const {
+  CheckSum all = last_values;
+  all.add(std::span<const double>(times));
+  return all.value();
+}
+
 // Frames beyond the first `steps` are dropped: the run comes to them again. The last may be there in part: the library
 // counts a frame as it begins to write it, where it goes on with a file, and a run can be killed then.
-void ExodusWriter::File::go_on(const std::filesystem::path& path) {
-  const auto [element, nodal] = names();
-  const bool fits = [&] {
+void ExodusWriter::File::go_on(const std::filesystem::path& path, double sum_then) {
+  const auto wrong = [&](const std::string& what) {
+    throw Error(path.string() + ": is not the result that the run left: " + what);
+  };
+  if (is_hdf5(path)) wrong("it is in the format netCDF-4 (HDF5), expected the classic one (was it converted?)");
+  {
     const ExodusFile found = ExodusFile::open(path, ExodusFile::Access::read, steps);
-    return found.sizes().nodes == slices.size() && std::ssize(found.times()) >= steps &&
-           found.variable_names(ExodusFile::On::elements) == element &&
-           found.variable_names(ExodusFile::On::nodes) == nodal;
-  }();
-  if (!fits) {
-    throw Error(path.string() + ": is not the result that the run left: it has other points or fields, or fewer than " +
-                std::to_string(steps) + " frames");
+    if (!fits(found)) wrong("it has other points or fields, or fewer than " + std::to_string(steps) + " frames");
+    take_frames(found);
   }
+  if (sum() != sum_then) wrong("its frames are of other times, or the last one before the checkpoint has other values");
   keep_records(path, steps);
   exodus.emplace(ExodusFile::open(path, ExodusFile::Access::write));
 }
@@ -150,8 +198,9 @@ void ExodusWriter::File::create(const std::filesystem::path& path, const PointCl
 
 void ExodusWriter::File::define(const std::filesystem::path& path, const std::vector<ExodusFile::NodeSet>& sets) {
   const auto [element, nodal] = names();
-  exodus.emplace(ExodusFile::create(path));
-  exodus->put_sizes("strut", {3, slices.size(), slices.size(), std::ssize(blocks), std::ssize(sets)});
+  constexpr std::int64_t of_point = 2 * sizeof(double);  // bytes: the attributes of a block, together
+  exodus.emplace(ExodusFile::create(path, of_point * slices.size()));
+  exodus->put_sizes(result_title, {3, slices.size(), slices.size(), std::ssize(blocks), std::ssize(sets)});
   exodus->put_provenance();
   exodus->put_blocks(blocks);
   exodus->put_node_sets(sets);
@@ -231,6 +280,7 @@ std::string ExodusWriter::File::size_problem(std::span<const std::vector<double>
 void ExodusWriter::File::write_nodal(int variable, const std::vector<double>& values, OnRoot& on_root) {
   in_portions(values, on_root, [&](const auto& portion, std::int64_t first) {
     exodus->put_nodal_values(steps, variable, portion, first);
+    last_values.add(portion);
   });
 }
 
@@ -238,21 +288,23 @@ void ExodusWriter::File::write_element(int variable, const std::vector<double>& 
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     in_portions(of_block(b, values), on_root, [&](const auto& portion, std::int64_t first) {
       exodus->put_element_values(steps, variable, blocks[b], portion, first);
+      last_values.add(portion);
     });
   }
 }
 
 ExodusWriter::ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
-                           std::vector<OutputField> fields, int frames)
+                           std::vector<OutputField> fields, int frames, double sum)
     : file_(std::make_unique<File>(communicator, cloud, std::move(fields))) {
   file_->steps = frames;
-  file_->begin(file, cloud);
+  file_->begin(file, cloud, sum);
 }
 
 ExodusWriter::~ExodusWriter() = default;
 ExodusWriter::ExodusWriter(ExodusWriter&&) noexcept = default;
 
 int ExodusWriter::frames() const { return file_->steps; }
+double ExodusWriter::sum() const { return file_->sum(); }
 
 void ExodusWriter::sync() const {
   run_on_root(file_->communicator, [this] { force_to_disk(file_->exodus->path()); });
@@ -263,6 +315,8 @@ void ExodusWriter::write(double time, std::span<const std::vector<double>> colum
   raise_together(communicator, file_->size_problem(columns));
   OnRoot on_root(communicator);
   on_root([&] { file_->exodus->put_time(file_->steps, time); });
+  file_->times.push_back(time);
+  file_->last_values = {};
   std::array<int, 2> variable = {0, 0};  // element, nodal
   for (std::size_t k = 0; k < file_->fields.size(); ++k) {
     const OutputField& field = file_->fields[k];

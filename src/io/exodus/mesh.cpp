@@ -1,7 +1,9 @@
 // A mesh that a tool made, to a file.
+#include <algorithm>
 #include <array>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
@@ -74,6 +76,16 @@ void put_elements(const ExodusFile& file, const ExodusFile::Block& layout, const
   file.put_attribute(layout, 1, block.volumes);
 }
 
+// Bytes: coordinates along an axis, or what a block has of nodes and attributes.
+std::int64_t largest_variable(const std::vector<ExodusFile::Block>& blocks, std::int64_t nodes) {
+  std::int64_t largest = 8 * nodes;
+  for (const ExodusFile::Block& block : blocks) {
+    largest = std::max(
+        {largest, 4 * block.elements * block.nodes_per_element, 8 * block.elements * std::ssize(block.attributes)});
+  }
+  return largest;
+}
+
 }  // namespace
 
 int nodes_per_element(const std::string& type) {
@@ -89,8 +101,8 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh) {
   std::int64_t elements = 0;
   for (const ExodusFile::Block& block : blocks) elements += block.elements;
 
-  const ExodusFile file = ExodusFile::create(path);
-  file.put_sizes("strut mesh", {3, std::ssize(mesh.nodes), elements, std::ssize(blocks), std::ssize(sets)});
+  const ExodusFile file = ExodusFile::create(path, largest_variable(blocks, std::ssize(mesh.nodes)));
+  file.put_sizes(mesh_title, {3, std::ssize(mesh.nodes), elements, std::ssize(blocks), std::ssize(sets)});
   file.put_provenance();
   file.put_blocks(blocks);
   file.put_node_sets(sets);

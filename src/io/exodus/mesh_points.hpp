@@ -31,6 +31,9 @@ std::array<Vector, size> corners(const Mesh& mesh, const Mesh::Block& block, std
   return nodes;
 }
 
+// Throws Error on this rank: a hexahedron is folded at a corner.
+void check_corners(const MeshSlice& slice, const std::string& file);
+
 // Throws Error where the volume (m³) is not positive. `element`: its place in the file.
 void check_volume(double volume, const Mesh::Block& block, std::int64_t element, const std::string& file);
 

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include "base/errors.hpp"
 #include "base/parallel/portions.hpp"
@@ -28,6 +30,35 @@ std::string type_of(const ExodusFile::Block& block) {
   return "";
 }
 
+// Blocks, or node sets, that have one number or name: the library looks them up by the number, the deck by the name.
+// "" where there are none.
+template <class Item, class Named>
+std::string said_twice(const std::string& kind, const std::vector<Item>& items, const std::vector<Named>& named) {
+  std::map<std::int64_t, std::size_t> numbers;
+  std::map<std::string, std::size_t> names;
+  const auto told = [&](std::size_t k) {
+    return "'" + named[k].name + "' (number " + std::to_string(items[k].id) + ", at place " + std::to_string(k + 1) +
+           ")";
+  };
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const auto [number, is_new_number] = numbers.emplace(items[k].id, k);
+    const auto [name, is_new_name] = names.emplace(named[k].name, k);
+    if (is_new_number && is_new_name) continue;
+    const std::size_t first = is_new_number ? name->second : number->second;
+    return kind + "s " + told(first) + " and " + told(k) + " have the same " + (is_new_number ? "name" : "number") +
+           "; expected one of its own for each " + kind;
+  }
+  return "";
+}
+
+// "Volume", "SPHERE_VOLUME", "radius": the place of the attribute of such a name.
+std::optional<int> attribute_of(const ExodusFile::Block& block, const std::string& wanted) {
+  for (std::size_t k = 0; k < block.attributes.size(); ++k) {
+    if (upper(block.attributes[k]).ends_with(wanted)) return static_cast<int>(k);
+  }
+  return std::nullopt;
+}
+
 // Where the attributes of cells are. None where not all of them are there: other codes have attributes of their own.
 std::vector<int> cell_columns(const ExodusFile::Block& block) {
   std::vector<int> columns;
@@ -50,6 +81,14 @@ MeshFile::MeshFile(ExodusFile file) : file_(std::move(file)) {
     layout_.node_sets.push_back({set.name.empty() ? "nodelist_" + std::to_string(set.id) : set.name, set.nodes});
   }
   take_blocks();
+  check_names();
+}
+
+void MeshFile::check_names() const {
+  for (const std::string& problem :
+       {said_twice("block", blocks_, layout_.blocks), said_twice("node set", sets_, layout_.node_sets)}) {
+    if (!problem.empty()) fail(problem);
+  }
 }
 
 void MeshFile::fail(const std::string& what) const { throw Error(file_.path().string() + ": " + what); }
@@ -122,15 +161,30 @@ int MeshFile::variable_volume(std::size_t block) const {
   return static_cast<int>(variable - names.begin());
 }
 
-// Attributes radius and volume, or the radius alone.
+// Attributes by their names; where these are none that is known, radius and volume by their places, or the radius
+// alone.
 void MeshFile::sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const {
-  const std::size_t attributes = blocks_[block].attributes.size();
+  const ExodusFile::Block& read_from = blocks_[block];
+  std::optional<int> volume = attribute_of(read_from, "VOLUME"), radius = attribute_of(read_from, "RADIUS");
+  if (!volume && !radius && !read_from.attributes.empty()) {
+    check_nameless(block);
+    read_from.attributes.size() == 1 ? radius = 0 : volume = 1;
+  }
   const std::int64_t count = std::ssize(values);
-  const std::vector<double> read = attributes == 0
-                                       ? file_.element_values(0, variable_volume(block), blocks_[block], begin, count)
-                                       : file_.attribute(blocks_[block], attributes == 1 ? 0 : 1, begin, count);
+  const std::vector<double> read = volume   ? file_.attribute(read_from, *volume, begin, count)
+                                   : radius ? file_.attribute(read_from, *radius, begin, count)
+                                            : file_.element_values(0, variable_volume(block), read_from, begin, count);
   std::copy(read.begin(), read.end(), values.begin());
-  if (attributes == 1) std::transform(values.begin(), values.end(), values.begin(), sphere_volume);
+  if (!volume && radius) std::transform(values.begin(), values.end(), values.begin(), sphere_volume);
+}
+
+// What has a name is not meant by its place.
+void MeshFile::check_nameless(std::size_t block) const {
+  const std::vector<std::string>& names = blocks_[block].attributes;
+  const auto says_something = [](const std::string& name) { return !name.empty() && !upper(name).starts_with("ATTR"); };
+  if (std::none_of(names.begin(), names.end(), says_something)) return;
+  fail("block '" + layout_.blocks[block].name + "': its spheres have the attributes " + joined(names) +
+       "; expected one of the name radius (m) or volume (m³)");
 }
 
 void MeshFile::cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin,

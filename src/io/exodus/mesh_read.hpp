@@ -51,6 +51,8 @@ class MeshFile {
   void check_sizes() const;
   void take_blocks();
   void take_indices(const std::vector<std::int64_t>& numbers, const std::string& user, std::span<int> nodes) const;
+  void check_names() const;
+  void check_nameless(std::size_t block) const;
   int variable_volume(std::size_t block) const;
 
   ExodusFile file_;

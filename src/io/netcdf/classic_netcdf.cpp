@@ -173,6 +173,7 @@ void keep_records(const std::filesystem::path& path, int count) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   char magic[4] = {};
   file.read(magic, 4);
+  if (std::string(magic, 3) != "CDF") throw Error(path.string() + ": cannot cut it: it is no classic netCDF file");
   file.seekp(4);  // the standard wants a seek between reading and writing
   for (int byte = (magic[3] == 5 ? 8 : 4) - 1; byte >= 0; --byte) {
     file.put(static_cast<char>(byte < 4 ? static_cast<unsigned>(count) >> 8 * byte & 0xff : 0));

@@ -1,11 +1,13 @@
 #include "io/text/history.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "io/to_disk.hpp"
 
 namespace strut::io {
@@ -30,13 +32,13 @@ std::string joined_of(const std::vector<HistoryColumn>& columns, std::string His
 }  // namespace
 
 HistoryFile::HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
-                         const std::vector<HistoryColumn>& columns, std::int64_t bytes)
+                         const std::vector<HistoryColumn>& columns, std::int64_t bytes, double sum)
     : path_(path), communicator_(communicator), columns_(columns.size()), bytes_(bytes) {
   run_on_root(communicator_, [&] {
     check_names(columns);
     lock_.emplace(path_, bytes_ > 0 ? FileLock::File::there : FileLock::File::made);
     const std::string header = joined_of(columns, &HistoryColumn::name);
-    bytes_ > 0 ? go_on(header) : begin(joined_of(columns, &HistoryColumn::unit), header);
+    bytes_ > 0 ? go_on(header, sum) : begin(joined_of(columns, &HistoryColumn::unit), header);
   });
 }
 
@@ -44,22 +46,37 @@ void HistoryFile::begin(const std::string& units, const std::string& header) {
   errno = 0;
   file_.open(path_);
   if (!file_) throw Error(path_.string() + ": cannot create it: " + std::strerror(errno));
-  write_line("# " + build_facts() + "; units: " + units);
+  write_line("# " + build_facts() + "; units: " + units);  // begins with history_mark
   write_line(header);
 }
 
-void HistoryFile::go_on(const std::string& header) {
+void HistoryFile::go_on(const std::string& header, double sum) {
   std::string facts, found;
-  std::ifstream before(path_);
+  std::ifstream before(path_, std::ios::binary);
   if (std::getline(before, facts)) std::getline(before, found);
-  if (std::filesystem::file_size(path_) < static_cast<std::uintmax_t>(bytes_) || !facts.starts_with("# strut ") ||
+  const auto wrong = [this](const std::string& what) {
+    throw Error(path_.string() + ": is not the history that the run left: it " + what);
+  };
+  if (std::filesystem::file_size(path_) < static_cast<std::uintmax_t>(bytes_) || !facts.starts_with(history_mark) ||
       found != header) {
-    throw Error(path_.string() + ": is not the history that the run left: it is shorter, or has other columns");
+    wrong("is shorter, or has other columns");
   }
+  take(before.seekg(0));
+  if (sum_.value() != sum) wrong("has other rows");
   std::error_code failure;
   std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(bytes_), failure);
   if (!failure) file_.open(path_, std::ios::app);
   if (failure || !file_) throw Error(path_.string() + ": cannot go on with it: " + std::strerror(errno));
+}
+
+// The rows that are kept.
+void HistoryFile::take(std::istream& file) {
+  std::string portion(std::size_t{1} << 16, '\0');
+  for (std::int64_t left = bytes_; left > 0 && file; left -= std::ssize(portion)) {
+    portion.resize(static_cast<std::size_t>(std::min(left, std::ssize(portion))));
+    file.read(portion.data(), std::ssize(portion));
+    sum_.add(portion);
+  }
 }
 
 void HistoryFile::write(std::span<const double> row) {
@@ -87,6 +104,8 @@ void HistoryFile::write_line(const std::string& line) {
   file_ << line << '\n' << std::flush;
   if (!file_) throw Error(path_.string() + ": cannot write to it: " + std::strerror(errno));
   bytes_ += std::ssize(line) + 1;
+  sum_.add(line);
+  sum_.add("\n");
 }
 
 }  // namespace strut::io

@@ -27,9 +27,8 @@ LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric
 
 // Sums of a group over its families. Not in the update of a block, which is compiled for every law.
 bonds::Moments<Lanes> moments(const Body& body, const LaneGroup& group, bool with_springs) {
-  return bonds::with_influence(body.influence, [&](auto weight) {
-    return moments(group, {body.domain.sites.data()}, with_springs, weight);
-  });
+  return bonds::with_influence(
+      body.influence, [&](auto weight) { return moments(group, {body.domain.sites.data()}, with_springs, weight); });
 }
 
 // All that the update of one block needs.
@@ -114,9 +113,10 @@ struct Update {
     const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);
     const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);
-    const Lanes volume = lanes_of([&](int l) { return body().domain.volume(group.i[l]); });
-    const Lanes bound2 =
-        share * share * volume * squared_speed(now) * (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
+    const Lanes per_density =
+        lanes_of([&](int l) { return body().domain.volume(group.i[l]) / body().density[group.i[l]]; });
+    const Lanes bound2 = share * share * per_density * steepened_modulus(now) *
+                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (!(now.stiffness[l] > 0)) {  // has failed

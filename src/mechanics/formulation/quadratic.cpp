@@ -16,8 +16,8 @@ namespace {
 // Sums of a group over its families. Not in the update of a block, which is compiled for every law.
 bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group) {
   return bonds::with_influence(body.influence, [&](auto weight) {
-    return bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, body.domain.sites.data(),
-                                   body.fits->multipliers(), weight);
+    return bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), body.fits->multipliers(),
+                                   weight);
   });
 }
 
@@ -76,7 +76,7 @@ struct Update {
     share_traces(J, {&at[0].stress, &at[1].stress, &at[2].stress, &at[3].stress}, has_flowed);
     Lanes stiffest = at[0].stiffness, softest = at[0].stiffness;
     for (const Deformed& now : at) stiffest = stiffest.max(now.stiffness), softest = softest.min(now.stiffness);
-    Lanes speed2 = Lanes::Zero(), determinant = Lanes::Constant(1);
+    Lanes modulus = Lanes::Zero(), determinant = Lanes::Constant(1);
     for (int q = 0; q < 4; ++q) {
       const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
@@ -90,7 +90,7 @@ struct Update {
         if (!(now.J[l] > 0)) determinant[l] = now.J[l];
       }
       cells.add_stress(q, P);
-      speed2 = speed2.max(squared_speed(now));
+      modulus = modulus.max(steepened_modulus(now));
     }
     cells.store(group, share, body().force_states.quadratics);
     for (int l = 0; l < group.count; ++l) {
@@ -98,7 +98,8 @@ struct Update {
       body().force_states.quadratics[i].failed = stiffest[l] > 0 ? 0 : 1;
       body().force_density[i] = bonds::quadratic_own_force(body().force_states.quadratics[i], (*body().fits)[i]);
     }
-    return report(group, determinant, softest, share * share * cells.volume() * cells.steepness() * speed2);
+    const Lanes density = lanes_of([&](int l) { return body().density[group.i[l]]; });
+    return report(group, determinant, softest, share * share * cells.volume() / density * cells.steepness() * modulus);
   }
 
  private:

@@ -241,7 +241,7 @@ class ConsistencyCorrection {
   int count() const { return static_cast<int>(points_.size()); }
   bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
   Halo& halo() const { return body_.domain.halo; }
-  void exchange_multipliers() { halo().exchange(fits_.multipliers_.data()->data(), 4, 3); }
+  void exchange_multipliers() { halo().exchange(reinterpret_cast<double*>(fits_.multipliers_.data()), 4, 3); }
 
   void set_missing();
   void set_operator();

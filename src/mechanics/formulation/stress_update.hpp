@@ -94,7 +94,7 @@ struct Deformed {
   Lanes J;
   LaneSymmetric rates;   // of a step of no length: zero
   LaneSymmetric stress;  // unrotated, with the viscous pressure
-  Lanes stiffness;       // M/(3ρ), m²/s², 0 of those that have failed
+  Lanes stiffness;       // M, Pa, 0 of those that have failed
 };
 
 // The law of one block, called for law points side by side.
@@ -211,7 +211,8 @@ struct LawUpdate {
   // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
   Viscous add_viscosity(const LawPoints& g, const Deformed& now, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
-    const Lanes speed2 = 3 * now.stiffness * now.J, steepness2 = small::square(now.inverse_stretch) / 3;
+    const Lanes speed2 = now.stiffness * now.J / block.material.density,
+                steepness2 = small::square(now.inverse_stretch) / 3;
     Viscous viscous{Lanes::Zero(), Lanes::Zero()};
     for (int l = 0; l < g.group.count; ++l) {
       ViscousPoint& point = block.viscous[g.places[l]];
@@ -229,19 +230,21 @@ struct LawUpdate {
     return viscous;
   }
 
-  // M/(3ρ) of law points, m²/s²; 0 of those that have failed.
+  // M of law points, Pa; 0 of those that have failed.
   Lanes stiffness_of(const LawPoints& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
       for (int l = 0; l < LawPoints::width; ++l)
         modulus[l] = law.moduli(block.template state_of<L>(g.places[l])).longitudinal();
     }
-    return modulus / (3 * block.material.density);
+    return modulus;
   }
 };
 
-// What a law point adds to ω²: M/(3ρ) J |U⁻¹|², m²/s².
-inline Lanes squared_speed(const Deformed& now) { return now.stiffness * now.J * small::square(now.inverse_stretch); }
+// What a law point adds to ω²: M J |U⁻¹|²/3, Pa, over the density of its point.
+inline Lanes steepened_modulus(const Deformed& now) {
+  return now.stiffness * now.J * small::square(now.inverse_stretch) / 3;
+}
 
 // The largest damping by viscosity of the points of a whole step.
 inline void add_damping(const MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,

@@ -59,7 +59,7 @@ BondEnergies::BondEnergies(const Body& body) : concerned_(concerned_blocks(body)
     }
   }
   constexpr int width = sizeof(Point) / sizeof(double);
-  body.domain.halo.exchange(&points_[0].limit, width, width);
+  body.domain.halo.exchange(reinterpret_cast<double*>(points_.data()), width, width);
 }
 
 std::vector<char> BondEnergies::take_states(const Body& body, double travel) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
@@ -144,8 +145,10 @@ void Fracture::set_limits(const Body& body, double time) {
     const auto& damage = block.material.damage;
     const double s = damage && damage->critical_stretch ? (*damage->critical_stretch)(0, 0, 0, time) : never;
     if (!(s > 0)) {  // the same on all ranks
-      throw Error("the critical stretch of block '" + block.name + "' is " + std::to_string(s) +
-                  " at t = " + std::to_string(time) + " s; expected a number > 0");
+      std::ostringstream text;
+      text << "the critical stretch of block '" << block.name << "' is " << s << " at t = " << time
+           << " s; expected a number > 0";
+      throw Error(text.str());
     }
     of_block.push_back((1 + s) * (1 + s));
   }

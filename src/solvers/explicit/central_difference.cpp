@@ -25,6 +25,9 @@ constexpr int renewal_steps = 1000;
 
 constexpr double round_off = 1e-6;  // of a step: times are sums of up to millions of steps
 
+// The step grows by this factor at least, where an estimate of the critical time step is due.
+constexpr double least_growth = 1 / 0.75;
+
 }  // namespace
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
@@ -39,6 +42,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   time_ = initial_time;
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
+  largest_energy_ = energy_of_round_off(body_);
   StepReport report = advance_stress(body_, 0, true);
   reassign_levels(report);
   sum_forces(body_, true);
@@ -65,7 +69,8 @@ void CentralDifference::reassign_levels(StepReport& report) {
   levels_due_ = false;
   estimate_due_ = true;
   if (!control_.subcycling || control_.fixed_dt > 0) return;
-  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor);
+  const double bearable = steps_ == 0 ? 0 : frequency_bound_ * longest_stay() * critical_time_step() / dt_;
+  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, bearable, step_may_grow_);
   restrict_conditions();
 }
 
@@ -79,29 +84,39 @@ void CentralDifference::restrict_conditions() {
 void CentralDifference::choose_step(double final_time) {
   previous_dt_ = dt_;
   const double left = final_time - time_;
-  if (left <= 0 && steps_ > 0) return;  // no step follows: velocities at the end are the mean about equal ones
+  if (left <= 0 && steps_ > 0) {  // no step follows: velocities at the end are those about one as long as usual
+    if (control_.fixed_dt > 0) dt_ = control_.fixed_dt;
+    return;
+  }
   // A fixed step is watched, too, more closely where it may have become too large: a warning should be true.
   const double growth = control_.fixed_dt > critical_time_step() ? 1.01 : renewal_growth;
-  if (estimate_due_) estimate_step();
+  const bool estimated = estimate_due_;
+  if (estimated) estimate_step();
   levels_due_ = frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps;
   if (control_.fixed_dt > 0) {
     // What round-off leaves after the last full step is no step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
     // Equal steps to the end: a jump in dt at the last one would cost energy.
-    dt_ = left / std::ceil(left / longest_step() * (1 - round_off));
+    dt_ = left / std::ceil(left / longest_step(estimated) * (1 - round_off));
+    step_may_grow_ = false;
   }
   next_time_ = dt_ == left ? final_time : time_ + dt_;
 }
 
-// Each change of the step takes or gives energy, in proportion to it. Where bonds break the bound of the critical time
-// step goes up and down with the families of a few points: there the step stays as it is while it is stable, and not
-// much shorter than it could be.
-double CentralDifference::longest_step() const {
-  constexpr double most = 0.95, least = 0.7;  // of the critical time step; of the step that would be chosen
+// As a part of the critical time step. Where bonds break its bound goes up and down with the families of a few points.
+double CentralDifference::longest_stay() const {
+  constexpr double most = 0.95;
+  const double slack = body_.fracture ? most / 0.8 : 1.05, safety = control_.safety_factor;
+  return std::min(slack * safety, std::max(most, safety));
+}
+
+// Each change of the step takes or gives energy, in proportion to it, and changes that follow a vibration feed it: the
+// step stays as it is while it is stable, and until it could be much longer.
+double CentralDifference::longest_step(bool estimated) const {
   const double critical = critical_time_step(), chosen = control_.safety_factor * critical;
-  const bool stays = body_.fracture && steps_ > 0 && dt_ <= most * critical && dt_ >= least * chosen;
-  return stays ? dt_ : chosen;
+  const bool may_grow = step_may_grow_ || (estimated && chosen >= least_growth * dt_);
+  return steps_ > 0 && dt_ <= longest_stay() * critical && !may_grow ? dt_ : chosen;
 }
 
 void CentralDifference::advance_velocity(double final_time) {
@@ -109,11 +124,13 @@ void CentralDifference::advance_velocity(double final_time) {
   choose_step(final_time);
   const Timed timed(timer);
   add_forces(conditions_, time_, body_);
-  if (steps_ == 0) start();
+  // Initial velocities are those of the initial time: the first impulse is of half a step.
+  if (steps_ == 0) body_.velocity = predicted_velocities(conditions_, time_, dt_, body_);
+  mid_steps_.before = previous_dt_ / (previous_dt_ + dt_);
   const double impulse_time = 0.5 * (previous_dt_ + dt_);
   for_each_point(0, body_.owned(), [&](int i) { apply_force(i, impulse_time); });
   apply_conditions(impulse_time);
-  if (steps_ == 0) initial_energy_ = 0, initial_energy_ = imbalance(ledger());
+  if (steps_ == 0) initial_energy_ = 0, initial_energy_ = ledger().gained;
 }
 
 void CentralDifference::apply_force(int i, double impulse_time) {
@@ -126,10 +143,23 @@ void CentralDifference::apply_conditions(double impulse_time) {
   work_ = work_ + impulse_work_.before + impulse_work_.after;
   impulse_work_ = {};
   ReactionImpulses impulses(static_cast<int>(reaction_forces_.size()));
-  change_velocities(conditions_, time_, point_steps(), body_, impulse_work_, impulses);
+  PointTimeSteps steps = point_steps();
+  steps.impulse = impulse_time / dt_;
+  change_velocities(conditions_, time_, steps, body_, impulse_work_, impulses);
   take_reactions(impulses, impulse_time);
   add_work_of_forces(conditions_, time_, impulse_time, body_, impulse_work_);
   add_work_of_friction(impulse_time);
+  impulse_work_ = impulse_work_.split(mid_steps_);
+  if (mid_steps_.before != 0.5) even_out();
+}
+
+// Whoever looks at the body takes the mean of both velocities for the one at the time of the forces: the one before
+// becomes that of a step before as long as the one after.
+void CentralDifference::even_out() {
+  for_each_point(0, body_.owned(), [&](int i) {
+    Vector& before = body_.previous_velocity[i];
+    before = 2 * mid_steps_.velocity(before, body_.velocity[i]) - body_.velocity[i];
+  });
 }
 
 // ω² of a sum of operators is at most the sum of theirs. A damping by the velocities of the mid-step before takes as
@@ -151,16 +181,15 @@ void CentralDifference::gather_reactions(int conditions) {
   substep_impulses_ = ReactionImpulses(conditions);
 }
 
-// What a substep gives belongs to the step before this impulse. The first impulse begins half a step back, with
-// velocities that conditions have not changed, and so they answer for half of it.
+// What a substep gives belongs to the step before this impulse.
 void CentralDifference::take_reactions(const ReactionImpulses& now, double impulse_time) {
-  const double length = steps_ == 0 ? 0.5 * impulse_time : impulse_time;
-  const double before = steps_ == 0 ? 0 : 0.5;  // of them, as ledger() has the velocities at time()
-  impulses_ = {0.5 * impulse_time, 0.5 * impulse_time, substep_impulses_.sums(), now.sums()};
+  const double before = mid_steps_.before;
+  impulses_ = {before * impulse_time, (1 - before) * impulse_time, substep_impulses_.sums(), now.sums()};
   for (std::size_t c = 0; c < reaction_forces_.size(); ++c) {
     impulses_.conditions_before[c] += before * now.sums()[c];
     impulses_.conditions_after[c] *= 1 - before;
-    reaction_forces_[c] = now.sums()[c] / length + substep_impulses_.sums()[c] / previous_dt_;
+    reaction_forces_[c] = now.sums()[c] / impulse_time;
+    if (steps_ > 0) reaction_forces_[c] += substep_impulses_.sums()[c] / previous_dt_;
   }
   substep_impulses_ = ReactionImpulses(static_cast<int>(reaction_forces_.size()));
 }
@@ -169,14 +198,6 @@ Reactions CentralDifference::reactions() const {
   Reactions all{reaction_forces_};
   if (!all.forces.empty()) body_.domain.communicator.sum(std::span(all.forces[0].data(), 3 * all.forces.size()));
   return all;
-}
-
-// Initial velocities belong to the initial time: the mid-step before it is half a step back.
-void CentralDifference::start() {
-  previous_dt_ = dt_;
-  change_initial_velocities(conditions_, time_, dt_, body_);
-  for_each_point(0, body_.owned(),
-                 [&](int i) { body_.velocity[i] -= 0.5 * dt_ / body_.density[i] * body_.force_density[i]; });
 }
 
 // Between time() and the next: the impulses of the points of higher time-step levels. Times of level m come every
@@ -243,8 +264,9 @@ void CentralDifference::move_points() {
 // One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
 // contact needs.
 void CentralDifference::check(const StepReport& report) {
-  std::vector<double> agreed{static_cast<double>(severity(report)), static_cast<double>(request_),
-                             report.frequency_bound, report.damping};
+  const std::string no_number = conditions_.first_not_finite();
+  std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
+                             static_cast<double>(request_), report.frequency_bound, report.damping};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(kinematics(), agreed);
   {
@@ -262,7 +284,9 @@ void CentralDifference::check(const StepReport& report) {
   warning_.clear();
   if (severity == harmless) return;
   std::ostringstream text;
-  if (report.failure) {
+  if (!no_number.empty()) {
+    text << no_number;
+  } else if (report.failure) {
     text << "at t = " << time_ << " s, step " << steps_ << " of " << dt_ << " s: " << describe(*report.failure, body_);
   }
   if (!went_on_) raise_together(body_.domain.communicator, text.str());
@@ -292,6 +316,7 @@ void CentralDifference::serialize(Archive& archive) {
   archive.number("damping", damping_);
   archive.number("regroup_due", levels_due_);
   archive.number("estimate_due", estimate_due_);
+  archive.number("step_may_grow", step_may_grow_);
   serialize_work(archive);
   contact_.serialize(archive, kinematics(), dt_);
   if (!archive.loading()) return;
@@ -324,22 +349,21 @@ double held(const Ledger& now) {
 
 }  // namespace
 
-// That, less what was put in.
-double CentralDifference::imbalance(const Ledger& now) const {
-  return held(now) - now.tools - now.contact - now.external - initial_energy_;
+double CentralDifference::put_in(const Ledger& now) const {
+  return initial_energy_ + now.tools + now.contact + now.external;
 }
 
 Ledger CentralDifference::ledger() {
+  raise_together(body_.domain.communicator, conditions_.first_not_finite());
   Ledger now;
   now.time = time_;
   now.dt = dt_;
   const Work done = work_ + impulse_work_.before;
   double sums[7] = {0, done.contact - contact_.energy(), done.external, done.tools, 0, 0, 0};
   for (int i = 0; i < body_.owned(); ++i) {
-    const Vector &before = body_.previous_velocity[i], &after = body_.velocity[i];
-    // ½ m v⁻·v⁺: with it central differences conserve the energy of a linear body exactly, at a constant step.
-    sums[0] += 0.5 * body_.mass(i) * before.dot(after);
-    for (int c = 0; c < 3; ++c) sums[4 + c] += body_.mass(i) * 0.5 * (before[c] + after[c]);
+    const Vector &after = body_.velocity[i], now_here = 0.5 * (body_.previous_velocity[i] + after);
+    sums[0] += 0.5 * body_.mass(i) * mid_steps_.conserved_square(now_here, after);
+    for (int c = 0; c < 3; ++c) sums[4 + c] += body_.mass(i) * now_here[c];
   }
   body_.domain.communicator.sum(sums);
   const Energies stored = stored_energies(body_);
@@ -354,9 +378,7 @@ Ledger CentralDifference::ledger() {
   now.stabilization = stored.stabilization;
   now.fracture = stored.fracture;
   now.heat = stored.heat;
-  largest_energy_ =
-      std::max({largest_energy_, held(now), std::abs(initial_energy_ + now.tools + now.contact + now.external)});
-  now.balance_error = largest_energy_ > 0 ? std::abs(imbalance(now)) / largest_energy_ : 0;
+  now.balance(held(now), put_in(now), largest_energy_);
   return now;
 }
 

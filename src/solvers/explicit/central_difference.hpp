@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conditions/conditions.hpp"
+#include "conditions/mid_steps.hpp"
 #include "contact/contact.hpp"
 #include "mechanics/mechanics.hpp"
 #include "solvers/explicit/critical_time_step.hpp"
@@ -36,6 +37,7 @@ class CentralDifference {
   // 2/ω_max now, s: the last estimate, less where the deformation has gone on and where points touch.
   double critical_time_step() const;
   const contact::Contact& contact() const { return contact_; }
+  const Conditions& conditions() const { return conditions_; }
 
   // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then
   // advance_position().
@@ -74,12 +76,14 @@ class CentralDifference {
   contact::Kinematics kinematics() const;
   void apply_force(int i, double impulse_time);
   void apply_conditions(double impulse_time);
+  void even_out();
   void move(int i, const PointTimeSteps& steps);
   void move_points();
   void add_work_of_friction(double impulse_time);
   void take_reactions(const ReactionImpulses& now, double impulse_time);
   void choose_step(double final_time);
-  double longest_step() const;
+  double longest_stay() const;
+  double longest_step(bool estimated) const;
   void estimate_step();
   void reassign_levels(StepReport& report);
   void restrict_conditions();
@@ -87,11 +91,10 @@ class CentralDifference {
   StepReport substeps();
   StepReport substep(int level, double t);
   PointTimeSteps point_steps() const { return {dt_, &multi_stepping_.motion_levels()}; }
-  void start();
   enum Severity { harmless, passable, fatal };
   Severity severity(const StepReport& report) const;
   void check(const StepReport& report);
-  double imbalance(const Ledger& now) const;
+  double put_in(const Ledger& now) const;
 
   Body& body_;
   Conditions conditions_;
@@ -102,6 +105,7 @@ class CentralDifference {
   std::vector<Conditions> conditions_of_level_;  // of the points that move at times between steps
   Work work_;                                    // up to the mid-step before time()
   ImpulseWork impulse_work_;                     // of the impulses at time()
+  MidSteps mid_steps_;                           // about time()
   std::vector<Vector> reaction_forces_;  // N, on this rank's points at time(), by condition; empty: not asked for
   StepImpulses impulses_;
   ReactionImpulses substep_impulses_;  // of the substeps since the last whole step
@@ -110,7 +114,7 @@ class CentralDifference {
   double initial_energy_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;
-  bool levels_due_ = true, estimate_due_ = true;
+  bool levels_due_ = true, estimate_due_ = true, step_may_grow_ = false;
   std::string warning_;
   bool went_on_ = false;
   Request request_ = Request::none, agreed_request_ = Request::none;

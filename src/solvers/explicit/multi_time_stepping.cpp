@@ -29,7 +29,12 @@ constexpr double cost_of_substep = 1.5;
 // Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
 constexpr int families_between_levels = 2;
 
-constexpr double worth_while = 0.75;  // of the cost of a run without
+constexpr double worth_while = 0.75;  // of the cost of a run without, or of one whose step stays as it is
+constexpr double pays_at_once = 0.9;  // of the latter, where a shorter step has fewer substeps
+
+// A point's level falls when its frequency bound could be so much larger on the lower one: each change takes or gives
+// energy, and bounds go up and down with vibrations.
+constexpr double slack = 1.25;
 
 // What a step of which frequency bound costs, in classes that are an eighth of an octave wide.
 class FrequencyHistogram {
@@ -150,27 +155,48 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
-// The time-step levels of owned points and ghosts, or none where they are not worth while: points between stiff ones
-// count, too.
-std::vector<std::uint8_t> chosen_levels(Body& body, double margin) {
-  const FrequencyBounds bounds = frequency_bounds_of(body);
+// Of owned points and ghosts, empty of none; and what they cost, for a time.
+struct Levels {
+  std::vector<std::uint8_t> levels = {};
+  double cost;
+};
+
+// With steps for points of the frequency bound `bound` and below. `before`: the levels so far, if any.
+Levels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
+                  const std::vector<std::uint8_t>& before) {
+  std::vector<std::uint8_t> levels(body.owned(), 0);
+  over_points(body, [&](int i, bool may) {
+    if (!may) return;
+    levels[i] = level_of(bounds.values[i], bound, margin);
+    if (before.empty() || before[i] <= levels[i]) return;
+    levels[i] = std::max<int>(levels[i], std::min<int>(before[i], level_of(slack * bounds.values[i], bound, margin)));
+  });
+  exchange(body, body.domain.halo, levels);
+  smooth_levels(body, levels);
+  double cost = 0;
+  for (int i = 0; i < body.owned(); ++i) cost += cost_of_point(body, i) * cost_of(levels[i]);
+  return {std::move(levels), body.domain.communicator.sum(cost) * bound};
+}
+
+Levels no_levels(const Body& body, const FrequencyBounds& bounds) {
+  double cost = 0;
+  for (int i = 0; i < body.owned(); ++i) cost += cost_of_point(body, i);
+  return {.cost = body.domain.communicator.sum(cost) * bounds.largest};
+}
+
+// What costs least; points between stiff ones count, too. Sets `bound` to the frequency bound that its steps are for.
+Levels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin, double& bound) {
   FrequencyHistogram histogram(bounds.largest, margin);
   for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));
   histogram.agree(body.domain.communicator);
-  const double bound = std::max(histogram.best(), bounds.floor);
-  if (!(bound < bounds.largest)) return {};
-  std::vector<std::uint8_t> levels(body.owned(), 0);
-  over_points(body, [&](int i, bool may) { levels[i] = may ? level_of(bounds.values[i], bound, margin) : 0; });
-  exchange(body, body.domain.halo, levels);
-  smooth_levels(body, levels);
-  double costs[] = {0, 0};  // with and without levels
-  for (int i = 0; i < body.owned(); ++i) {
-    costs[0] += cost_of_point(body, i) * cost_of(levels[i]);
-    costs[1] += cost_of_point(body, i);
+  bound = std::max(histogram.best(), bounds.floor);
+  Levels none = no_levels(body, bounds);
+  if (bound < bounds.largest) {
+    Levels some = levels_for(body, bounds, bound, margin, {});
+    if (some.cost < worth_while * none.cost) return some;
   }
-  body.domain.communicator.sum(costs);
-  const bool pays = costs[0] * bound < worth_while * costs[1] * bounds.largest;
-  return pays ? levels : std::vector<std::uint8_t>{};
+  bound = bounds.largest;
+  return none;
 }
 
 // The level of the motion of each point: that of any point whose stress moves it.
@@ -233,9 +259,19 @@ std::vector<double> all_ids(Body& body) {
 
 }  // namespace
 
-double MultiTimeStepping::choose(Body& body, double safety_factor) {
+double MultiTimeStepping::choose(Body& body, double safety_factor, double bearable, bool& anew) {
   const std::vector<std::uint8_t> before = std::move(body.time_levels);
-  body.time_levels = chosen_levels(body, std::min(1.0, most_turn / safety_factor));
+  const double margin = std::min(1.0, most_turn / safety_factor);
+  const FrequencyBounds bounds = frequency_bounds_of(body);
+  double bound = 0;
+  Levels best = cheapest_levels(body, bounds, margin, bound);
+  anew = true;
+  if (bearable > 0 && bearable >= bounds.floor) {
+    Levels kept = levels_for(body, bounds, bearable, margin, before);
+    anew = best.cost < (bound < bearable ? worth_while : pays_at_once) * kept.cost;
+    if (!anew) best = std::move(kept);
+  }
+  body.time_levels = std::move(best.levels);
   make_levels(body);
   spread_impulses(body, before);
   double fastest = 0;
@@ -330,7 +366,7 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
 StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
   Level& now = levels_[level - 1];
   StepReport report;
-  now.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+  now.halo.exchange(places(body.domain.sites), site_stride, 3);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
     if (block.in_rigid_motion || now.stressed[b].places.empty()) continue;
@@ -342,7 +378,8 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
     }
   }
   for (const int i : now.moved) {
-    if (body.time_levels[i] < level) body.force_density[i].setZero();  // its own state acts at other times
+    // Its own state acts at other times, or is none: what is left is the force of the last whole step, with its loads.
+    if (body.time_levels[i] < level || moves_rigidly(body, i)) body.force_density[i].setZero();
   }
   for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { add_residuals<S>(kind, body, now, level); });
   for (const auto& [i, error] : now.moment_errors) {

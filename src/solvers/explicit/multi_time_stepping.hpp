@@ -20,8 +20,9 @@ class MultiTimeStepping {
   // what costs least; none where that saves little. The forces of the points whose time-step levels change are scaled
   // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
   // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
-  // the step will be such a part of the stable one.
-  double choose(Body& body, double safety_factor);
+  // the step will be such a part of the stable one. `bearable`: up to which bound points of level 0 can have the step
+  // that there is; 0: there is none. It stays as it is, unless another is much better: `anew`.
+  double choose(Body& body, double safety_factor, double bearable, bool& anew);
 
   // A step has 2^level_count() substeps. Times of level m come every Δt/2^m.
   int level_count() const { return static_cast<int>(levels_.size()); }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
+#include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "mechanics/serialize.hpp"
 
@@ -15,19 +17,20 @@ namespace {
 // body is round-off of its loading.
 constexpr double smallest_scale = 1e-4;
 
-// Forces of a strain of this size are none: what nothing touches yet has only round-off.
-constexpr double no_strain = 1e-10;
+// Of the stiffness, the force that the round-off of places leaves at a point. Measured: TODO.
+constexpr double few = 16;
 
-// N, of all points: what a strain of 1 would do.
-double stiffness_scale(const Body& body) {
+// N, of all points: the forces of strains that are the round-off of places, ε |X|/h.
+double round_off_of_forces(const Body& body) {
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
-      const double side = std::cbrt(body.domain.volume(block.points[k]));
-      sum += std::pow(block.moduli(k).longitudinal() * side * side, 2);
+      const int i = block.points[k];
+      const double side = std::cbrt(body.domain.volume(i)), place = body.domain.reference(i).cwiseAbs().maxCoeff();
+      sum += std::pow(block.moduli(k).longitudinal() * side * std::max(place, side), 2);
     }
   }
-  return std::sqrt(body.domain.communicator.sum(sum));
+  return few * std::numeric_limits<double>::epsilon() * std::sqrt(body.domain.communicator.sum(sum));
 }
 
 }  // namespace
@@ -42,7 +45,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   residual_.assign(body.owned(), Vector::Zero());
   outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
-  floor_ = no_strain * stiffness_scale(body);
+  round_off_ = round_off_of_forces(body);
   looked_at_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
 }
@@ -51,6 +54,15 @@ void Equilibrium::begin(double t, double dt) {
   t_ = t, dt_ = dt;
   constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
   tools_.begin(body_, t, dt);
+  check_values();
+}
+
+// Of what acts at the end of the step, before anything is moved by it.
+void Equilibrium::check_values() {
+  const std::vector<Vector> kept = body_.force_density;
+  add_forces(conditions_, t_ + dt_, body_);
+  body_.force_density = kept;
+  raise_together(body_.domain.communicator, conditions_.first_not_finite());
 }
 
 Imbalance Equilibrium::evaluate(bool with_diagnostics) {
@@ -105,10 +117,10 @@ Imbalance Equilibrium::measure(bool failed) {
     sums[1] += (outer_[i] + of_tools[i]).squaredNorm();
   }
   body_.domain.communicator.sum(sums);
-  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1]), sums[2] > 0};
+  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1]), round_off_, sums[2] > 0};
   if (!std::isfinite(now.norm + now.scale)) now.failed = true;
   last_scale_ = now.scale;
-  now.scale = std::max({now.scale, smallest_scale * largest_scale_, floor_});
+  now.scale = std::max(now.scale, smallest_scale * largest_scale_);
   return now;
 }
 

@@ -16,9 +16,10 @@ namespace strut {
 
 // How far the forces of a trial are from balance, the same on all ranks.
 struct Imbalance {
-  double norm = 0;      // N, root of the sum of squares of what is not held
-  double scale = 0;     // N, the same of reactions, loads and contact: what `norm` is small against
-  bool failed = false;  // a point was turned inside out or found no stress; the numbers mean nothing then
+  double norm = 0;       // N, root of the sum of squares of what is not held
+  double scale = 0;      // N, the same of reactions, loads and contact: what `norm` is small against
+  double round_off = 0;  // N: `norm` of a body in balance, where nothing acts
+  bool failed = false;   // a point was turned inside out or found no stress; the numbers mean nothing then
 };
 
 class Equilibrium {
@@ -26,7 +27,8 @@ class Equilibrium {
   // Collective. Computes the forces of the undeformed state. Throws Error for conditions that need inertia.
   Equilibrium(Body& body, Conditions conditions, contact::Contact contact);
 
-  // Collective. A load step from t over dt (s) begins, at the committed places.
+  // Collective. A load step from t over dt (s) begins, at the committed places. Throws Error where a condition has no
+  // number for it.
   void begin(double t, double dt);
 
   // Collective. Forces at the present places of body().domain.sites.
@@ -59,6 +61,7 @@ class Equilibrium {
   const Constraints& constraints() const { return *constraints_; }
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
+  const Conditions& conditions() const { return conditions_; }
   // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J
   // on this rank.
   double external_work() const;
@@ -69,6 +72,7 @@ class Equilibrium {
 
  private:
   std::vector<Vector> step_way() const;  // of the owned points in this load step, m
+  void check_values();
   void add_contact();
   Imbalance measure(bool failed);
 
@@ -78,7 +82,7 @@ class Equilibrium {
   ToolContact tools_;
   Committed committed_;
   std::optional<Constraints> constraints_;
-  double t_ = 0, dt_ = 0, floor_ = 0, last_scale_ = 0, largest_scale_ = 0;
+  double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
   Field forces_, residual_;        // N: all; those that nothing holds
   Field forces_before_;            // N, of the committed state

@@ -35,7 +35,8 @@ QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact con
       time_(initial_time),
       final_time_(final_time),
       longest_((final_time - initial_time) / control.load_steps),
-      dt_(longest_) {}
+      dt_(longest_),
+      largest_energy_(energy_of_round_off(body)) {}
 
 double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
   const double committed = 400.0 * body.owned();  // with forces and trials of contact
@@ -169,10 +170,8 @@ Ledger QuasiStatic::ledger() {
   now.external = external_;
   now.tools = by_tools_;
   now.contact = by_friction_ - body.domain.communicator.sum(contact().energy());
-  const double held = now.elastic + now.dissipated + now.stabilization;
-  const double put_in = now.external + now.tools + now.contact;
-  largest_energy_ = std::max({largest_energy_, held, std::abs(put_in)});
-  now.balance_error = largest_energy_ > 0 ? std::abs(held - put_in) / largest_energy_ : 0;
+  now.balance(now.elastic + now.dissipated + now.stabilization, now.external + now.tools + now.contact,
+              largest_energy_);
   return now;
 }
 

@@ -27,6 +27,7 @@ class QuasiStatic {
   int iterations() const { return iterations_; }    // of this run, those in vain too
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
+  const Conditions& conditions() const { return equilibrium_.conditions(); }
 
   // Collective. One load step; false if the observer requested a stop before it was made. Throws Error on all ranks
   // where none is found, however short. In both cases the body is at its last equilibrium.

@@ -1,6 +1,7 @@
 // What the methods that find an equilibrium are asked for, and what they answer.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -30,7 +31,7 @@ struct Search {
 };
 
 inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
-  return !now.failed && now.norm <= tolerance.relative * now.scale;
+  return !now.failed && now.norm <= std::max(tolerance.relative * now.scale, now.round_off);
 }
 
 }  // namespace strut

@@ -252,7 +252,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   std::vector<Vector> density(part.domain.owned, Vector::Zero()), friction;
   const ForceResult result = add_normal_forces(part.kinematics(), law, pairs, density);
   double energy = 0, scale = 0;
-  std::vector<double> sums(7, 0);
+  std::vector<double> sums(11, 0);
   for (int i = 0; i < part.domain.owned; ++i) {
     const int id = static_cast<int>(part.domain.cloud.ids[i]);
     Vector expected = Vector::Zero();
@@ -270,15 +270,24 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
     for (int c = 0; c < 3; ++c) sums[c] += force[c];
   }
   EXPECT_NEAR(result.energy, energy, 1e-12 * energy);
-  add_friction(part.kinematics(), law, model.friction, 1e-3, pairs, density, friction);
-  for (const Vector& f : friction) {
-    for (int c = 0; c < 3; ++c) sums[3 + c] += f[c];
-    sums[6] += f.norm();
+  Couples couples;
+  couples.take(part.domain, pairs.owned);
+  std::vector<Vector> rubbed(part.domain.owned, Vector::Zero());
+  add_friction(part.kinematics(), law, model.friction, 1e-3, pairs, couples, rubbed, friction);
+  for (const Vector& f : friction) sums[6] += f.norm();
+  for (int i = 0; i < part.domain.owned; ++i) {
+    const Vector f = part.domain.volume(i) * rubbed[i], torque = part.domain.current(i).cross(f);
+    for (int c = 0; c < 3; ++c) sums[3 + c] += f[c], sums[7 + c] += torque[c];
+    sums[10] += f.dot(part.velocities[i]);
   }
+  const auto counted = [&](int i, const Vector& f) { sums[10] -= f.dot(part.velocities[i]); };
+  for (std::size_t k = 0; k < friction.size(); ++k) counted(pairs.owned[k], friction[k]);
+  couples.for_each_force(counted);
   scale = world.max(scale);
   world.sum(sums);
   EXPECT_GT(sums[6], 0.01 * scale) << "no friction to speak of";
-  for (int c = 0; c < 6; ++c) EXPECT_NEAR(sums[c], 0, count * 1e-15 * scale);  // round-off of a sum over all points
+  // Round-off of a sum over all points: of forces, of torques in a cube of 1 m, of work that is counted.
+  for (const int c : {0, 1, 2, 3, 4, 5, 7, 8, 9, 10}) EXPECT_NEAR(sums[c], 0, count * 1e-15 * scale) << c;
 }
 
 INSTANTIATE_TEST_SUITE_P(Blocks, ContactOfBlocks,

@@ -3,17 +3,20 @@
 
 #include <algorithm>
 
+#include "base/files.hpp"
 #include "regression/bodies.hpp"
 #include "run/log.hpp"
 
 namespace strut::regression {
 namespace {
 
-// The lines of the file, in alphabetical order.
+// The lines of the file after the first, which says that it is a log, in alphabetical order.
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  std::string line;
+  EXPECT_TRUE(std::getline(file, line) && line.starts_with(log_mark)) << line;
+  while (std::getline(file, line)) lines.push_back(line);
   std::sort(lines.begin(), lines.end());
   return lines;
 }

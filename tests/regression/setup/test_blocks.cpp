@@ -32,5 +32,23 @@ TEST(Blocks, ThatBreakByStretchHaveStifferSprings) {
   EXPECT_EQ(coefficient_in(with_own(broken)), 0.07);
 }
 
+std::string warnings_of(const std::string& text) {
+  const RunFolder folder;
+  return set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
+}
+
+TEST(Blocks, WhoseCracksAreNoiseAreToldOf) {
+  const std::string whole = changed(Parts().text(), key("Density", "8930"),
+                                    key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
+  const std::string breaks =
+      changed(changed(whole, key("Horizon", "2.01e-3"), key("Horizon", "2.01e-3") + key("Damage Model", "cracks")),
+              "<ParameterList name=\"Blocks\">",
+              section("Damage Models",
+                      section("cracks", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.01"))) +
+                  "<ParameterList name=\"Blocks\">");
+  EXPECT_EQ(warnings_of(whole).find("cracks"), std::string::npos);
+  EXPECT_NE(warnings_of(breaks).find("WARNING: block 'bar' breaks bonds by Formulation"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace strut::regression

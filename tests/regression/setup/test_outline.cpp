@@ -124,6 +124,66 @@ TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
 }
 
+std::string told_of_tool(const std::string& type, const std::string& keys, const std::string& more = "",
+                         const std::string& final_time = "5e-6") {
+  Parts parts;
+  parts.conditions = section("tool", key("Type", type) + keys) + more;
+  parts.times = key("Final Time", final_time);
+  return told_of(parts);
+}
+
+std::string box(const std::string& lower, const std::string& upper) {
+  return key("Lower Corner", lower) + key("Upper Corner", upper) + key("Travel Z", "-10*t");
+}
+
+// The bar's upper face is at z = 6 mm, its points 1 mm apart: 1.5 mm is the limit.
+TEST(Tools, ThatAreThinnerThanPointsAreApartAreWarnedOf) {
+  const auto is_thin = [](const std::string& told) { return told.find("tools stop points only") != std::string::npos; };
+  expect_told(
+      told_of_tool("Rigid Box", box("1.95e-3 -1 6e-3", "2.05e-3 1 9e-3")),
+      {"WARNING: the tool 'tool' is 0.0001 m wide along x, less than 1.5 spacings of block 'bar' (0.001 m each), "
+       "which it can reach: tools stop points only, and this one passes between them; expected 0.0015 m or more"});
+  EXPECT_TRUE(is_thin(told_of_tool("Rigid Box", box("-1 1.95e-3 6e-3", "1 3.4e-3 9e-3"))));
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("-1 1.95e-3 6e-3", "1 3.46e-3 9e-3")))) << "thick enough";
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("-1 -1 6e-3", "1 1 6.1e-3")))) << "a plate comes by its face";
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("3.4e-3 -1 6e-3", "9e-3 1 9e-3")))) << "an edge of a thick one";
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("1.95e-3 -1 16e-3", "2.05e-3 1 19e-3")))) << "it stays away";
+  const auto roll = [](const std::string& radius) {
+    return key("Point", "2e-3 0 7e-3") + key("Axis", "1 2 0") + key("Radius", radius);
+  };
+  expect_told(told_of_tool("Rigid Cylinder", roll("0.74e-3")), {"the tool 'tool' is 0.00148 m in diameter, less than"});
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Cylinder", roll("0.76e-3"))));
+}
+
+// The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.
+TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
+  const std::string floor = key("Point", "0 0 -2e-3") + key("Normal", "0 0 1");
+  const std::string flight = along("flight", "Initial Velocity", "all", "z", "-100");
+  expect_told(told_of_tool("Rigid Plane", floor),
+              {"WARNING: the tool 'tool' is 0.002 m from all points at the start", "touches nothing until the end"});
+  const std::string flies = told_of_tool("Rigid Plane", floor, flight, "4.7e-5");
+  expect_told(flies, {"the tool 'tool' is 0.002 m from all points at the start", "before about t = 1.97e-05 s"});
+  EXPECT_EQ(flies.find("WARNING"), std::string::npos);
+  expect_told(told_of_tool("Rigid Plane", floor, flight, "1.9e-5"), {"touches nothing until the end"});
+  expect_told(told_of_tool("Rigid Plane", floor + key("Travel Z", "100*t"), "", "4.7e-5"),
+              {"before about t = 1.97e-05 s"});
+  EXPECT_EQ(told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1")).find("the tool"),
+            std::string::npos);
+}
+
+// A bar of four by four points of ordinary bonds, in whose E a third and more is not the material's.
+TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
+  const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 30});
+  Parts parts;
+  const std::string ordinary = changed(copper(), "Elastic Correspondence", "Elastic");
+  parts.materials = ordinary;
+  const auto told = [&] {
+    return describe_scene(set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world));
+  };
+  expect_told(told(), {"block 'bar': members are ", " spacings thick (4 volume/surface); bars so thick were found ",
+                       " % too stiff in tension by the material model 'Elastic'"});
+}
+
 // What rank 0 says.
 std::string told_by_run(const std::string& conditions) {
   const RunFolder folder;

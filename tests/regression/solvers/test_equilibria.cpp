@@ -68,7 +68,7 @@ TEST(SlowLoading, WritesFramesAndReactions) {
     EXPECT_NEAR(files.history.at("Reaction_X(x)")[n], 0, most) << n;
     EXPECT_NEAR(files.history.at("Reaction_Y(y)")[n], 0, most) << n;
     EXPECT_EQ(files.history.at("Kinetic_Energy")[n], 0) << n;
-    EXPECT_LT(files.history.at("Balance_Error")[n], 4e-3) << n;       // of a law in rates: the strain
+    EXPECT_LT(files.history.at("Balance_Error")[n], 4e-3) << n;  // of a law in rates: the strain
     if (n > 0) {
       EXPECT_NEAR(low[n] / low.back(), time[n], 4e-3) << n;  // linear but for the strain
     }
@@ -96,6 +96,45 @@ TEST(SlowLoading, HoldsAllAxesByOneCondition) {
   EXPECT_EQ(found.history.at("Elastic_Energy"), expected.history.at("Elastic_Energy"));
   EXPECT_TRUE(found.result.nodal == expected.result.nodal && found.result.element == expected.result.element);
   EXPECT_GT(found.history.at("Reaction_Z(foot)").back(), 0);
+}
+
+// Nothing acts on a held bar until a tool arrives, or a load or a motion begins, at t = 0.35: it rests, in balance but
+// for the round-off of places, and then has what it has without the time before.
+TEST(SlowLoading, WaitsForWhatActs) {
+  const std::string later = "if (t &lt; 0.35) { value = 0; } else { value = 1e-5*(t - 0.35); }";
+  const std::vector<std::string> actions{
+      section("a", key("Type", "Rigid Plane") + key("Point", "0 0 6.0035e-3") + key("Normal", "0 0 -1") +
+                       key("Travel Z", "-1e-5*t")),
+      along("a", "Prescribed Displacement", "top", "z", later),
+      along("a", "Body Force", "top", "z", "1e13*" + ("(" + std::string("t - 0.35 + fabs(t - 0.35)") + ")*1e-5"))};
+  const auto law = [](const std::string& model, const std::string& more) {
+    return section("copper", key("Material Model", model) + key("Density", "8930") + key("Young's Modulus", "117e9") +
+                                 key("Poisson's Ratio", "0.3") + more);
+  };
+  const std::vector<std::string> laws{law("Elastic Correspondence", ""), law("Elastic", ""),
+                                      law("Elastic Plastic Correspondence", key("Yield Stress", "400e6")),
+                                      law("Elastic Correspondence", key("Formulation", "Quadratic Correspondence"))};
+  const auto expect_rest = [&](const Parts& parts, const std::string& method) {
+    const Files files = files_of(parts, key("Number of Load Steps", "4") + method, {"Reaction_Z(a)"});
+    EXPECT_EQ(files.error, "") << parts.materials << parts.conditions;
+    const std::vector<double>& force = files.history.at("Reaction_Z(a)");
+    ASSERT_EQ(force.size(), 5u);
+    EXPECT_LT(std::abs(force[1]), 1e-12 * 117e9 * 16e-6);  // at t = 0.25, of E A: round-off of strains
+    return force.back();
+  };
+  for (const std::string& material : laws) {
+    for (const std::string& action : actions) {
+      Parts parts;
+      parts.materials = material;
+      parts.conditions = all_of_foot() + action;
+      expect_rest(parts, "");
+    }
+  }
+  Parts parts;
+  parts.conditions = all_of_foot();
+  EXPECT_EQ(files_of(parts, key("Number of Load Steps", "2"), {}).error, "") << "nothing acts at all";
+  parts.conditions += actions[0];
+  expect_rest(parts, key("Method", "Dynamic Relaxation"));
 }
 
 // A bar that hangs without hardening from its foot, under twice what it can carry.

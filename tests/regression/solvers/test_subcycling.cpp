@@ -33,5 +33,64 @@ TEST(Subcycling, IsNotOfStiffPointsThatCostMost) {
   EXPECT_EQ(most_substeps(key("Formulation", "Quadratic Correspondence")), 1);
 }
 
+// A free bar, the upper part of which is a hundred times as stiff and has substeps, under a load for a part of the run:
+// it gains force times time, as one. It stays in rigid motion, where there is nothing to do between whole steps.
+TEST(Subcycling, LeavesLoadsOnABodyInRigidMotionAsTheyAre) {
+  for (const std::string& formulation : {"", "Quadratic Correspondence"}) {
+    const RunFolder folder({.nx = 4, .ny = 4, .nz = 40, .plate_layers = 4});
+    std::string stiff = copper();
+    if (!formulation.empty()) {
+      stiff = changed(stiff, key("Density", "8930"), key("Density", "8930") + key("Formulation", formulation));
+    }
+    Parts parts;
+    parts.materials = stiff + changed(changed(stiff, "\"copper\"", "\"soft\""), "117e9", "1.17e9");
+    parts.blocks =
+        section("soft", key("Block Names", "bar") + key("Material", "soft") + key("Horizon Factor", "1.75")) +
+        section("stiff", key("Block Names", "plate") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+    parts.conditions = along("pull", "Body Force", "all", "z", "if (t &lt; 5e-6) { value = 1e9; } else { value = 0; }");
+    parts.times = key("Final Time", "20e-6");
+    Simulation run(folder, parts);
+    const Body& body = run.body();
+    double impulse = 0, before = 0, apart = 0;
+    const Ledger end = run.go([&](const Ledger& now) {
+      if (now.time < 5e-6) impulse += (before == 0 ? now.dt : 0.5 * (before + now.dt)) * 1e9 * run.volume();
+      if (before == 0) impulse *= 0.5;  // of the first step's impulse, half belongs to the time before
+      before = now.dt;
+      for (int i = 0; i < body.owned(); ++i) apart = std::max(apart, (body.velocity[i] - body.velocity[0]).norm());
+    });
+    EXPECT_GT(run.solver.most_substeps(), 1);
+    EXPECT_NEAR(end.momentum[2], impulse, 1e-10 * impulse);  // round-off of a sum over points and steps
+    EXPECT_EQ(apart, 0) << "on this rank";
+    EXPECT_LT(end.balance_error, 1e-10);
+  }
+}
+
+// The same body at rest is hit by another one: contact pushes both alike.
+TEST(Subcycling, LeavesContactForcesOnABodyAtRestAsTheyAre) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, Vector::Zero(), 4, 4, 20, 1e-3) + cubes(2, Vector(0, 0, 20e-3), 4, 4, 4, 1e-3) +
+                                 cubes(3, Vector(0, 0, 24.2e-3), 4, 4, 4, 1e-3));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.materials = copper() + changed(changed(copper(), "\"copper\"", "\"soft\""), "117e9", "1.17e9");
+  const auto block = [](const std::string& names, const std::string& material, bool apart) {
+    return section(names, key("Block Names", names) + key("Material", material) + key("Horizon Factor", "1.75") +
+                              (apart ? key("Separate Body", "true") : ""));
+  };
+  parts.blocks = block("block_1", "soft", false) + block("block_2", "copper", false) + block("block_3", "soft", true);
+  parts.contact = contact_of({{"block_2", "block_3"}}, "1e-3", "1e11");
+  parts.conditions = along("flight", "Initial Velocity", "block_3", "z", "-20");
+  parts.times = key("Final Time", "30e-6");
+  Simulation run(folder, parts);
+  double thrown = 0, drift = 0;
+  run.go([&](const Ledger& now) {
+    if (now.time == 0) thrown = now.momentum[2];
+    drift = std::max(drift, std::abs(now.momentum[2] - thrown));
+  });
+  EXPECT_GT(run.solver.most_substeps(), 1);
+  EXPECT_GT(run.body().velocity.size(), 0u);
+  EXPECT_LT(drift, 1e-10 * std::abs(thrown));  // forces are pairs but for the round-off of places
+}
+
 }  // namespace
 }  // namespace strut::regression

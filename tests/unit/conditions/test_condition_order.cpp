@@ -11,7 +11,7 @@ namespace strut {
 namespace {
 
 const BodyForce weight{};
-const NonReflectingEnd end{Vector::UnitZ(), {{3, 1, 1, 1}, {4, 1, 1, 1}}};
+const NonReflectingEnd end{Vector::UnitZ(), {{3, 1, 1}, {4, 1, 1}}};
 PrescribedMotion motion(const std::vector<int>& components) { return {{0, 1, 2}, components, Function(1), true, 3}; }
 const SymmetryPlane cut{{1, 2}, Vector::UnitX(), 3};
 const RigidTool floor{{0, 4}, HalfSpace{Vector::Zero(), Vector::UnitZ()}, {}};

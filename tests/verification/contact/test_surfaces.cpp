@@ -100,6 +100,19 @@ class Scene {
     return result;
   }
 
+  // Adds the friction of a step of velocities about `speed` that differ from point to point, and returns its power, W.
+  double rub(double speed, double coefficient) {
+    for (int i = 0; i < domain_.owned; ++i) {
+      const double x = static_cast<double>(domain_.id(i));
+      velocities_[i] = speed * Vector(domain_.cloud.blocks[i] + 0.2 * std::sin(x), std::cos(3 * x), std::sin(7 * x));
+    }
+    std::vector<Vector> friction;
+    surfaces_->add_friction({velocities_, 1}, law_, coefficient, pairs_, density_, friction);
+    double power = 0;
+    for (std::size_t k = 0; k < friction.size(); ++k) power += friction[k].dot(velocities_[pairs_.owned[k]]);
+    return world_.sum(power);
+  }
+
   // What the tangent makes of the second body's motion by a unit vector, along it, N/m.
   double stiffness(const Vector& along) {
     std::vector<Vector> field(domain_.owned, Vector::Zero()), result = field;
@@ -240,6 +253,21 @@ TEST(Surfaces, ForcesAndTorquesAddUpToNothing) {
     ASSERT_GT(force, 0);
     EXPECT_LT((scene.force(0) + scene.force(1)).norm(), 1e3 * epsilon * force);  // of some hundred points
     EXPECT_LT(scene.torque().norm(), 1e3 * epsilon * force * 18 * h);
+  }
+}
+
+// Whatever rubs: blocks, a block on a plate one cell thick, on a wire of one row of cells; of the latter only what does
+// not turn it about itself. From where nothing has slipped friction takes energy.
+TEST(Surfaces, FrictionTurnsNothing) {
+  for (const Box& lower : {Box{18, 18, 4}, Box{18, 18, 1}, Box{18, 1, 1}}) {
+    Scene scene({points_of(lower), points_of({6, 6, 4})});
+    scene.place(Vector(0.3 * h, -0.2 * h, -0.05 * h), turned(3, Vector(1, 2, 3)));
+    const double before = scene.force(1).norm();
+    const double power = scene.rub(1, 0.3), force = scene.force(1).norm();
+    EXPECT_GT(force, 1.005 * before) << "it rubs";
+    EXPECT_LT(power, 0);
+    EXPECT_LT((scene.force(0) + scene.force(1)).norm(), 1e3 * epsilon * force);  // of some hundred points
+    EXPECT_LT(scene.torque().norm(), 1e4 * epsilon * force * 18 * h) << lower.ny << " " << lower.nz;
   }
 }
 

@@ -11,7 +11,7 @@ namespace strut {
 class PointGroup {
  public:
   PointGroup() = default;  // all points
-  // As the Node Set of a condition: a set, else a block. Throws Error where there is neither; `path`: who asks.
+  // A node set or a block, or `all`. Throws Error where there is neither, or both; `path`: who asks.
   PointGroup(const PointCloud& cloud, const std::string& name, const std::string& path);
 
   bool counts(const PointCloud& cloud, int i) const {

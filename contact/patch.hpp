@@ -1,0 +1,66 @@
+// A piece of a body that takes up friction. Friction acts at one place on both bodies, or it would turn them: at a
+// place beside its points a piece goes as a rigid body would that moves as they do, and a force there is one at its
+// middle and a couple. Both are each other's transpose, so that friction never does work on bodies that stick to each
+// other there.
+#pragma once
+
+#include <Eigen/Eigenvalues>
+
+#include "base/math/tensors.hpp"
+
+namespace strut::contact {
+
+struct Patch {
+  double weight = 0;                   // of all its points
+  Vector middle = Vector::Zero();      // m
+  Tensor per_couple = Tensor::Zero();  // θ of a couple: points feel it as the forces weight θ × (place − middle)
+  double smallest = 0;                 // moment of its points about any axis, weight m²
+  bool turns = false;                  // about any axis: its points are not in one row
+  Vector row = Vector::Zero();         // of unit length along the row; zero where the patch turns, or is one point
+};
+
+// What its points add up to; places are seen from one near them, m.
+class PatchSums {
+ public:
+  void add(double weight, const Vector& place) {
+    weight_ += weight;
+    first_ += weight * place;
+    second_ += weight * place * place.transpose();
+  }
+
+  Patch patch() const {
+    constexpr double thin = 0.01;  // of the moment across a row: less is a row
+    Patch patch;
+    if (!(weight_ > 0)) return patch;
+    patch.weight = weight_;
+    patch.middle = first_ / weight_;
+    const Tensor spread = second_ - weight_ * patch.middle * patch.middle.transpose();
+    const Eigen::SelfAdjointEigenSolver<Tensor> axes(spread);
+    const Vector along = axes.eigenvalues().cwiseMax(0);
+    if (!(along[2] > 1e-9 * second_.trace())) return patch;
+    patch.smallest = along[0] + along[1];
+    patch.turns = patch.smallest > thin * along[2];
+    if (!patch.turns) patch.row = axes.eigenvectors().col(2);
+    for (int c = 0; c < (patch.turns ? 3 : 2); ++c) {
+      const Vector axis = axes.eigenvectors().col(c);
+      patch.per_couple += axis * axis.transpose() / (along.sum() - along[c]);
+    }
+    return patch;
+  }
+
+ private:
+  double weight_ = 0;
+  Vector first_ = Vector::Zero();
+  Tensor second_ = Tensor::Zero();
+};
+
+// Of a force at `place` the part whose couple a patch takes up.
+inline Vector bearable(const Patch& patch, const Vector& place, const Vector& force) {
+  if (patch.turns) return force;
+  const Vector arm = place - patch.middle;
+  if (patch.row.isZero(0)) return arm.isZero(0) ? force : Vector(force.dot(arm) / arm.squaredNorm() * arm);
+  const Vector turned = patch.row.cross(arm).stableNormalized();
+  return force - force.dot(turned) * turned;
+}
+
+}  // namespace strut::contact

@@ -1,0 +1,125 @@
+#include "contact/undeclared.hpp"
+
+#include <limits>
+#include <vector>
+
+#include "contact/at_surface.hpp"
+#include "points/bounding_box.hpp"
+#include "points/nearby_ranks.hpp"
+#include "points/neighbors/cell_grid.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+constexpr double near = 0.5;  // of the smaller spacing
+
+// Blocks that go together, without contact.
+class Uncovered {
+ public:
+  Uncovered(const Domain& domain, const Contact& contact) : blocks_(domain.blocks.size()), pairs_(blocks_ * blocks_) {
+    for (std::size_t a = 0; a < blocks_; ++a) {
+      for (std::size_t b = 0; b < blocks_; ++b) {
+        pairs_[a * blocks_ + b] = !contact.between(static_cast<int>(a), static_cast<int>(b));
+        any_ |= pairs_[a * blocks_ + b];
+      }
+    }
+  }
+  bool any() const { return any_; }
+  bool has(int a, int b) const { return pairs_[a * blocks_ + b]; }
+
+ private:
+  std::size_t blocks_;
+  std::vector<char> pairs_;
+  bool any_ = false;
+};
+
+// A point as it travels to other ranks.
+struct Seen {
+  double current[3], reference[3], spacing, horizon, block, index;
+};
+
+Vector place_of(const Seen& point) { return Vector::Map(point.current); }
+
+std::vector<Seen> at_surfaces(const Domain& domain) {
+  std::vector<Seen> points;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!is_at_surface(domain, i)) continue;
+    const Vector y = domain.current(i), X = domain.reference(i);
+    points.push_back({{y[0], y[1], y[2]},
+                      {X[0], X[1], X[2]},
+                      domain.cloud.spacings[i],
+                      domain.horizon(i),
+                      static_cast<double>(domain.cloud.blocks[i]),
+                      static_cast<double>(i)});
+  }
+  return points;
+}
+
+// Whether two points, nearer to each other than `near`, have come from where they could not have been without passing
+// through what is between them.
+bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a, const Seen& b) {
+  const int one = static_cast<int>(a.block), other = static_cast<int>(b.block);
+  if (!uncovered.has(one, other)) return false;
+  const double first = (Vector::Map(a.reference) - Vector::Map(b.reference)).norm();
+  return domain.blocks[one].body == domain.blocks[other].body ? first > a.horizon + b.horizon
+                                                              : first > std::min(a.spacing, b.spacing);
+}
+
+// No two points have come so near to each other that were two horizons or, of two bodies, a spacing apart.
+bool hardly_moved(const Domain& domain) {
+  Eigen::AlignedBox3d ways;
+  double spacing = std::numeric_limits<double>::max();
+  for (int i = 0; i < domain.owned; ++i) {
+    ways.extend(Vector(domain.current(i) - domain.reference(i)));
+    spacing = std::min(spacing, domain.cloud.spacings[i]);
+  }
+  ways = common_box(ways, domain.communicator);
+  return ways.isEmpty() || ways.diagonal().norm() < (1 - near) * domain.communicator.min(spacing);
+}
+
+// What this rank's points tell, the first of `all`, which are at `places`.
+Undeclared passed_points(const Domain& domain, const Uncovered& uncovered, std::size_t mine,
+                         const std::vector<Seen>& all, const std::vector<Vector>& places, double reach) {
+  Undeclared found;
+  if (mine == 0) return found;
+  const CellGrid grid(places, reach);
+  for (std::size_t k = 0; k < mine; ++k) {
+    const Seen* partner = nullptr;
+    grid.visit_near(places[k], [&](int j, const Vector& place) {
+      const double least = near * std::min(all[k].spacing, all[j].spacing);
+      const bool is_near = (place - places[k]).squaredNorm() < least * least;
+      if (is_near && has_passed(domain, uncovered, all[k], all[j])) partner = &all[j];
+    });
+    if (!partner) continue;
+    ++found.points;
+    found.point = static_cast<int>(all[k].index);
+    found.first = static_cast<int>(std::min(all[k].block, partner->block));
+    found.second = static_cast<int>(std::max(all[k].block, partner->block));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<Undeclared> find_undeclared(const Domain& domain, const Contact& contact) {
+  const Uncovered uncovered(domain, contact);
+  if (!uncovered.any() || hardly_moved(domain)) return std::nullopt;
+  std::vector<Seen> all = at_surfaces(domain);
+  const std::size_t mine = all.size();
+  std::vector<Vector> places;
+  double spacing = 0;
+  for (const Seen& point : all) places.push_back(place_of(point)), spacing = std::max(spacing, point.spacing);
+  const Communicator& ranks = domain.communicator;
+  const double reach = near * ranks.max(spacing);
+  const auto others = from_nearby_ranks(box_around(places), places, std::span<const Seen>(all), reach, ranks);
+  for (const Seen& point : others) all.push_back(point), places.push_back(place_of(point));
+  Undeclared found = passed_points(domain, uncovered, mine, all, places, reach);
+  found.points = ranks.sum(found.points);
+  if (found.points == 0) return std::nullopt;
+  const double teller = ranks.max(found.point >= 0 ? ranks.rank() : -1.0);
+  if (teller != ranks.rank()) found.point = -1;
+  return found;
+}
+
+}  // namespace strut::contact

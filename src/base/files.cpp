@@ -1,0 +1,131 @@
+#include "base/files.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace strut {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Enough for the header of a result of a thousand blocks.
+constexpr std::size_t longest_head = 1'000'000;
+
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
+// Through links that lead to what is not there, too.
+fs::path destination(fs::path name) {
+  constexpr int most_links = 40;
+  std::error_code failure;
+  for (int n = 0; n < most_links && fs::is_symlink(fs::symlink_status(name, failure)); ++n) {
+    name = folder_of(name) / fs::read_symlink(name, failure);
+  }
+  return name;
+}
+
+std::string in_small_letters(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string head_of(const fs::path& file) {
+  std::string head(longest_head, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  return head;
+}
+
+bool is_classic_netcdf(const std::string& head) {
+  return head.starts_with(std::string("CDF\1", 4)) || head.starts_with(std::string("CDF\2", 4)) ||
+         head.starts_with(std::string("CDF\5", 4));
+}
+
+// The attribute "title" as it stands in the header: name, type (char), number of characters, text.
+bool has_title(const std::string& head, const std::string& title) {
+  const std::string name_and_type("title\0\0\0\0\0\0\2", 12);
+  const std::size_t found = head.find(name_and_type);
+  if (!is_classic_netcdf(head) || found == std::string::npos) return false;
+  const std::size_t count_bytes = head[3] == 5 ? 8 : 4, begin = found + name_and_type.size() + count_bytes;
+  if (begin > head.size()) return false;
+  const auto count = static_cast<std::size_t>(static_cast<unsigned char>(head[begin - 1]));  // of at most 80
+  const std::string text = head.substr(begin, count);
+  return text.substr(0, text.find('\0')) == title;  // the library writes the zero, too
+}
+
+struct Known {
+  const char* name;
+  bool (*is_one)(const std::string& head);
+};
+
+Known known(FileKind kind) {
+  switch (kind) {
+    case FileKind::result:
+      return {"result of strut", [](const std::string& head) { return has_title(head, result_title); }};
+    case FileKind::history:
+      return {"history of strut", [](const std::string& head) { return head.starts_with(history_mark); }};
+    case FileKind::checkpoint:
+      return {"checkpoint of strut", [](const std::string& head) {
+                return is_classic_netcdf(head) && head.find(checkpoint_mark) != std::string::npos;
+              }};
+    case FileKind::lock:
+      return {"lock of a run", [](const std::string&) { return false; }};
+    case FileKind::log:
+      return {"log of strut", [](const std::string& head) { return head.starts_with(log_mark); }};
+    case FileKind::mesh:
+      return {"mesh of strut-mesh", [](const std::string& head) { return has_title(head, mesh_title); }};
+    case FileKind::unchecked:
+      break;
+  }
+  return {"file", [](const std::string&) { return true; }};
+}
+
+// Why the system would not let it be written, or nothing.
+std::string refusal_of_system(const fs::path& file) {
+  const fs::path folder = folder_of(file);
+  std::error_code failure;
+  if (!fs::is_directory(folder, failure)) return "there is no folder '" + folder.string() + "'";
+  const fs::path asked = fs::exists(file, failure) ? file : folder;
+  return access(asked.c_str(), W_OK) == 0 ? "" : "'" + asked.string() + "': " + std::strerror(errno);
+}
+
+}  // namespace
+
+bool same_file(const fs::path& one, const fs::path& other) {
+  std::error_code failure;
+  if (fs::equivalent(one, other, failure)) return true;
+  if (fs::exists(one, failure) || fs::exists(other, failure)) return false;
+  const fs::path a = destination(one), b = destination(other);
+  return in_small_letters(a.filename()) == in_small_letters(b.filename()) &&
+         fs::equivalent(folder_of(a), folder_of(b), failure);
+}
+
+bool is_of_kind(const fs::path& file, FileKind kind) {
+  const std::string head = head_of(file);
+  return head.empty() || known(kind).is_one(head);
+}
+
+std::string obstacle(const fs::path& file, FileKind kind) {
+  const std::string name = "'" + file.string() + "'";
+  std::error_code failure;
+  const fs::file_status status = fs::status(file, failure);
+  const bool there = fs::exists(status), regular = fs::is_regular_file(status);
+  const bool takes_lines = kind == FileKind::log && there && !fs::is_directory(status);  // a terminal, a pipe
+  if (there && !regular && !takes_lines) return name + " is a folder or a device; expected a file that may be replaced";
+  if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;
+  if (!regular || is_of_kind(file, kind)) return "";
+  return name + " is there and is no " + known(kind).name +
+         ", which would replace it; expected another name, or that it is removed";
+}
+
+fs::path before_of(const fs::path& checkpoint) { return checkpoint.string() + ".old"; }
+fs::path part_of(const fs::path& checkpoint) { return checkpoint.string() + ".part"; }
+fs::path lock_of(const fs::path& checkpoint) { return checkpoint.string() + ".lock"; }
+
+}  // namespace strut

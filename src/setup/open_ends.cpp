@@ -1,0 +1,76 @@
+#include "setup/open_ends.hpp"
+
+#include <algorithm>
+#include <map>
+#include <type_traits>
+
+#include "setup/found_points.hpp"
+
+namespace strut {
+
+namespace {
+
+// Neighbors so much farther along the normal are of another layer, in spacings.
+constexpr double next_layer = 0.5;
+
+// How the family of a point lies along a direction, in spacings.
+struct Extent {
+  double ahead = 0, behind = 0, sum = 0;
+  bool is_inside() const { return ahead > next_layer && behind > next_layer; }
+};
+
+Extent extent_along(const Vector& direction, const Domain& domain, int i) {
+  Extent extent;
+  domain.families.for_each(i, [&](int j) {
+    const double along = direction.dot(domain.reference(j) - domain.reference(i)) / domain.cloud.spacings[i];
+    extent.ahead = std::max(extent.ahead, along), extent.behind = std::max(extent.behind, -along);
+    extent.sum += along;
+  });
+  return extent;
+}
+
+struct EndsOfPoint {
+  std::vector<Vector> normals;  // outward
+  int last;                     // the place in the deck of the last one
+};
+
+}  // namespace
+
+void take_off_what_is_beyond_ends(const deck::Deck& deck, Scene& scene, deck::Problems& problems) {
+  Body& body = scene.body;
+  std::map<int, EndsOfPoint> ends;
+  std::vector<std::vector<int>> inside(deck.conditions.size()), without_inertia(deck.conditions.size());
+  scene.conditions.visit([&]<class Type>(const Type& one) {
+    if constexpr (std::is_same_v<Type, NonReflectingEnd>) {
+      for (const NonReflectingEnd::Drag& drag : one.drags) {
+        const Extent extent = extent_along(one.normal, body.domain, drag.point);
+        if (extent.is_inside()) inside[one.place].push_back(drag.point);
+        ends[drag.point].normals.push_back(extent.sum > 0 ? Vector(-one.normal) : one.normal);
+        ends[drag.point].last = one.place;
+      }
+    }
+  });
+  for (const auto& [i, of_point] : ends) {
+    const double cell = part_within(of_point.normals) * std::pow(body.domain.cloud.spacings[i], 3);
+    if (cell == 0) without_inertia[of_point.last].push_back(i);
+    body.density[i] *= std::min(1.0, cell / body.domain.volume(i));
+  }
+  const std::vector<FoundPoints> inner = found_points(body, inside), empty = found_points(body, without_inertia);
+  for (std::size_t c = 0; c < deck.conditions.size(); ++c) {
+    const std::string path = "Boundary Conditions > " + deck.conditions[c].name + " > ";
+    if (inner[c].count > 0) {
+      problems.add(path + "Node Set", std::to_string(inner[c].count) +
+                                          " of its points have others of the body on both sides along Normal, "
+                                          "one of them at " +
+                                          place_text(inner[c].one) + "; expected one layer, that of the end's surface");
+    }
+    if (empty[c].count > 0) {
+      problems.add(path + "Normal",
+                   std::to_string(empty[c].count) + " points, one of them at " + place_text(empty[c].one) +
+                       ", are of other ends, too, and together these leave nothing of their inertia; expected at most "
+                       "three ends at a point, whose normals are not in one plane");
+    }
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,141 @@
+#include "setup/sudden_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <variant>
+
+#include "points/bounding_box.hpp"
+#include "setup/found_points.hpp"
+
+namespace strut {
+
+namespace {
+
+// Spacings. A step is some tenths of the time in which a wave goes a spacing: what jumps by a hundredth is thrown at
+// some hundredths of the wave speed.
+constexpr double no_jump = 1e-6, sudden = 0.01;
+
+constexpr int looks = 1000;   // at a function of time in a run
+constexpr int halvings = 40;  // of the time between two looks, to see whether it jumps or is only steep
+
+struct Jump {
+  double time = 0, length = 0;  // s, m
+};
+
+// Where `of_time` changes most between two looks: how much of it is left when these come close.
+template <class OfTime>
+Jump largest_jump(const OfTime& of_time, double start, double end) {
+  double from = start, to = start, most = 0;
+  for (int k = 0; k < looks; ++k) {
+    const double a = start + (end - start) * k / looks, b = start + (end - start) * (k + 1) / looks;
+    const double change = std::abs(of_time(b) - of_time(a));
+    if (change > most) most = change, from = a, to = b;
+  }
+  for (int n = 0; n < halvings; ++n) {
+    const double middle = 0.5 * (from + to);
+    if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
+      to = middle;
+    } else {
+      from = middle;
+    }
+  }
+  return {to, std::abs(of_time(to) - of_time(from))};
+}
+
+// The box of the points of a condition over all ranks, and their least spacing.
+struct Where {
+  Eigen::AlignedBox3d box;
+  double spacing = std::numeric_limits<double>::infinity();
+};
+
+Where where(const std::vector<int>& points, const Body& body) {
+  Where all;
+  for (const int i : points) {
+    all.box.extend(body.domain.reference(i));
+    all.spacing = std::min(all.spacing, body.domain.cloud.spacings[i]);
+  }
+  all.box = common_box(all.box, body.domain.communicator);
+  all.spacing = body.domain.communicator.min(all.spacing);
+  return all;
+}
+
+// The worst at the corners of the box.
+Jump largest_jump(const Function& value, const Where& where, double start, double end) {
+  Jump worst;
+  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
+    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    const auto of_time = [&](double t) { return value.evaluate(X[0], X[1], X[2], t); };
+    const Jump jump = largest_jump(of_time, start, end);
+    if (jump.length > worst.length) worst = jump;
+  }
+  return worst;
+}
+
+const PrescribedMotion* displacement_of(const deck::Condition& condition) {
+  const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
+  return motion && !motion->is_velocity ? motion : nullptr;
+}
+
+// Of the functions of time that lead points or a tool from place to place.
+std::vector<Function> ways_of(const deck::Condition& condition) {
+  if (const PrescribedMotion* motion = displacement_of(condition)) return {motion->value};
+  if (const auto* tool = std::get_if<RigidTool>(&condition.kind)) {
+    if (!tool->free) return tool->values_at_points();
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
+                                        deck::Problems& problems) {
+  const double t = deck.solver.initial_time;
+  PointsOfConditions moved(points.size());
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const PrescribedMotion* motion = displacement_of(deck.conditions[c]);
+    if (!motion) continue;
+    for (const int i : points[c]) {
+      const Vector X = body.domain.reference(i);
+      const double u = motion->value.evaluate(X[0], X[1], X[2], t);
+      if (std::abs(u) > no_jump * body.domain.cloud.spacings[i]) moved[c].push_back(i);
+    }
+  }
+  const std::vector<FoundPoints> found = found_points(body, moved);
+  std::ostringstream told;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    if (found[c].count == 0) continue;
+    const Function& value = displacement_of(deck.conditions[c])->value;
+    std::ostringstream text;
+    text << value.evaluate(found[c].one[0], found[c].one[1], found[c].one[2], t) << " m at the initial time, t = " << t
+         << " s, where the body is undeformed, at " << place_text(found[c].one) << " and " << found[c].count - 1
+         << " other points";
+    if (deck.solver.quasi_static) {
+      told << value.path() << " is " << text.str() << ": the first load step takes all of it\n";
+    } else {
+      problems.add(value.path(), text.str() + "; expected 0 m there, or the points would be thrown within one step");
+    }
+  }
+  return told.str();
+}
+
+std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
+  if (deck.solver.quasi_static) return "";
+  std::ostringstream text;
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const std::vector<Function> ways = ways_of(deck.conditions[c]);
+    if (std::none_of(ways.begin(), ways.end(), [](const Function& one) { return one.depends_on_time(); })) continue;
+    const Where there = where(points[c], body);
+    for (const Function& way : ways) {
+      const Jump jump = largest_jump(way, there, deck.solver.initial_time, deck.solver.final_time);
+      if (!(jump.length > sudden * there.spacing)) continue;
+      text << "WARNING: " << way.path() << ": jumps by " << jump.length << " m, " << jump.length / there.spacing
+           << " spacings, at t = " << jump.time << " s: within one step; is it meant to change so suddenly?\n";
+    }
+  }
+  return text.str();
+}
+
+}  // namespace strut

@@ -1,0 +1,22 @@
+// Where rigid tools go, and what they meet there, by their paths and the velocities of the start.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "setup/scene.hpp"
+#include "setup/trajectories.hpp"
+
+namespace strut {
+
+// Collective. A line for each tool that is more than a spacing from every one of its points at the start: when it first
+// touches one, or the warning that it touches none until the end. A forecast: what loads and impacts move is not seen.
+std::string apart_tools(const Scene& scene, double start, double duration);
+
+// Collective. A warning for each tool that is thinner than 1.5 spacings where it meets a block: a roll by its diameter,
+// a box by the edges of the face that comes to the block, where they do not reach across it. Tools stop points only.
+// `spacings`: the mean one of each block, m.
+std::string thin_tools(const Scene& scene, const std::vector<Trajectory>& trajectories,
+                       const std::vector<double>& spacings, double start, double duration);
+
+}  // namespace strut

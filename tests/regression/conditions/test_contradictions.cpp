@@ -1,0 +1,193 @@
+// Conditions that say two things of a point, or throw it somewhere: refused or told when the deck is set up, by
+// explicit steps and in equilibria alike. What agrees acts together.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+
+namespace strut::regression {
+namespace {
+
+// A block of 4 × 4 × 6 points. The four at the edge of "foot" (z = 0.5 mm) and "side" (x = 0.5 mm) are in both.
+Parts block(const std::string& conditions) {
+  Parts parts;
+  parts.node_sets = key("side", "x &lt; 1e-3");
+  parts.conditions = conditions;
+  return parts;
+}
+
+enum class Loading { sudden, slow };
+
+std::string text_of(const Parts& parts, Loading loading) {
+  return loading == Loading::sudden ? parts.text() : changed(parts.text(), R"(name="Verlet")", R"(name="QuasiStatic")");
+}
+
+struct Said {
+  std::string error, warnings;
+};
+
+// On every rank the same.
+Said said_of(Parts parts, Loading loading = Loading::sudden) {
+  const RunFolder folder;
+  if (loading == Loading::slow) parts.verlet = "";
+  Said said;
+  try {
+    const deck::Deck deck = deck::read(folder.write("deck.xml", text_of(parts, loading)), folder.world);
+    said.warnings = set_up(deck, folder.world).warnings;
+  } catch (const Error& error) {
+    said.error = error.what();
+  }
+  std::string of_first = said.error + said.warnings;
+  folder.world.broadcast(of_first);
+  EXPECT_EQ(folder.world.sum(of_first == said.error + said.warnings ? 0.0 : 1.0), 0) << "ranks say different things";
+  return said;
+}
+
+void expect_said(const std::string& said, const std::vector<std::string>& fragments, const std::string& of) {
+  for (const std::string& fragment : fragments) {
+    EXPECT_NE(said.find(fragment), std::string::npos) << "expected \"" << fragment << "\" of " << of << " in:\n"
+                                                      << said;
+  }
+}
+
+std::string velocity(const std::string& name, const std::string& set, const std::string& axes,
+                     const std::string& value) {
+  return along(name, "Prescribed Velocity", set, axes, value);
+}
+std::string displacement(const std::string& name, const std::string& set, const std::string& axes,
+                         const std::string& value) {
+  return along(name, "Prescribed Displacement", set, axes, value);
+}
+std::string cut(const std::string& name, const std::string& set, const std::string& normal) {
+  return plane(name, "Symmetry Plane", set, "0 0 0", normal);
+}
+
+TEST(Contradiction, OfTwoConditionsIsAnErrorThatNamesBothAndTheirPoints) {
+  const std::vector<std::string> contradictions{
+      velocity("a", "foot", "z", "1") + velocity("b", "side", "z", "-1"),
+      displacement("a", "foot", "z", "t*1e-3") + displacement("b", "side", "z", "0"),
+      displacement("a", "foot", "z", "0") + velocity("b", "side", "z", "1e-3"),
+      velocity("a", "foot", "xyz", "1") + cut("b", "side", "2 0 0"),
+      cut("a", "side", "1 0 0") + velocity("b", "foot", "zx", "1"),
+      velocity("a", "foot", "z", "1 + 1e2*y") + velocity("b", "side", "z", "1"),
+      velocity("a", "foot", "yz", "1") + cut("b", "side", "0 1 1"),  // oblique: z alone would leave y free
+  };
+  for (const std::string& conditions : contradictions) {
+    for (const Loading loading : {Loading::sudden, Loading::slow}) {
+      expect_said(said_of(block(conditions), loading).error,
+                  {"1 problem\n", "Boundary Conditions > b: contradicts 'a': both prescribe the motion of 4 points",
+                   "(0.0005, 0.0005, 0.0005) m"},
+                  conditions);
+    }
+  }
+  expect_said(
+      said_of(block(along("a", "Initial Velocity", "all", "z", "1") + along("b", "Initial Velocity", "foot", "z", "5")))
+          .error,
+      {"Boundary Conditions > b: contradicts 'a': both prescribe the initial velocity of 16 points"},
+      "initial velocities");
+}
+
+// Whole faces that are held twice, in the way that decks of quarters and of bars do.
+TEST(Contradiction, IsNotInWhatAgrees) {
+  const std::vector<std::string> agreeing{
+      velocity("a", "foot", "z", "1") + velocity("b", "side", "z", "1"),
+      displacement("a", "foot", "z", "1e-3*t") + displacement("b", "side", "z", "t*1e-3"),
+      displacement("a", "foot", "z", "5*t") + velocity("b", "side", "z", "5"),
+      displacement("a", "foot", "x", "t") + cut("b", "foot", "0 0 1"),
+      cut("a", "foot", "0 0 1") + cut("b", "side", "1 0 0") + cut("c", "all", "0 1 0"),
+      cut("a", "foot", "0 0 1") + cut("b", "foot", "0 1 1") + cut("c", "side", "0 -1 1"),
+      velocity("a", "foot", "z", "1") + cut("b", "side", "0 1 1"),
+  };
+  for (const std::string& conditions : agreeing) {
+    for (const Loading loading : {Loading::sudden, Loading::slow}) {
+      EXPECT_EQ(said_of(block(conditions), loading).error, "") << conditions;
+    }
+  }
+  // What is prescribed at the start and what is prescribed then do not contradict each other.
+  EXPECT_EQ(
+      said_of(block(along("a", "Initial Velocity", "all", "z", "-20") + displacement("b", "foot", "z", "0"))).error,
+      "");
+}
+
+// Planes that are not across each other, and a plane that a prescribed motion makes points slide along: each acts in
+// what the others leave free. The bodies' other points pull at them.
+TEST(Conditions, ThatAreNotAcrossEachOtherAreAllKept) {
+  const RunFolder folder;
+  const auto largest = [&](const std::string& conditions, const std::function<double(const Vector&)>& error) {
+    Parts parts = block(conditions + along("pull", "Body Force", "all", "xyz", "1e12*t*(1 + 1e2*z)"));
+    Simulation run(folder, parts);
+    run.go();
+    double most = 0;
+    for (int i = 0; i < run.body().owned(); ++i) {
+      if (run.in_set(i, "foot")) most = std::max(most, std::abs(error(run.body().displacement(i))));
+    }
+    return folder.world.max(most);
+  };
+  constexpr double round_off = 100 * 1e-16 * 8e-3;  // some 50 additions to places below 8 mm, in two directions
+  const std::string planes = cut("a", "foot", "0 0 1") + cut("b", "foot", "0 1 1");
+  EXPECT_LT(largest(planes, [](const Vector& u) { return u[2]; }), round_off);
+  EXPECT_LT(largest(planes, [](const Vector& u) { return u[1]; }), round_off);
+  EXPECT_GT(largest(planes, [](const Vector& u) { return u[0]; }), 1e-9);
+  const std::string slide = velocity("a", "foot", "z", "1") + cut("b", "foot", "0 1 1");
+  EXPECT_LT(largest(slide, [](const Vector& u) { return u[2] - 5e-6; }), round_off);
+  EXPECT_LT(largest(slide, [](const Vector& u) { return u[1] + 5e-6; }), round_off);
+}
+
+// With sets that are numbers of points, as only Peridigm's decks have them, the last condition counts.
+TEST(Contradiction, InADeckOfPeridigmLeavesTheLast) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = key("First Node Set", "1 2 3 4") + along("a", "Initial Velocity", "all", "z", "10") +
+                     along("b", "Initial Velocity", "First Node Set", "z", "-5") +
+                     along("f", "Body Force", "all", "x", "1e9") +
+                     along("g", "Body Force", "First Node Set", "x", "3e9") + displacement("u", "all", "y", "t") +
+                     displacement("v", "First Node Set", "y", "-t");
+  Simulation run(folder, parts);
+  expect_said(run.scene.warnings,
+              {"Boundary Conditions > a: 4 of its points", "are of 'b', too", "Boundary Conditions > f: 4",
+               "Boundary Conditions > u: 4"},
+              "warnings");
+  run.solver.advance_velocity(run.deck.solver.final_time);
+  const Body& body = run.body();
+  for (int i = 0; i < body.owned(); ++i) {
+    const bool is_first = body.domain.cloud.element_ids[i] <= 4;
+    EXPECT_EQ(body.force_density[i][0], is_first ? 3e9 : 1e9);
+    EXPECT_EQ(body.velocity[i][2], is_first ? -5 : 10);
+    EXPECT_NEAR(body.velocity[i][1], is_first ? -1 : 1, 1e-6);  // round-off of places over a step
+  }
+}
+
+TEST(Displacement, ThatIsNotZeroAtTheStartIsAnErrorOfExplicitSteps) {
+  const std::vector<std::string> where{"Boundary Conditions > a > Value: ", "at the initial time",
+                                       "and 15 other points"};
+  for (const auto& [value, shown] : {std::pair("1e-4", "0.0001 m"), std::pair("5*(t + 1e-3)", "0.005 m"),
+                                     std::pair("1e-4*cos(1e4*t)", "0.0001 m")}) {
+    const Said said = said_of(block(displacement("a", "foot", "z", value)));
+    expect_said(said.error, where, value);
+    expect_said(said.error, {shown}, value);
+    const Said slowly = said_of(block(displacement("a", "foot", "z", value)), Loading::slow);
+    EXPECT_EQ(slowly.error, "");
+    expect_said(slowly.warnings, {"Boundary Conditions > a > Value is ", shown, "first load step"}, value);
+  }
+  Parts later = block(displacement("a", "foot", "z", "5*(t - 1e-3)"));
+  later.times = key("Initial Time", "1e-3") + key("Final Time", "1.005e-3");
+  EXPECT_EQ(said_of(later).error, "");
+  later.conditions = displacement("a", "foot", "z", "5*t");
+  expect_said(said_of(later).error, {"0.005 m at the initial time, t = 0.001 s"}, "another initial time");
+}
+
+TEST(Displacement, ThatJumpsIsTold) {
+  const std::string jump = "if (t &lt; 2e-6) { value = 0; } else { value = 1e-4; }";
+  expect_said(said_of(block(displacement("a", "foot", "z", jump))).warnings,
+              {"WARNING: Boundary Conditions > a > Value: jumps by 0.0001 m, 0.1 spacings, at t = 2e-06 s"}, jump);
+  const std::string tool = section(
+      "roll", key("Type", "Rigid Plane") + key("Point", "0 0 -1e-3") + key("Normal", "0 0 1") + key("Travel Z", jump));
+  expect_said(said_of(block(tool)).warnings, {"WARNING: Boundary Conditions > roll > Travel Z: jumps"}, "a tool");
+  // Steep, but without a jump; no displacement.
+  for (const std::string& smooth :
+       {displacement("a", "foot", "z", "1e-4*erf(1e7*t)"), velocity("a", "foot", "z", jump)}) {
+    EXPECT_EQ(said_of(block(smooth)).warnings.find("jumps"), std::string::npos) << smooth;
+  }
+}
+
+}  // namespace
+}  // namespace strut::regression

@@ -1,0 +1,79 @@
+// A value of a condition that is no number any more while the run goes on ends the run, and is named.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+// Numbers until 3 µs, of 5.
+const std::string ends = "sqrt(3e-6 - t)";
+
+struct Case {
+  std::string conditions, path;
+};
+
+std::string pushed(const std::string& keys) {
+  return section("tool", key("Type", "Rigid Plane") + key("Point", "0 0 6e-3") + key("Normal", "0 0 -1") + keys);
+}
+
+const std::string foot = along("foot", "Prescribed Displacement", "foot", "xyz", "0");
+
+const std::vector<Case> cases{
+    {foot + along("a", "Prescribed Displacement", "top", "z", "1e-3*(" + ends + " - sqrt(3e-6))"), "a > Value"},
+    {foot + along("a", "Prescribed Velocity", "top", "z", ends), "a > Value"},
+    {along("a", "Prescribed Velocity", "all", "xyz", ends), "a > Value"},
+    {foot + along("a", "Body Force", "top", "z", "1e6*" + ends), "a > Value"},
+    {along("a", "Prescribed Velocity", "all", "xyz", "0") + along("b", "Body Force", "top", "z", ends), "b > Value"},
+    {foot + pushed(key("Travel Z", "1e-3*(" + ends + " - sqrt(3e-6))")), "tool > Travel Z"},
+};
+
+// What ends the run, on every rank.
+std::string error_of(const std::string& conditions, bool slowly, const std::string& frequency) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = conditions;
+  parts.verlet = slowly ? key("Number of Load Steps", "10") : "";
+  parts.history = key("Filename", (folder / "history.csv").string()) + key("Frequency", frequency);
+  std::string text = parts.text();
+  if (slowly) text = changed(text, R"(name="Verlet")", R"(name="QuasiStatic")");
+  testing::internal::CaptureStdout();
+  std::string error;
+  try {
+    run(folder.write("deck.xml", text), folder.world);
+  } catch (const Error& thrown) {
+    error = thrown.what();
+  }
+  testing::internal::GetCapturedStdout();
+  return error;
+}
+
+void expect_named(const Case& one, bool slowly, const std::string& frequency) {
+  const std::string error = error_of(one.conditions, slowly, frequency);
+  for (const std::string& part :
+       {"Boundary Conditions > " + one.path + ": '", std::string(" is -nan at ("), std::string("t = 3")}) {
+    EXPECT_NE(error.find(part), std::string::npos) << part << (slowly ? " slowly" : "") << " in:\n" << error;
+  }
+}
+
+// Whether the ledger is looked at in each step, or never before the end.
+TEST(ValueThatIsNoNumber, EndsExplicitStepsByItsName) {
+  for (const Case& one : cases) {
+    expect_named(one, false, "1");
+    expect_named(one, false, "100000");
+  }
+  expect_named({pushed(key("Mass", "1") + key("Force Z", ends)), "tool > Force Z"}, false, "1");
+}
+
+TEST(ValueThatIsNoNumber, EndsEquilibriaByItsName) {
+  for (const Case& one : cases) expect_named(one, true, "1");
+}
+
+TEST(ValueThatIsNoNumber, IsRefusedAtTheInitialTimeOfToolsToo) {
+  const std::string error = error_of(pushed(key("Travel Z", "log(t)")), false, "1");
+  EXPECT_NE(error.find("Boundary Conditions > tool > Travel Z: 'log(t)' is -inf"), std::string::npos) << error;
+}
+
+}  // namespace
+}  // namespace strut::regression

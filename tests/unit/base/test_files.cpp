@@ -1,0 +1,90 @@
+// Which names are of one file, and which file may be replaced by which.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+
+#include "base/files.hpp"
+#include "unit/temporary_folder.hpp"
+
+namespace strut {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  const Communicator world;
+  const TemporaryFolder folder{world};
+
+  fs::path write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder / name, std::ios::binary) << content;
+    return folder / name;
+  }
+};
+
+TEST_F(Files, OneFileHasManyNames) {
+  const fs::path file = write("a.e", "x");
+  write("b.e", "x");
+  fs::create_directory(folder / "sub");
+  fs::create_symlink("a.e", folder / "soft");
+  fs::create_hard_link(file, folder / "hard");
+  fs::create_directory_symlink(".", folder / "here");
+  for (const char* name : {"a.e", "./a.e", "soft", "hard", "sub/../a.e", "here/a.e"}) {
+    EXPECT_TRUE(same_file(file, folder / name)) << name;
+  }
+  for (const char* name : {"b.e", "c.e", "sub/a.e", "A.e"}) EXPECT_FALSE(same_file(file, folder / name)) << name;
+}
+
+// Before the first of both is written: by a name from here, by an absolute one, and through links that lead to nothing.
+TEST_F(Files, OneFileThatIsNotThereYetHasManyNames) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder / ".");
+  fs::create_directory("sub");
+  fs::create_symlink("new.e", "soft");
+  fs::create_symlink("../soft", "sub/soft");
+  fs::create_symlink("loop", "loop");
+  for (const fs::path& name : {fs::path("./new.e"), folder / "new.e", fs::path("sub/../new.e"), fs::path("soft"),
+                               fs::path("sub/soft"), fs::path("NEW.e")}) {
+    EXPECT_TRUE(same_file("new.e", name)) << name;
+  }
+  for (const char* name : {"other.e", "sub/new.e", "nowhere/new.e", "loop"}) {
+    EXPECT_FALSE(same_file("new.e", name)) << name;
+  }
+  fs::current_path(before);
+}
+
+// The heads of files of all kinds, as the libraries write them: a title stands with its number of characters.
+TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
+  const auto titled = [](const std::string& title, char version) {
+    const std::string count = std::string(version == 5 ? 7 : 3, '\0') + static_cast<char>(title.size() + 1);
+    return std::string("CDF") + version + std::string("title\0\0\0\0\0\0\2", 12) + count + title + std::string(4, '\0');
+  };
+  const std::array<std::pair<FileKind, std::string>, 7> kinds{
+      {{FileKind::result, titled("strut", 2)},
+       {FileKind::result, titled("strut", 5)},
+       {FileKind::mesh, titled("strut mesh", 2)},
+       {FileKind::checkpoint, std::string("CDF\5") + "strut_restart"},
+       {FileKind::history, "# strut 0.1\n"},
+       {FileKind::log, "# log of strut 0.1\n"},
+       {FileKind::lock, ""}}};
+  for (const auto& [kind, content] : kinds) {
+    const fs::path file = write("file", content);
+    for (const auto& [other, unused] : kinds) {
+      EXPECT_EQ(obstacle(file, other).empty(), other == kind || content.empty())
+          << content << " and " << static_cast<int>(other);
+    }
+  }
+  for (const std::string content : {"shape = box\n", "\x89HDF\r\n", "<ParameterList/>", "CDF", "Time,x\n0,1\n"}) {
+    const fs::path file = write("file", content);
+    for (const auto& [kind, unused] : kinds) EXPECT_NE(obstacle(file, kind), "") << content;
+    EXPECT_EQ(obstacle(file, FileKind::unchecked), "");
+  }
+  EXPECT_NE(obstacle(folder / ".", FileKind::log).find("is a folder"), std::string::npos);
+  EXPECT_NE(obstacle(folder / "no/file", FileKind::log).find("there is no folder"), std::string::npos);
+  EXPECT_EQ(obstacle("/dev/null", FileKind::log), "") << "loses nothing";
+  EXPECT_NE(obstacle("/dev/null", FileKind::result), "");
+}
+
+}  // namespace
+}  // namespace strut
