@@ -20,6 +20,14 @@ struct Reactions {
   std::vector<Vector> forces;
 };
 
+// What acts at a time of explicit steps, on this rank: forces do for so long before it and after it, s; the impulses of
+// conditions, N s, by the condition's place in the deck, those since the time before included. Empty where nobody
+// asked.
+struct StepImpulses {
+  double before = 0, after = 0;
+  std::vector<Vector> conditions_before, conditions_after;
+};
+
 // The impulses of conditions on the points of this rank, N s, by the condition's place in the deck: over the time that
 // they stand for, these are reactions. Made for no conditions, it gathers nothing.
 class ReactionImpulses {

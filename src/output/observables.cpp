@@ -180,12 +180,21 @@ Observable state_variable(const std::string& name) {
       std::visit(copy, block.material.law);
     }
   };
-  return {name, 1, false, "state of the material law; by quadratic correspondence the mean over the cell", fill};
+  return {name, 1, false, "state of material laws that have it; by quadratic correspondence the mean over the cell",
+          fill};
 }
 
 template <class L>
 void add_state_names(std::set<std::string>& names) {
   names.insert(L::state_names.begin(), L::state_names.end());
+}
+
+std::set<std::string> states_of_all_laws() {
+  std::set<std::string> states;
+  [&]<class... L>(std::type_identity<std::variant<L...>>) {
+    (add_state_names<L>(states), ...);
+  }(std::type_identity<materials::AnyLaw>());
+  return states;
 }
 
 // The fixed observables, and the state variables of these names.
@@ -209,13 +218,15 @@ volumes: `Mean_Displacement_Z(top)`. Where the brackets name a section of `Histo
 its layers, `Mean_Velocity_Z(slices 1)`, ….
 
 Besides, the history knows `Contact_Force_X(foam:plate)`, `_Y` and `_Z`, the force of contact on the block `foam` from the
-block `plate`, with friction (N); `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
-on the body (N), and of a crack that the section `History` > `Cracks` names `Crack_Tip(notch)`, how far it has come along its
+block `plate`, with friction (N), and `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
+on the body (N). Both are means from the row before to this one, so that each times its interval is an impulse and all of them together
+the change of momentum; the first row has 0. With `Instant_` in front, `Instant_Reaction_Z(wall)`, they are those of the one step at the
+row's time. Of equilibria all are those of the row's time. Of a crack that the section `History` > `Cracks` names there are `Crack_Tip(notch)`, how far it has come along its
 direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m/s).
 
 X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of
-the [glossary](../docs/glossary.md). What the state variables of the laws mean, and their units, stand at `State` in the
-headers of [materials](../materials/README.md).
+the [glossary](../docs/glossary.md). A state variable is there where a material of the deck has a law with it: `Failed` of
+metal foams alone, say. What they mean, and their units, stand at `State` in the headers of [materials](../materials/README.md).
 
 | variable | components | in the Exodus file | meaning, with its unit |
 |---|---|---|---|
@@ -256,13 +267,7 @@ std::vector<Observable> observables(const Body& body) {
   return observables(laws);
 }
 
-std::vector<Observable> observables_of_all_laws() {
-  std::set<std::string> states;
-  [&]<class... L>(std::type_identity<std::variant<L...>>) {
-    (add_state_names<L>(states), ...);
-  }(std::type_identity<materials::AnyLaw>());
-  return with_states(states);
-}
+std::vector<Observable> observables_of_all_laws() { return with_states(states_of_all_laws()); }
 
 std::string observables_page() {
   std::string text = introduction;
@@ -295,8 +300,11 @@ std::vector<Observable> chosen(const std::vector<Observable>& all, const std::ve
     if (const Observable* found = find(all, name)) {
       result.push_back(*found);
     } else {
-      problems.push_back(where + " > " + name + ": no such variable" + did_you_mean(name, valid) + "; valid are " +
-                         joined(valid));
+      const bool of_others = states_of_all_laws().contains(name);
+      problems.push_back(where + " > " + name + ": " +
+                         (of_others ? "no material of this deck has a law with this state variable"
+                                    : "no such variable" + did_you_mean(name, valid)) +
+                         "; valid are " + joined(valid));
     }
   }
   if (!problems.empty()) throw Error(joined(problems, "\n"));

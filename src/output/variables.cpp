@@ -16,7 +16,12 @@ const std::vector<std::string> reaction_names = {"Reaction_X", "Reaction_Y", "Re
 const std::vector<std::string> contact_names = {"Contact_Force_X", "Contact_Force_Y", "Contact_Force_Z"};
 const std::vector<std::string> crack_names = {"Crack_Tip", "Crack_Speed"};
 
+const std::string instant = "Instant_";
+
 std::string before_bracket(const std::string& name) { return name.substr(0, name.find('(')); }
+
+bool is_instant(const std::string& name) { return name.starts_with(instant); }
+std::string without_instant(const std::string& name) { return is_instant(name) ? name.substr(instant.size()) : name; }
 
 // Right or nearly so.
 bool means(const std::string& name, const std::string& first_word, const std::vector<std::string>& names) {
@@ -42,21 +47,25 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
               (valid.empty() ? "is none" : "are " + joined(valid)));
 }
 
-// "Kind(wanted)": the place of Kind in `kinds`, and what is wanted. `of`: the section whose sections may be.
+// "Kind(wanted)", after `prefix`: the place of Kind in `kinds`, and what is wanted. `of`: the section whose sections
+// may be.
 std::pair<std::size_t, std::string> in_brackets(const std::string& name, const std::vector<std::string>& kinds,
-                                                const std::string& of, const std::string& example) {
-  const std::string kind = before_bracket(name);
+                                                const std::string& of, const std::string& example,
+                                                const std::string& prefix = "") {
+  const std::string rest = name.substr(prefix.size()), kind = before_bracket(rest);
   const auto found = std::find(kinds.begin(), kinds.end(), kind);
-  if (found == kinds.end() || kind == name || name.back() != ')') {
+  if (found == kinds.end() || kind == rest || name.back() != ')') {
     throw Error(where + " > " + name + ": expected one of " + joined(kinds) + did_you_mean(kind, kinds) +
                 " and in brackets the name of a section of " + of + ", e.g. " + example);
   }
-  return {found - kinds.begin(), name.substr(kind.size() + 1, name.size() - kind.size() - 2)};
+  return {found - kinds.begin(), rest.substr(kind.size() + 1, rest.size() - kind.size() - 2)};
 }
 
 ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const std::string& name) {
-  const auto [component, wanted] = in_brackets(name, reaction_names, "Boundary Conditions", "Reaction_Z(wall)");
-  return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component)};
+  const auto [component, wanted] =
+      in_brackets(name, reaction_names, "Boundary Conditions", "Reaction_Z(wall)", is_instant(name) ? instant : "");
+  return {name, reacting_condition(conditions, wanted, where + " > " + name), static_cast<int>(component),
+          is_instant(name)};
 }
 
 // "Crack_Tip(notch)": the section that is meant, and which of crack_names.
@@ -94,17 +103,18 @@ int block_of(const std::vector<std::string>& names, const std::string& wanted, c
 // Whether they can touch is not looked at.
 ContactComponent contact_component(const std::vector<std::string>& blocks, const std::string& name) {
   const std::string path = where + " > " + name;
-  const std::string kind = before_bracket(name);
+  const std::string kind = before_bracket(without_instant(name));
   const auto found = std::find(contact_names.begin(), contact_names.end(), kind);
-  const std::size_t colon = name.find(':');
-  if (found == contact_names.end() || kind == name || name.back() != ')' || colon == std::string::npos) {
+  const std::size_t bracket = name.find('('), colon = name.find(':');
+  if (found == contact_names.end() || bracket == std::string::npos || name.back() != ')' ||
+      colon == std::string::npos) {
     throw Error(path + ": expected one of " + joined(contact_names) + did_you_mean(kind, contact_names) +
                 " and in brackets two blocks, e.g. Contact_Force_Z(foam:plate), the force on foam from plate");
   }
-  const int first = block_of(blocks, name.substr(kind.size() + 1, colon - kind.size() - 1), path);
+  const int first = block_of(blocks, name.substr(bracket + 1, colon - bracket - 1), path);
   const int second = block_of(blocks, name.substr(colon + 1, name.size() - colon - 2), path);
   if (first == second) throw Error(path + ": the forces of a block on itself add up to nothing; expected two blocks");
-  return {name, first, second, static_cast<int>(found - contact_names.begin())};
+  return {name, first, second, static_cast<int>(found - contact_names.begin()), is_instant(name)};
 }
 
 ContactComponent contact_force(const contact::Contact& contact, const std::vector<std::string>& blocks,
@@ -139,7 +149,7 @@ void attempt(deck::Problems& problems, const LookUp& look_up) {
 // Collective. As output_variables_of, of names alone.
 void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const PointCloud& cloud,
              const Communicator& communicator, const std::string& name) {
-  if (means(name, "Reaction", reaction_names)) {
+  if (means(without_instant(name), "Reaction", reaction_names)) {
     reaction(deck.conditions, name);
   } else if (means(name, "Crack", crack_names)) {
     const deck::WatchedCrack& crack = *watched_crack(deck.history.cracks, name).first;
@@ -147,7 +157,7 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
       PointGroup(cloud, crack.node_set, "History > Cracks > " + crack.name + " > Node Set");  // throws
   } else if (cloud.block_names.empty()) {
     return;  // the others are of the mesh
-  } else if (means(name, "Contact", contact_names)) {
+  } else if (means(without_instant(name), "Contact", contact_names)) {
     contact_component(cloud.block_names, name);
   } else if (name.starts_with("Mean_")) {
     check_mean(all, deck.history.profiles, cloud, name, where);
@@ -200,11 +210,11 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
   }
   for (const std::string& name : deck.history.variables) {
     attempt(problems, [&] {
-      if (means(name, "Reaction", reaction_names)) {
+      if (means(without_instant(name), "Reaction", reaction_names)) {
         variables.reactions.push_back(reaction(deck.conditions, name));
       } else if (means(name, "Crack", crack_names)) {
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
-      } else if (means(name, "Contact", contact_names)) {
+      } else if (means(without_instant(name), "Contact", contact_names)) {
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
       } else if (name.starts_with("Mean_")) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));

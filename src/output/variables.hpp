@@ -10,12 +10,14 @@
 
 namespace strut {
 
-// "Reaction_X(wall)": a component of the force of the condition `wall` on the body, N.
+// "Reaction_X(wall)": a component of the force of the condition `wall` on the body, N, as a mean since the row before,
+// or as "Instant_Reaction_X(wall)" at the time of the row.
 struct ReactionComponent {
   std::string name;
   int condition, component;
+  bool is_instant;
 
-  double of(const Reactions& reactions) const { return reactions.forces[condition][component]; }
+  double of(const std::vector<Vector>& of_conditions) const { return of_conditions[condition][component]; }
 };
 
 // "Crack_Tip(notch)" or "Crack_Speed(notch)" of History > Cracks.
@@ -27,10 +29,11 @@ struct CrackColumn {
   double of(const CrackTip& tip) const { return is_speed ? tip.speed() : tip.tip(); }
 };
 
-// "Contact_Force_X(foam:plate)": a component of the force of contact on the first block from the second, N.
+// "Contact_Force_X(foam:plate)": a component of the force of contact on the first block from the second, N; likewise.
 struct ContactComponent {
   std::string name;
   int first, second, component;
+  bool is_instant;
 };
 
 struct OutputVariables {

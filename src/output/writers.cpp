@@ -49,7 +49,9 @@ History::History(const deck::Deck& deck, const OutputVariables& variables)
       crack_columns_(variables.crack_columns),
       cracks_(variables.cracks),
       means_(variables.means),
-      contacts_(variables.contacts) {}
+      contacts_(variables.contacts),
+      has_means_(!deck.solver.quasi_static),
+      means_of_forces_(reactions_.size() + contacts_.size(), deck.solver.initial_time) {}
 
 void History::open(const Body& body) {
   if (!enabled_) return;
@@ -70,22 +72,57 @@ void History::open(const Body& body) {
                                          {"Momentum_Y", "kg m/s"},
                                          {"Momentum_Z", "kg m/s"}};
   for (const Extreme& extreme : extremes_) columns.push_back({extreme.name(), extreme.unit()});
-  for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, "N"});
+  const auto unit = [this](bool is_instant) { return is_instant || !has_means_ ? "N" : "N (mean)"; };
+  for (const ReactionComponent& reaction : reactions_) columns.push_back({reaction.name, unit(reaction.is_instant)});
   for (const CrackColumn& column : crack_columns_) columns.push_back({column.name, column.is_speed ? "m/s" : "m"});
   for (const Mean& mean : means_) {
     for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
-  for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, "N"});
+  for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
   file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
 }
 
-// Collective.
-std::vector<double> History::contact_forces(const contact::Contact& contact, const Domain& domain) const {
-  std::vector<double> forces;
-  if (contacts_.empty()) return forces;
-  for (const ContactComponent& c : contacts_) forces.push_back(contact.force(domain, c.first, c.second)[c.component]);
-  domain.communicator.sum(forces);
+// On this rank; of a column each.
+std::vector<Vector> History::contact_forces(const contact::Contact& contact, const Domain& domain) const {
+  std::vector<Vector> forces;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const ContactComponent& c = contacts_[k];
+    const bool known = k > 0 && c.first == contacts_[k - 1].first && c.second == contacts_[k - 1].second;
+    forces.push_back(known ? forces.back() : contact.force(domain, c.first, c.second));
+  }
   return forces;
+}
+
+void History::gather(const StepImpulses& impulses, const contact::Contact& contact, const Domain& domain) {
+  if (!enabled_ || (reactions_.empty() && contacts_.empty())) return;
+  std::vector<double> before, after;
+  for (const ReactionComponent& reaction : reactions_) {
+    before.push_back(reaction.of(impulses.conditions_before));
+    after.push_back(reaction.of(impulses.conditions_after));
+  }
+  const std::vector<Vector> forces = contact_forces(contact, domain);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    before.push_back(impulses.before * forces[k][contacts_[k].component]);
+    after.push_back(impulses.after * forces[k][contacts_[k].component]);
+  }
+  means_of_forces_.add(before, after);
+}
+
+// Collective. Of reactions, then contacts.
+std::vector<double> History::forces(double time, const Reactions& reactions, const contact::Contact& contact,
+                                    const Domain& domain) {
+  std::vector<double> row = means_of_forces_.take(time, domain.communicator), of_contacts;
+  const std::vector<Vector> forces = contact_forces(contact, domain);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) of_contacts.push_back(forces[k][contacts_[k].component]);
+  domain.communicator.sum(of_contacts);
+  const auto is_shown = [this](const auto& column) { return column.is_instant || !has_means_; };
+  for (std::size_t k = 0; k < reactions_.size(); ++k) {
+    if (is_shown(reactions_[k])) row[k] = reactions_[k].of(reactions.forces);
+  }
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    if (is_shown(contacts_[k])) row[reactions_.size() + k] = of_contacts[k];
+  }
+  return row;
 }
 
 void History::write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body) {
@@ -103,12 +140,14 @@ void History::write(const Ledger& now, const Reactions& reactions, const contact
   const std::size_t tips = fixed + extremes_.size();
   for (std::size_t k = 0; k < cracks_.size(); ++k) cracks_[k].take(now.time, row[tips + k]);
   row.resize(tips);
-  for (const ReactionComponent& reaction : reactions_) row.push_back(reaction.of(reactions));
+  const std::vector<double> forces = this->forces(now.time, reactions, contact, body.domain);
+  const auto of_contacts = forces.begin() + static_cast<std::ptrdiff_t>(reactions_.size());
+  row.insert(row.end(), forces.begin(), of_contacts);
   for (const CrackColumn& column : crack_columns_) row.push_back(column.of(cracks_[column.crack]));
   for (const Mean& mean : means_) {
     for (const double value : mean.values(body)) row.push_back(value);
   }
-  for (const double force : contact_forces(contact, body.domain)) row.push_back(force);
+  row.insert(row.end(), of_contacts, forces.end());
   file_->write(row);
   schedule.done(now.time);
   last_ = now.time;
@@ -124,6 +163,7 @@ void History::serialize(Archive& archive, double time) {
   archive.number("last_line", last_);
   schedule.serialize(archive, "history", time);
   for (CrackTip& crack : cracks_) crack.serialize(archive);
+  means_of_forces_.serialize(archive);
 }
 
 bool is_over(const deck::Deck& deck, const Communicator& communicator) {

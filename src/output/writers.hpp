@@ -9,6 +9,7 @@
 #include "deck/deck.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/text/history.hpp"
+#include "output/mean_forces.hpp"
 #include "output/schedule.hpp"
 #include "output/variables.hpp"
 #include "solvers/ledger.hpp"
@@ -49,6 +50,8 @@ class History {
   History(const deck::Deck& deck, const OutputVariables& variables);
 
   void open(const Body& body);  // as FieldWriter
+  // At each time of explicit steps, before write() there.
+  void gather(const StepImpulses& impulses, const contact::Contact& contact, const Domain& domain);
   // Collective.
   void write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body);
   void serialize(Archive& archive, double time);
@@ -59,7 +62,9 @@ class History {
   Schedule schedule;
 
  private:
-  std::vector<double> contact_forces(const contact::Contact& contact, const Domain& domain) const;
+  std::vector<Vector> contact_forces(const contact::Contact& contact, const Domain& domain) const;
+  std::vector<double> forces(double time, const Reactions& reactions, const contact::Contact& contact,
+                             const Domain& domain);
 
   bool enabled_;
   double last_ = never;
@@ -70,8 +75,10 @@ class History {
   std::vector<CrackTip> cracks_;
   std::vector<Mean> means_;
   std::vector<ContactComponent> contacts_;
-  std::int64_t before_ = 0;  // bytes that a restored run finds
-  double sum_ = 0;           // their check sum
+  bool has_means_;              // equilibria have none: all forces are those of the time
+  MeanForces means_of_forces_;  // of reactions_, then contacts_
+  std::int64_t before_ = 0;     // bytes that a restored run finds
+  double sum_ = 0;              // their check sum
   std::optional<io::HistoryFile> file_;
 };
 

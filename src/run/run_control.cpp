@@ -54,6 +54,7 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   services_.monitor.check_undeclared(solver.time(), solver.contact());
   services_.monitor.check_tools(solver.time(), solver.conditions(), services_.scene.tools);
   const bool last = ends_here(solver);
+  services_.writers.history.gather(solver.impulses(), solver.contact(), services_.scene.body.domain);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
   if (ledger || last) {

@@ -27,23 +27,46 @@ def names_of(file, variable):
     return [row.tobytes().decode(errors="replace").split("\0")[0].strip() for row in file.variables[variable][:]]
 
 
-def box_of(file, number):
-    """Both corners, of the nodes of a block; None where it has points alone."""
+def nodes_of(file, number):
+    """The places of the nodes of each element of a block; None where it has points alone."""
     elements = file.variables[f"connect{number}"]
     if not elements.elem_type.upper().startswith(SOLIDS):
         return None
-    places = np.stack([file.variables["coord" + c][:] for c in "xyz"], axis=1)[elements[:] - 1]
-    low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
+    return np.stack([file.variables["coord" + c][:] for c in "xyz"], axis=1)[elements[:] - 1]
+
+
+def prisms_of(file, number):
+    """Of cells that are partly filled, each taken for a prism: its middle and its half edges (√3 times its radii of
+    gyration); None of others."""
     names = names_of(file, f"attrib_name{number}") if f"attrib_name{number}" in file.variables else []
-    if all(name in names for name in NUMBERS):
-        held = file.variables[f"attrib{number}"][:][:, [names.index(name) for name in NUMBERS]]
-        return box_of_cells(places, held[:, :3], np.sqrt(3 * held[:, 3:]), low, high)
-    return low, high
+    if not all(name in names for name in NUMBERS):
+        return None
+    held = file.variables[f"attrib{number}"][:][:, [names.index(name) for name in NUMBERS]]
+    return held[:, :3], np.sqrt(3 * held[:, 3:])
+
+
+def cells_of(file, number):
+    """Of the elements of a block the edges of their boxes, their middles and half edges, m; None where it has points alone."""
+    places = nodes_of(file, number)
+    if places is None:
+        return None
+    edges = np.ptp(places, axis=1)
+    return edges, *(prisms_of(file, number) or (places.mean(axis=1), 0.5 * edges))
+
+
+def box_of(file, number):
+    """Both corners, of the nodes of a block; None where it has points alone."""
+    places = nodes_of(file, number)
+    if places is None:
+        return None
+    low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
+    prisms = prisms_of(file, number)
+    return (low, high) if prisms is None else box_of_cells(places, *prisms, low, high)
 
 
 def box_of_cells(places, middle, half, low, high):
     """Of cells that are partly filled: a face of the box is where the material of the cells beside it ends in the middle of
-    them all, each taken for a prism (its half edge is √3 times its radius of gyration)."""
+    them all."""
     box = [low.copy(), high.copy()]
     for c in range(3):
         least, most = places[:, :, c].min(axis=1), places[:, :, c].max(axis=1)

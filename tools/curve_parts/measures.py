@@ -3,9 +3,10 @@
 Sources. ISO: ISO 13314:2011, Mechanical testing of metals, ductility testing, compression test for porous and cellular
 metals. Efficiency: Li, Magkiriadis & Harrigan, Compressive strain at the onset of densification of cellular solids,
 J. Cellular Plastics 42 (2006) 371; Tan, Reid, Harrigan, Zou & Li, Dynamic compressive strength properties of aluminium
-foams, J. Mech. Phys. Solids 53 (2005) 2174.
+foams, J. Mech. Phys. Solids 53 (2005) 2174. Equilibrium: Ravichandran & Subhash, Critical appraisal of limiting strain rates for
+compression testing of ceramics in a split Hopkinson pressure bar, J. Am. Ceram. Soc. 77 (1994) 263.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +15,7 @@ END_OF_PLATEAU = 1.3  # times the plateau stress (ISO)
 ENERGY_TO = 0.5       # strain to which energy is given where the plateau has no end before (ISO)
 GRADIENT = (0.2, 0.7)  # parts of the plateau stress between which gradients are taken (ISO: of the loop)
 MOST_UNLOADED = 0.5   # a loop unloads at least this part of the stress
+MOST_APART = 0.05     # the stresses of both ends, of their mean: else they are of no material (Ravichandran & Subhash)
 OFFSETS = {"": 0.002, "_1": 0.01}  # plastic strains of offset stress and proof strength
 
 
@@ -24,6 +26,7 @@ class Measure:
     unit: str
     meaning: str
     why: str = ""        # it does not have it
+    over: tuple | None = None  # strains that it is of; None: not of a material in equilibrium
 
     def said(self):
         """The definition, and why there is no value."""
@@ -98,7 +101,8 @@ def offset_stress(strain, stress, gradient, foot, offset):
 
 
 def elastic_gradient(strain, stress, scale):
-    """Of the longest unloading, between the two parts of the scale; None where none goes down to the lower part."""
+    """Of the longest unloading, between the two parts of the scale, and its rows; None where none goes down to the lower
+    part."""
     best = None
     start = 0
     for i in range(1, len(strain) + 1):
@@ -107,9 +111,9 @@ def elastic_gradient(strain, stress, scale):
         if i - start > 2 and stress[i - 1] < MOST_UNLOADED * stress[start]:
             here = line(strain[start:i], stress[start:i], GRADIENT[0] * scale, GRADIENT[1] * scale)
             if here is not None and (best is None or i - start > best[0]):
-                best = (i - start, here[0])
+                best = (i - start, here[0], slice(start, i))
         start = i
-    return best and best[1]
+    return best and best[1:]
 
 
 def densification(strain, stress):
@@ -124,9 +128,54 @@ def densification(strain, stress):
     return None if i == len(efficiency) - 1 else (float(strain[i]), float(efficiency[i]))
 
 
-def of_curve(strain, stress):
-    """All measures of a curve with loops of unloading or without."""
-    e, s = loading(np.asarray(strain, float), np.asarray(stress, float))
+def apart(strain, stress, other, low, high):
+    """By how much both ends differ from low to high, of the mean of both, at equal intervals of strain."""
+    low, high = max(low, float(strain[0])), min(high, float(strain[-1]))
+    differences = mean_between(strain, np.abs(stress - other), low, high) if high > low else None
+    both = mean_between(strain, 0.5 * (np.abs(stress) + np.abs(other)), low, high) if high > low else None
+    return differences / both if both else 0.0
+
+
+def of_curve(strain, stress, other=None):
+    """All measures of a curve with loops of unloading or without; `other`: the stress at the other end. Where both differ
+    there is no material that they could be measures of."""
+    strain, stress = np.asarray(strain, float), np.asarray(stress, float)
+    found = of_one_end(strain, stress)
+    e, s = loading(strain, stress)
+    o = None if other is None else loading(strain, np.asarray(other, float))[1]
+    if o is not None:
+        found = [in_equilibrium(m, e, s, o) for m in found]
+    return found + measures_of_ends(e, s, o)
+
+
+def in_equilibrium(measure, e, s, o):
+    """Without its value where both ends differ by too much."""
+    if measure.value is None or measure.over is None:
+        return measure
+    by = apart(e, s, o, *measure.over)
+    if by <= MOST_APART:
+        return measure
+    return replace(measure, value=None, why=f"both ends differ by {100 * by:.2g} % there, more than {100 * MOST_APART:g} %: no equilibrium")
+
+
+def measures_of_ends(e, s, o):
+    """What both ends bear, equilibrium or not."""
+    low, high = PLATEAUS[""]
+    one_end, ends = "the history has the force at one end only", f"the curve ends at a strain of {e[-1]:.3g}"
+    there = e[-1] >= high and e[0] <= low
+    between = f"from {100 * low:g} to {100 * high:g} % strain"
+    return [
+        Measure("mean_stress", mean_between(e, s, low, high), "Pa", f"mean {between} at the end of the curve, in equilibrium or not", ends),
+        Measure("mean_stress_other_end", None if o is None else mean_between(e, o, low, high), "Pa", f"the same at the other end",
+                one_end if o is None else ends),
+        Measure("ends_apart", None if o is None or not there else apart(e, s, o, low, high), "1",
+                f"difference of both ends over their mean, {between} (in equilibrium up to {MOST_APART:g}, Ravichandran & Subhash 1994)",
+                one_end if o is None else ends),
+    ]
+
+
+def of_one_end(strain, stress):
+    e, s = loading(strain, stress)
     plateau = {key: mean_between(e, s, *between) for key, between in PLATEAUS.items()}
     known = plateau[""] or plateau["_20_40"]
     scale = known or float(s.max())
@@ -137,16 +186,19 @@ def of_curve(strain, stress):
         end = crossing(e[beyond], s[beyond], END_OF_PLATEAU * known)
     ends = f"the curve ends at a strain of {e[-1]:.3g}"
     rise, unloading = quasi_elastic_line(e, s, scale), elastic_gradient(strain, stress, scale)
+    risen = float(e[np.argmax(s > GRADIENT[1] * scale)])  # where that line ends
+    unloaded = unloading and (float(strain[unloading[1]].min()), float(strain[unloading[1]].max()))
+    unloading = unloading and unloading[0]
     return [
         Measure("quasi_elastic_gradient", rise and rise[0], "Pa", f"slope of the first rise, 20 to 70 % of the {of} (ISO)",
-                "fewer than three rows there: a history in shorter intervals has more"),
+                "fewer than three rows there: a history in shorter intervals has more", (0, risen)),
         Measure("elastic_gradient", unloading, "Pa", f"slope of unloading, 70 to 20 % of the {of} (ISO)",
-                "the history does not unload so far, in three rows"),
+                "the history does not unload so far, in three rows", unloaded),
         *offset_measures(e, s, rise, unloading),
-        *[Measure(f"plateau_stress{key}", value, "Pa", f"mean from {100 * low:g} to {100 * high:g} % strain (ISO)", ends)
+        *[Measure(f"plateau_stress{key}", value, "Pa", f"mean from {100 * low:g} to {100 * high:g} % strain (ISO)", ends, (low, high))
           for (key, (low, high)), value in zip(PLATEAUS.items(), plateau.values())],
         Measure("plateau_end", end, "1", "strain from which on the stress is above 1.3 times the plateau stress (ISO)",
-                "at its end the stress is not" if known else "there is no plateau stress"),
+                "at its end the stress is not" if known else "there is no plateau stress", (PLATEAUS[""][0], end or 0)),
         *energy_measures(e, s, end),
         *densification_measures(e, s),
         Measure("largest_strain", float(e[-1]), "1", "of the curve"),
@@ -163,7 +215,8 @@ def offset_measures(e, s, rise, unloading):
             value = offset_stress(e, s, gradient, rise[1], offset) if known else None
             found.append(Measure(f"{name}{key}", value, "Pa", f"stress at {100 * offset:g} % plastic strain beside the line of "
                                  f"the {of} gradient (ISO)",
-                                 "the curve does not cross that line" if known else f"there is no {of} gradient"))
+                                 "the curve does not cross that line" if known else f"there is no {of} gradient",
+                                 (0, value / gradient + rise[1] + offset if value is not None else 0)))
     return found
 
 
@@ -175,9 +228,9 @@ def energy_measures(e, s, end):
     whole = to > e[0] and s.max() > 0
     return [
         Measure("energy_strain", to, "1", "to which energy is taken: the plateau's end, at most 50 % (ISO)"),
-        Measure("absorbed_energy", W, "J/m3", "integral of stress over strain to there, per volume of the foam (ISO)"),
+        Measure("absorbed_energy", W, "J/m3", "integral of stress over strain to there, per volume of the foam (ISO)", "", (0, to)),
         Measure("absorption_efficiency", W / (float(s.max()) * (to - e[0])) if whole else None, "1",
-                "that over the largest stress to there times the strain (ISO)"),
+                "that over the largest stress to there times the strain (ISO)", "", (0, to)),
     ]
 
 
@@ -187,7 +240,7 @@ def densification_measures(e, s):
     W = None if strain is None else float(np.interp(strain, e, energies(e, s)))
     return [
         Measure("densification_strain", strain, "1", "where energy over stress is largest (Tan et al. 2005, Li et al. 2006)",
-                "it still rises at the end of the curve"),
-        Measure("largest_efficiency", efficiency, "1", "energy over stress there (Li et al. 2006)", "as densification_strain"),
-        Measure("densification_energy", W, "J/m3", "integral of stress over strain to there", "as densification_strain"),
+                "it still rises at the end of the curve", (0, strain or 0)),
+        Measure("largest_efficiency", efficiency, "1", "energy over stress there (Li et al. 2006)", "as densification_strain", (0, strain or 0)),
+        Measure("densification_energy", W, "J/m3", "integral of stress over strain to there", "as densification_strain", (0, strain or 0)),
     ]

@@ -10,7 +10,7 @@ from strut_tools import fail, nearest
 
 from . import extent
 
-FORCES = re.compile(r"(Reaction|Contact_Force)_([XYZ])\((.+)\)")
+FORCES = re.compile(r"(?:Instant_)?(Reaction|Contact_Force)_([XYZ])\((.+)\)")
 LAYERS = re.compile(r"Mean_(Velocity|Coordinate)_([XYZ])\((.+) (\d+)\)")
 
 
@@ -60,6 +60,18 @@ def forces(table, words):
         fail(f"the history has no force along {axis}: add e.g. Reaction_{axis.upper()}(top) or "
              f"Contact_Force_{axis.upper()}(foam:plate) to History > Variables, or name a column by --force")
     return along, "xyz".index(axis)
+
+
+def is_equilibrium(deck):
+    """Whether the run is one of load steps, each an equilibrium."""
+    return deck is not None and deck.section("Solver", "QuasiStatic") is not None
+
+
+def are_means(path, name):
+    """Whether the column of a force has means since the row before, as the first line of the history says."""
+    with open(path, newline="") as file:
+        units, names = (re.split(r"units: *", file.readline().strip())[-1].split(","), file.readline().strip().split(","))
+    return len(units) == len(names) and units[names.index(name)].strip() == "N (mean)"
 
 
 def signed(values):

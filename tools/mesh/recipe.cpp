@@ -59,11 +59,16 @@ class Lines {
  public:
   explicit Lines(std::vector<std::string>& problems) : problems_(problems) {}
 
+  // Throws Error of one line where this is another file: most of its first lines are no lines of a recipe.
   std::vector<Entries> read(std::istream& stream) {
     std::string text;
+    int lines = 0;
     for (int number = 1; std::getline(stream, text); ++number) {
       const std::string content = trimmed(text.substr(0, text.find('#')));
-      if (!content.empty()) read_line(content, number);
+      if (content.empty()) continue;
+      if (content.find('\0') != std::string::npos) throw Error("it is no recipe but holds other than text");
+      read_line(content, number);
+      if (++lines == looked_at || stream.peek() == EOF) check_kind(lines);
     }
     if (bodies_.empty()) return {common_};
     for (Entries& body : bodies_) body.take_defaults(common_);
@@ -71,16 +76,34 @@ class Lines {
   }
 
  private:
+  static constexpr int looked_at = 100;
+
+  void check_kind(int lines) const {
+    if (lines > looked_at || foreign_ <= 2 || foreign_ < lines / 2) return;
+    throw Error("it is no recipe: expected lines 'key = value' or '[body]', found '" + first_foreign_ + "'" +
+                " and others; meshes of other programs are for tools/tetrahedra, images for tools/voxels");
+  }
+
+  // A line that is none of a recipe.
+  void take_foreign(const std::string& content) {
+    if (foreign_++ > 0) return;
+    for (const char c : content.substr(0, 60)) first_foreign_ += c >= ' ' && c <= '~' ? c : '?';
+  }
+
   void read_line(const std::string& content, int number) {
     if (content == "[body]") {
       bodies_.emplace_back(number);
       return;
     }
     const auto sign = content.find('=');
-    if (sign == std::string::npos) return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
+    if (sign == std::string::npos) {
+      take_foreign(content);
+      return fail(number, "expected 'key = value' or '[body]', found '" + content + "'");
+    }
     const std::string key = trimmed(content.substr(0, sign));
     const std::string value = trimmed(content.substr(sign + 1));
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      if (key.find_first_not_of("abcdefghijklmnopqrstuvwxyz_ ") != std::string::npos) take_foreign(content);
       return fail(number, "unknown key '" + key + "'" + did_you_mean(key, keys) + "; keys are " + joined(keys));
     }
     Entries& body = bodies_.empty() ? common_ : bodies_.back();
@@ -96,6 +119,8 @@ class Lines {
   }
 
   std::vector<std::string>& problems_;
+  int foreign_ = 0;
+  std::string first_foreign_;
   Entries common_{1};
   std::vector<Entries> bodies_;
 };
@@ -309,6 +334,15 @@ class Converter {
   std::vector<std::string>& problems_;
 };
 
+std::vector<Entries> lines_of(const std::filesystem::path& path, std::istream& file,
+                              std::vector<std::string>& problems) {
+  try {
+    return Lines(problems).read(file);
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 std::vector<Body> read_recipe(const std::filesystem::path& path) {
@@ -318,10 +352,15 @@ std::vector<Body> read_recipe(const std::filesystem::path& path) {
   std::vector<std::string> problems;
   std::vector<Body> bodies;
   std::set<std::string> names;
-  for (const Entries& entries : Lines(problems).read(file)) {
+  for (const Entries& entries : lines_of(path, file, problems)) {
     bodies.push_back(Converter(entries, path.parent_path(), problems).convert());
     if (!names.insert(bodies.back().name).second)
       problems.push_back("two bodies are called '" + bodies.back().name + "'");
+  }
+  constexpr std::size_t most_told = 30;
+  if (problems.size() > most_told) {
+    problems[most_told] = "and " + std::to_string(problems.size() - most_told) + " others";
+    problems.resize(most_told + 1);
   }
   if (!problems.empty()) throw Error(path.string() + ":\n  " + joined(problems, "\n  "));
   return bodies;

@@ -51,10 +51,11 @@ class Tool:
         column = f"Reaction_{c}({self.name})"
         if column not in table and (speed or force):
             fail(f"where the tool '{self.name}' is drawn follows from {column}: add it to the deck's History")
-        pushes = -table.get(column, np.zeros(len(times)))  # the column is what the bodies feel
+        # The column is what the bodies feel, means from row to row.
+        impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(times, prepend=times[0]))
         if force:
-            pushes = pushes + [self._at(f"Force {c}", force, t) for t in times]
-        return integral(times, speed + integral(times, pushes / self.mass))
+            impulse = impulse + integral(times, np.array([self._at(f"Force {c}", force, t) for t in times]))
+        return integral(times, speed + impulse / self.mass)
 
     def surface(self, low, high):
         """What of it is near the box of the bodies (corners, m), before it travels."""

@@ -14,11 +14,16 @@ FACES = [((1, 0, 0), ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1))), ((-1, 0, 0),
          ((0, 0, 1), ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))), ((0, 0, -1), ((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))]
 
 
-class Surface:
-    """Corners (c x 3, in the reference), quads (m x 4 corners) and the point that each quad belongs to."""
+TORN = 0.75  # spacings by which an edge of a face may be longer than it was; half of the gap is on either side
 
-    def __init__(self, corners, quads, point):
+
+class Surface:
+    """Corners (c x 3, in the reference), quads (m x 4 corners), the point that each quad belongs to, and the spacing of
+    points there."""
+
+    def __init__(self, corners, quads, point, spacing=np.inf):
         self.corners, self.quads, self.point = corners, quads, point
+        self.spacing = np.broadcast_to(spacing, len(quads))
 
     def moved(self, displacement):
         """The corners, moved by the mean displacement of the points whose faces meet there."""
@@ -27,12 +32,27 @@ class Surface:
         u = displacement[np.repeat(self.point, 4)]
         return self.corners + np.stack([np.bincount(ids, u[:, c], len(self.corners)) / count for c in range(3)], axis=1)
 
+    def torn(self, displacement):
+        """The same where points have moved apart: faces between them, which would be drawn out to sheets, have corners of
+        their own."""
+        def edges(corners):
+            around = corners[self.quads]
+            return np.linalg.norm(around - np.roll(around, 1, axis=1), axis=2)
+        apart = (edges(self.moved(displacement)) - edges(self.corners) > TORN * self.spacing[:, None]).any(axis=1)
+        if not apart.any():
+            return self
+        own = self.corners[self.quads[apart]].reshape(-1, 3)
+        quads = self.quads.copy()
+        quads[apart] = len(self.corners) + np.arange(len(own)).reshape(-1, 4)
+        used, quads = np.unique(quads, return_inverse=True)
+        return Surface(np.concatenate([self.corners, own])[used], quads.reshape(-1, 4), self.point, self.spacing)
+
 
 def joined(surfaces):
     start = np.cumsum([0] + [len(s.corners) for s in surfaces])
     return Surface(np.concatenate([s.corners for s in surfaces]),
                    np.concatenate([s.quads + n for s, n in zip(surfaces, start)]),
-                   np.concatenate([s.point for s in surfaces]))
+                   np.concatenate([s.point for s in surfaces]), np.concatenate([s.spacing for s in surfaces]))
 
 
 def edge_of(places, volumes):
@@ -76,16 +96,16 @@ def surface_of(places, volumes, points):
     found = lattice_of(places, volumes)
     if found is not None:
         cells, spacing = found
-        return surface_of_cells(cells, spacing, places.min(axis=0), points)
+        return surface_of_cells(cells, spacing, places.min(axis=0), points, np.max(spacing))
     found = struts.voxels_of(places, volumes)
     if found is None:
         return separate_cubes(places, volumes, points)
     cells, edge, origin, owners = found
-    return surface_of_cells(cells, edge, origin + 0.5 * edge, points[owners])
+    return surface_of_cells(cells, edge, origin + 0.5 * edge, points[owners], struts.FINE * edge)
 
 
-def surface_of_cells(cells, spacing, first, points):
-    """Of cubes at whole places; first: the center of that at 0 0 0."""
+def surface_of_cells(cells, spacing, first, points, apart):
+    """Of cubes at whole places; first: the center of that at 0 0 0; apart: the spacing of points."""
     size = cells.max(axis=0) + 3
     weights = np.array([size[1] * size[2], size[2], 1])
     key = (cells + 1) @ weights
@@ -94,7 +114,7 @@ def surface_of_cells(cells, spacing, first, points):
     used, quads = np.unique(ids, return_inverse=True)
     lower = np.stack(np.unravel_index(used, size), axis=1) - 1.5
     quads = quads.reshape(-1, 4)
-    return Surface(first + smoothed(lower, quads) * spacing, quads, points[np.concatenate(free)])
+    return Surface(first + smoothed(lower, quads) * spacing, quads, points[np.concatenate(free)], apart)
 
 
 def smoothed(corners, quads, rounds=5):

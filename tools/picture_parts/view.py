@@ -175,7 +175,7 @@ class Scene:
     def _draw(self, result, layers, wanted):
         frames = self.frames if wanted.hide else self.frames[:1] * len(self.frames)
         found = {f: [surface_of_blocks(result, layer, wanted, f) for layer in layers] for f in set(frames)}
-        surfaces = [found[f] for f in frames]
+        surfaces = [[s and s.torn(result.displacement(now)) for s in found[f]] for f, now in zip(frames, self.frames)]
         if not all(any(both) for both in surfaces):
             fail("nothing is left to draw: " + ("--hide hides all of it" if wanted.hide else
                                                 "the plane of --clip cuts all away"))

@@ -4,9 +4,10 @@ import xml.etree.ElementTree as tree
 import numpy as np
 from decks import Deck
 
+from .faces import FACES
+
 ORDER = ("xx", "yy", "zz", "yz", "zx", "xy")
 PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (2, 0), (0, 1))
-FACES = [f"{axis}{side}" for axis in "xyz" for side in ("min", "max")]
 KEPT = ("Discretization", "Node Sets", "Materials", "Blocks")
 HELD = """<ParameterList name="{name}">
   <Parameter name="Type" type="string" value="Prescribed Displacement"/>
@@ -49,25 +50,23 @@ def held(kind, cases, face):
     return tuple(a for a in range(3) if (a != normal) == sheared)
 
 
-def deck_of(deck, kind, cases, box, strain, depth):
-    """The deck of some cases by load steps, one after the other. `depth`: how far in the points of a face are, m, along
-    x, y, z."""
+def deck_of(deck, kind, cases, center, strain, sets):
+    """The deck of some cases by load steps, one after the other. `sets`: {face: its points, by number or expression}."""
     root = tree.Element("ParameterList")
     parts = [tree.tostring(deck.section(name), "unicode") for name in KEPT if deck.section(name) is not None]
     text = tree.tostring(root, "unicode").replace(" />", ">") + "\n" + "\n".join(parts)
-    low, high = box
-    sets = "".join(f'<Parameter name="{box_set(face)}" type="string" value="{limit(face, low, high, depth)}"/>\n' for face in FACES)
-    if deck.section("Node Sets") is None:
-        text += f'\n<ParameterList name="Node Sets">\n{sets}</ParameterList>\n'
-    else:
+    by_place = {face: points for face, points in sets.items() if not points[0].isdigit()}
+    if by_place and deck.section("Node Sets") is None:
+        text += f'\n<ParameterList name="Node Sets">\n{set_lines(by_place)}</ParameterList>\n'
+    elif by_place:
         at = text.index('<ParameterList name="Node Sets">') + len('<ParameterList name="Node Sets">')
-        text = text[:at] + "\n" + sets + text[at:]
-    center = 0.5 * (low + high)
+        text = text[:at] + "\n" + set_lines(by_place) + text[at:]
+    by_number = set_lines({face: points for face, points in sets.items() if face not in by_place})
     conditions = "".join(HELD.format(name=f"{face} {'xyz'[a]}", face=box_set(face), axis="xyz"[a],
                                             value=displacement(cases, a, strain, center))
                          for face in FACES for a in held(kind, cases, face))
     text += f"""<ParameterList name="Boundary Conditions">
-{conditions}</ParameterList>
+{by_number}{conditions}</ParameterList>
 <ParameterList name="Solver">
   <Parameter name="Final Time" type="double" value="{len(cases)}"/>
   <ParameterList name="QuasiStatic">
@@ -91,15 +90,20 @@ def deck_of(deck, kind, cases, box, strain, depth):
     return Deck.of(deck.path, text)
 
 
+def set_lines(sets):
+    return "".join(f'<Parameter name="{box_set(face)}" type="string" value="{points}"/>\n' for face, points in sets.items())
+
+
 def box_set(face):
-    return f"face of the box {face}"
+    return f"Node Set of the face {face} of the box"
 
 
-def limit(face, low, high, depth):
+def expression(face, low, high, depth):
+    """Of the places of points so far in at the most."""
     axis = "xyz".index(face[0])
     if face.endswith("min"):
-        return f"{face[0]} &lt; {low[axis] + depth[axis]:.17g}"
-    return f"{face[0]} &gt; {high[axis] - depth[axis]:.17g}"
+        return f"{face[0]} &lt; {low[axis] + depth:.17g}"
+    return f"{face[0]} &gt; {high[axis] - depth:.17g}"
 
 
 # The runs: of kinematic conditions one, as all cases have the same points held; of mixed ones those along the axes together.

@@ -86,12 +86,52 @@ def materials_of(path, values, ranges):
 # Grey -> how much of a voxel is solid
 
 
-def class_means(values, solid):
-    """Of the void and of the solid voxels."""
-    count = np.count_nonzero(solid)
-    inside = sum(float(layer[there].sum(dtype=float)) for layer, there in zip(values, solid))
-    outside = sum(float(layer[~there].sum(dtype=float)) for layer, there in zip(values, solid))
-    return outside / (solid.size - count), inside / count
+def levels_of(values, solid, cell):
+    """Of void and of solid: the median of the void, and that of the middles of what is thick, which the blur of an image
+    reaches least. The means of both sides of the threshold have the half-filled voxels in them, and give thin struts a fifth
+    or more of mass that is not there."""
+    void = np.concatenate([layer[~there] for layer, there in zip(values, solid)])
+    places, distance, ridge = ridge_of(solid, cell)
+    thick = ridge & (distance >= np.median(distance[ridge]))
+    return float(np.median(void)), float(np.median(values[places][thick]))
+
+
+def level_for(values, void, solid, dropped, count):
+    """The level of solid at which the kept voxels and their rims hold so many whole voxels together."""
+    there = with_rims(solid, dropped, np.sign(values - np.float32(void)) * (1 if values[solid].mean() > void else -1))
+    above = np.abs(values[there].astype(float) - void)
+    low, high = 0.0, float(above.sum() / count)  # at the upper end nothing is more than full, at the lower one all is
+    if not len(above) > count:
+        fail(f"--density: kept voxels and their rims are {len(above):,}, fewer than the {count:.0f} that are wanted")
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if np.minimum(above / middle, 1).sum() > count else (low, middle)
+    return void + (high if values[solid].mean() > void else -high)
+
+
+def threshold_for(values, invert, count, kept):
+    """The threshold at which kept(solid or not) has the number of voxels nearest to count: what pieces and spurs take is
+    put in front of it, again and again."""
+    counts, levels = histogram(values)
+    above = np.cumsum(counts[::1 if invert else -1])
+    wanted, best = count, None
+    for _ in range(12):
+        at = int(np.argmin(np.abs(above - wanted)))
+        threshold = float(levels[at] if invert else levels[max(len(levels) - 2 - at, 0)])
+        solid = values <= threshold if invert else values > threshold
+        if not solid.any() or solid.all():
+            break
+        got = np.count_nonzero(kept(solid))
+        if best is None or abs(got - count) < abs(best[1] - count):
+            best = threshold, got
+        elif got == best[1]:
+            break
+        if got == 0 or abs(got - count) <= 2e-4 * count:
+            break
+        wanted *= count / got
+    if best is None:
+        fail("--density: no threshold gives such a body")
+    return best[0]
 
 
 def fills_of(values, void, level):
@@ -246,6 +286,14 @@ def thickness(solid, cell):
     gets one too many. What lies outside the box is not void: a strut that is cut by it is not thinner there."""
     if solid.all():
         return None
+    _, there, ridge = ridge_of(solid, cell)
+    local = 2 * there[ridge].astype(float)
+    return float((local**3).sum() / (local**2).sum()), float(local.max())
+
+
+def ridge_of(solid, cell):
+    """The places of the solid voxels; how far each is from the center of the nearest void one, m; and whether none of the 26
+    around it is farther."""
     places = np.nonzero(solid)
     # The places alone: the distances of scipy take eight times as much memory.
     nearest = ndimage.distance_transform_edt(solid, cell[::-1], return_distances=False, return_indices=True)
@@ -254,6 +302,4 @@ def thickness(solid, cell):
     distance = np.zeros(solid.shape, np.float32)
     distance[places] = np.sqrt(squared)
     there = distance[places]
-    ridge = there >= ndimage.maximum_filter(distance, 3)[places]
-    local = 2 * there[ridge].astype(float)
-    return float((local**3).sum() / (local**2).sum()), float(local.max())
+    return places, there, there >= ndimage.maximum_filter(distance, 3)[places]

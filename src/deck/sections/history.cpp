@@ -19,7 +19,8 @@ const AnyKey<bool> variable(
     "`Mean_Velocity_Z(foam)`, or `Mean_Velocity_Z(slices)` for each layer of the section `slices` of Profiles; "
     "`Contact_Force_Z(foam:plate)` for the force (N) of contact on the block `foam` from `plate`; "
     "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body, "
-    "e.g. of prescribed motion, a symmetry plane or a rigid tool; "
+    "e.g. of prescribed motion, a symmetry plane or a rigid tool, both as means since the row before "
+    "(`Instant_Reaction_Z(wall)`: of one step); "
     "`Crack_Tip(notch)` (m) and `Crack_Speed(notch)` (m/s) of the crack `notch` in Cracks.");
 const Section variables = {.name = "Variables", .meaning = "The columns.", .any_key = variable};
 

@@ -183,7 +183,11 @@ void CentralDifference::gather_reactions(int conditions) {
 
 // What a substep gives belongs to the step before this impulse.
 void CentralDifference::take_reactions(const ReactionImpulses& now, double impulse_time) {
+  const double before = mid_steps_.before;
+  impulses_ = {before * impulse_time, (1 - before) * impulse_time, substep_impulses_.sums(), now.sums()};
   for (std::size_t c = 0; c < reaction_forces_.size(); ++c) {
+    impulses_.conditions_before[c] += before * now.sums()[c];
+    impulses_.conditions_after[c] *= 1 - before;
     reaction_forces_[c] = now.sums()[c] / impulse_time;
     if (steps_ > 0) reaction_forces_[c] += substep_impulses_.sums()[c] / previous_dt_;
   }

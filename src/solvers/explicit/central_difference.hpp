@@ -55,6 +55,8 @@ class CentralDifference {
   void gather_reactions(int conditions);
   // Collective; after advance_velocity(). Forces at time(): impulses over the times that they stand for.
   Reactions reactions() const;
+  // After advance_velocity(): at time().
+  const StepImpulses& impulses() const { return impulses_; }
 
   // What the last advance_position() went on with, on the ranks that have such a point; the same on all ranks: whether
   // any has.
@@ -105,7 +107,8 @@ class CentralDifference {
   ImpulseWork impulse_work_;                     // of the impulses at time()
   MidSteps mid_steps_;                           // about time()
   std::vector<Vector> reaction_forces_;  // N, on this rank's points at time(), by condition; empty: not asked for
-  ReactionImpulses substep_impulses_;    // of the substeps since the last whole step
+  StepImpulses impulses_;
+  ReactionImpulses substep_impulses_;  // of the substeps since the last whole step
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   double initial_energy_ = 0, largest_energy_ = 0;

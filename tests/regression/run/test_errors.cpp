@@ -396,6 +396,8 @@ TEST_F(Mistake, FewNeighborsAtANodeAreTheNodes) {
 
 TEST_F(Mistake, UnknownVariables) {
   const std::string deck = right_parts().text();
+  expect_error(changed(deck, "\"Displacement\"", "\"Failed\""),  // which metal foams have
+               {"Output > Output Variables > Failed: no material of this deck has a law with this state variable"});
   expect_error(changed(deck, "\"Displacement\"", "\"Displacment\""),
                {"Output > Output Variables > Displacment", "did you mean 'Displacement'", "Velocity", "Cauchy_Stress",
                 "Equivalent_Plastic_Strain"});
@@ -445,7 +447,8 @@ TEST_F(Mistake, UnknownReactions) {
                                          "(did you mean 'wall'?); there are wall, floor"});
   expect_error(with("Reaction_Z(flight)"),
                {"'flight' is no section of Boundary Conditions that has a reaction force", "there are wall, floor"});
-  for (const std::string name : {"Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
+  EXPECT_EQ(outcome(with("Instant_Reaction_Z(wall)")).value_or("no error"), "no error");
+  for (const std::string name : {"Instant_Reaction_W(wall)", "Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
     expect_error(with(name), {"History > Variables > " + name + ": expected one of Reaction_X, Reaction_Y, Reaction_Z",
                               "in brackets the name of a section of Boundary Conditions"});
   }

@@ -200,9 +200,9 @@ class Runs(InFolder):
     def curve(self, *words):
         return self.run_tool("curve", *words)
 
-    def history(self, columns, cut=""):
+    def history(self, columns, cut="", units=()):
         rows = [list(columns), *np.array(list(columns.values())).T.tolist()]
-        lines = ["# strut 0.1", *(",".join(map(str, row)) for row in rows)]
+        lines = ["# strut 0.1" + ("; units: " + ",".join(units) if units else ""), *(",".join(map(str, row)) for row in rows)]
         (self.folder / "block.csv").write_text("\n".join(lines) + "\n" + cut)
 
     def table(self, name):
@@ -244,6 +244,41 @@ class Runs(InFolder):
         self.history({**columns, "Reaction_Z(top)": blow})
         self.assertEqual(self.made("block.xml"), expected)
         self.assertIn("first row", self.curve("block.xml").stdout)
+
+    def test_means_since_the_row_before_belong_to_the_middle_between(self):
+        times = np.linspace(0, 1.2, 13)  # s; at 1e-2 m/s of 20 mm to 60 %, with a stress of 1 Pa a second
+        columns = {"Time": times, "Reaction_Z(top)": 4e-5 * 1e6 * np.maximum(times - 0.05, 0)}
+        self.history(columns, units=("s", "N (mean)"))
+        self.made("block.xml")
+        t, strain, stress = np.array(self.table("block-curve.csv")[1:], float).T[:3]
+        np.testing.assert_allclose(stress, 1e6 * t, atol=1e-2)
+        np.testing.assert_allclose(strain, 0.5 * t, atol=1e-9)
+        self.history(columns, units=("s", "N"))
+        self.made("block.xml")
+        np.testing.assert_allclose(np.array(self.table("block-curve.csv")[1:], float)[:, 0], times, atol=1e-9)
+
+    def test_numbers_of_a_material_need_both_ends(self):
+        force = 4e-5 * stress_at(STRAIN)
+        columns = {"Time": STRAIN * 20e-3 / 1e-2, "Reaction_Z(top)": -force}
+        self.history({**columns, "Reaction_Z(bottom)": 0.97 * force})
+        found = self.made("block.xml")
+        self.assertAlmostEqual(found["mean_stress_other_end"] / found["plateau_stress"], 0.97, 8)
+        self.assertAlmostEqual(found["ends_apart"], 0.03 / 0.985, 8)  # nine digits in the file
+        # Of an impact the far end bears two thirds.
+        self.history({**columns, "Reaction_Z(bottom)": 2 / 3 * force})
+        done = self.curve("block.xml")
+        found = {row[0]: row[1] for row in self.table("block-measures.csv")[1:]}
+        for name in ("quasi_elastic_gradient", "offset_stress", "plateau_stress", "plateau_stress_20_40", "plateau_end",
+                     "absorbed_energy", "densification_strain"):
+            self.assertEqual(found[name], "", name)
+        self.assertEqual(done.stdout.count("both ends differ by 40 % there, more than 5 %: no equilibrium"), done.stdout.count("no equilibrium"))
+        self.assertAlmostEqual(float(found["mean_stress"]) / YIELD, 1, 8)
+        self.assertAlmostEqual(float(found["mean_stress_other_end"]) / YIELD, 2 / 3, 8)
+        self.assertAlmostEqual(float(found["ends_apart"]), 0.4, 8)
+        self.history(columns)
+        done = self.curve("block.xml")
+        self.assertIn("both ends          not known: the history has the force at one end only", done.stdout)
+        self.assertAlmostEqual(self.made("block.xml")["plateau_stress"] / YIELD, 1, 8)
 
     def test_an_impact_by_its_layers(self):
         places, velocities = shocked(TIMES)

@@ -258,6 +258,28 @@ TEST_F(MeshTool, WrongRecipesAreRefusedWithTheirLines) {
   EXPECT_FALSE(std::filesystem::exists(path("mesh.g")));
 }
 
+TEST_F(MeshTool, AFileOfAnotherKindIsRefusedInOneSentence) {
+  std::string facets = "solid part\n";
+  for (int n = 0; n < 1000; ++n) {
+    facets += "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  }
+  const std::string deck =
+      "<ParameterList>\n  <ParameterList name=\"Solver\">\n    <Parameter name=\"Final Time\" value=\"1\"/>\n"
+      "  </ParameterList>\n</ParameterList>\n";
+  for (const std::string& text : {facets, deck, std::string("part\0\1\2\n", 8) + std::string(2000, '\0')}) {
+    const testing::Outcome outcome = make(text);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text.substr(0, 1000);
+    EXPECT_NE(outcome.text.find("mesh.recipe: it is no recipe"), std::string::npos) << outcome.text.substr(0, 1000);
+  }
+  std::string wrong = "shape = box\n";
+  for (int n = 0; n < 100; ++n) wrong += "spacings = 1\n";
+  const testing::Outcome outcome = make(wrong);
+  EXPECT_NE(outcome.text.find("line 2: unknown key 'spacings' (did you mean 'spacing'?)"), std::string::npos);
+  EXPECT_NE(outcome.text.find("others\n"), std::string::npos) << outcome.text;
+  EXPECT_LT(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 40);
+}
+
 TEST_F(MeshTool, WrongConesAreRefused) {
   const std::string cone = "shape = cone\nlength = 1\nspacing = 0.1\nradius = 1\n";
   for (const auto& [recipe, expected] :

@@ -313,7 +313,7 @@ class RigidTools(InFolder):
 
     def test_a_tool_with_a_mass_goes_as_the_forces_on_it_say(self):
         t = np.linspace(0, 1e-3, 11)
-        rows = "\n".join(f"{x},{6 * x}" for x in t)
+        rows = "\n".join(f"{x},{6 * max(x - 5e-5, 0)}" for x in t)  # means since the row before
         (self.folder / "h.csv").write_text("# strut\nTime,Reaction_Z(punch)\n" + rows + "\n")
         punch = {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 1", "Mass": "2", "Speed Z": "-3", "Force Z": "-4"}
         deck = deck_of(self.folder / "a.xml", {"punch": punch}, str(self.folder / "h.csv"))
@@ -344,6 +344,25 @@ class Surfaces(unittest.TestCase):
         found = surface.surface_of(box(5, 4, 3), np.full(60, H**3), np.arange(60))
         self.assertLessEqual(np.abs(found.corners - np.rint(found.corners / H) * H).max(), (0.5 + 1e-9) * H)
         np.testing.assert_allclose(found.moved(np.full((60, 3), 0.7 * H)), found.corners + 0.7 * H, rtol=1e-12)
+
+    def test_no_sheets_are_drawn_between_points_that_are_torn_apart(self):
+        places = box(6, 3, 3)
+        found = surface.surface_of(places, np.full(54, H**3), np.arange(54))
+        u = np.where(places[:, :1] > 3 * H, [[5 * H, 0, 0]], 0.0)  # a gap of five cubes
+        whole, torn = found.moved(u), found.torn(u)
+        x = torn.moved(u)[:, 0]
+        self.assertGreater(((whole[:, 0] > 4 * H) & (whole[:, 0] < 7 * H)).sum(), 0)  # of sheets across the gap
+        self.assertFalse(((x > 3.6 * H) & (x < 7.4 * H)).any())
+        around = torn.moved(u)[torn.quads]
+        self.assertLess(np.linalg.norm(around - np.roll(around, 1, axis=1), axis=2).max(), 1.7 * H)
+        self.assertEqual(len(torn.quads), len(found.quads))
+        places, volumes = self.gathered()
+        found = surface.surface_of(places, volumes, np.arange(60))
+        u = np.where(np.arange(60)[:, None] >= 30, [[0, 0, 4 * H]], 0.0)
+        z = found.torn(u).moved(u)[:, 2]
+        self.assertFalse(((z > 1.2 * H) & (z < 2.8 * H)).any())
+        stretched = np.outer(np.arange(60), [0.8 * H, 0.6 * H, 0])  # drawn out to twice its length it is one strut
+        self.assertIs(found.torn(stretched), found)
 
     def test_points_off_a_lattice_are_cubes_by_themselves(self):
         places = box(3, 3, 3) + np.random.default_rng(1).uniform(-0.3, 0.3, (27, 3)) * H

@@ -97,6 +97,38 @@ class Samples(InFolder):
         self.assertGreater(cube[3], slender / (1 + 2.4 * (thick / n)**2))
         self.assertLess(cube[3], slender / (1 - thick / n)**3)
 
+    @unittest.skipUnless("STRUT" in os.environ, "STRUT names no program")
+    def test_struts_in_the_faces_of_the_box_bear_as_struts(self):
+        """Two halves of a strut along the middle of each face, gathered in cells that need not fill the box: flat ones, which
+        are cut in two layers. Held both, these would be strained through their thickness, and double the stiffness."""
+        n, half, wide = 40, 2, 6  # voxels: the box, half a strut, its width; 3 to a cell, and one left over
+        E, solid = 70e9, np.zeros((n, n, n), bool)
+        middle = slice((n - wide) // 2, (n + wide) // 2)
+        for normal in range(3):
+            for along in {0, 1, 2} - {normal}:
+                across = ({0, 1, 2} - {normal, along}).pop()
+                for layer in (slice(half), slice(n - half, n)):
+                    place = [slice(None)] * 3
+                    place[normal], place[across] = layer, middle
+                    solid[tuple(place)] = True
+        places = np.argwhere(solid.T)[:, ::-1]  # ascending, x fastest
+        mesh = (f"strut-mesh arrays 1\nnodes 0\nvoxels lattice {len(places)} {n} {n} {n} 3 0.3 solid\n".encode() +
+                np.array([1e-3 / n] * 3 + [0] * 3, "<f8").tobytes() + places.astype("<i4").tobytes() + b"end\n")
+        made = subprocess.run([os.environ["STRUT_MESH"], "--arrays", self.folder / "lattice.g"], input=mesh, check=True,
+                              capture_output=True).stdout.decode()
+        self.assertRegex(made, "[1-9][0-9]* cut in two layers")
+        (self.folder / "lattice.xml").write_text(deck("lattice.g", {"lattice": (E, 0.0)}, "Quadratic Correspondence"))
+        done = self.stiffness("lattice.xml", "out", "--boundaries", "mixed")
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        self.assertIn("box 0.001 x 0.001 x 0.001 m", done.stdout)
+        with open(self.folder / "out/stiffness.csv", newline="") as file:
+            cube = [float(row[2 + i]) for i, row in enumerate(list(csv.reader(file))[1:4])]
+        bar = E * 4 * half * wide / n**2
+        # A bar of the section of the struts along the load; a rigid node where others cross it, 6 of 40 voxels, makes it
+        # stiffer at the most, and the outer halves of the cells at both ends, which are not strained, softer by 3 of 40.
+        self.assertGreater(min(cube), bar * (1 - 3 / n))
+        self.assertLess(max(cube), bar / (1 - wide / n))
+
     def test_errors_are_one_line_that_helps(self):
         (self.folder / "a.xml").write_text(deck("a.g", {"block": (117e9, 0.35)}))
 

@@ -23,6 +23,7 @@ if missing:
 import meshio  # noqa: E402
 import netCDF4  # noqa: E402
 import numpy as np  # noqa: E402
+import scipy.ndimage  # noqa: E402
 import tifffile  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
@@ -312,8 +313,29 @@ class Cells(ToolTest):
             np.testing.assert_allclose(cells[:, 3].max(), (0.5 * 1 + 0.25 * 1.5) / 1.25 * 1e-3 + 8e-3, rtol=1e-6)
             np.testing.assert_allclose(cells[:, 10:13].sum(axis=0), 0, atol=1e-12)
         said, mesh, cells = self.cells(image, "--cells", 3, "--grey")
-        self.assertIn("void 51", said["levels"])  # 36 of 1511 void voxels have 100
+        self.assertIn("void 50, solid 250", said["levels"])
+        self.assertIn("12.500 % of the box", said["density"])
+        self.assertIn("13.02 % of the box by grey values, +4.17 % beside the 12.5 % of the threshold alone", said["grey"])
         self.assertEqual(len(cells), 8)
+
+    def test_grey_levels_make_no_mass_and_a_density_is_met(self):
+        fine = struts_that_cross(4 * 32)
+        true = fine.mean()
+        part = 8000 * fine.reshape(32, 4, 32, 4, 32, 4).mean(axis=(1, 3, 5))
+        noise = np.random.default_rng(1).normal(0, 180, part.shape)
+        for blur in (0.5, 1.0, 1.5):  # voxels; the struts are 7 thick
+            image = (scipy.ndimage.gaussian_filter(part, blur) + noise).astype("i2")
+            # The middle of a strut has 1 - exp(-R²/2σ²) of the level, 0.93 for the largest blur, and rims end a voxel beyond
+            # the threshold: -2 to +5 %. Means of both sides of the threshold would give 4 to 40 % too much.
+            _, _, cells = self.cells(image, "--cells", 2, "--grey", "--smallest-cell", 0)
+            self.assertLess(abs(cells[:, 0].sum() / (true * 32**3 * 1e-9) - 1), 0.05, blur)
+            said, _, cells = self.cells(image, "--cells", 2, "--grey", "--smallest-cell", 0, "--density", 0.1)
+            self.assertLess(abs(cells[:, 0].sum() / (0.1 * 32**3 * 1e-9) - 1), 1e-3, said["grey"])
+        # Of the threshold alone: whole voxels.
+        said, mesh = self.voxels(image, "--density", 0.1)
+        self.assertLess(abs(len(mesh.blocks["foam"]) / (0.1 * 32**3) - 1), 1e-3, said["density"])
+        said, mesh = self.voxels((8000 - image).astype("i2"), "--density", 0.1, "--invert", "--spurs", "drop")
+        self.assertLess(abs(len(mesh.blocks["foam"]) / (0.1 * 32**3) - 1), 1e-3, said["density"])
 
     def test_materials_are_blocks_that_share_nodes(self):
         image = box((6, 8, 10), (1, 5), (1, 7), (0, 4)) * 90 + box((6, 8, 10), (1, 5), (1, 7), (4, 10)) * 200
@@ -357,7 +379,10 @@ class Cells(ToolTest):
                                 (("--cells", 2, "--grey", 1), "no or 2 numbers"),
                                 (("--cells", 2, "--grey", 1, 1), "two different values"),
                                 (("--cells", 2, "--grey", "--coarsen", 2), "leave out --coarsen"),
-                                (("--cells", 2, "--grey"), "has two values")):
+                                (("--cells", 2, "--grey"), "has two values"), (("--density", 0.1), "--density needs an image in grey"),
+                                (("--density", 10), "--density: expected a part of the box, from 0 to 1"),
+                                (("--density", 0.1, "--threshold", 1), "--density chooses threshold and levels"),
+                                (("--density", 0.1, "--coarsen", 2), "--density takes the voxels as they are")):
             self.refused("voxels", expected, self.path("a.tif"), "--voxel-size", 1e-3, *words)
 
 
@@ -377,6 +402,13 @@ class CtFoam(ToolTest):
 
 
 # Formats
+
+
+def struts_that_cross(n):
+    """Along each axis one, of 7/32 of the edge thick."""
+    x = (np.arange(n) + 0.5) / n - 0.5
+    z, y, x = np.meshgrid(x, x, x, indexing="ij")
+    return np.minimum(np.minimum(x**2 + y**2, y**2 + z**2), z**2 + x**2) < (3.5 / 32)**2
 
 
 def image_in_grey():
