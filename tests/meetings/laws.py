@@ -2,7 +2,7 @@
 import numpy as np
 
 from compare import ENERGIES
-from scenes import MOTIONS, REACTING, TOOLS, evaluated
+from scenes import MOTIONS, REACTING, evaluated
 
 ROUND_OFF = 1e-9  # of the largest term: sums of some 100 points over some 100 steps, 1e-16 each, and what they amplify
 
@@ -32,10 +32,8 @@ def start(scene, base, written):
     apart = np.linalg.norm(base.at[:, None] - sites[None], axis=2)
     number = np.argmin(apart, axis=1)
     if apart.min(axis=1).max() > 1e-6 * scene.h:
-        raise NotHere("points of nodes are elsewhere")
+        return "start: points are not where the mesh has them"
     for one in scene.conditions.values():
-        if one["Type"] in TOOLS:
-            raise NotHere("a tool may touch at the start")
         points = scene.members(one.get("Node Set", "all"))[number]
         if one["Type"] in (*MOTIONS, "Symmetry Plane", "Non-Reflecting End"):
             free &= ~points
@@ -71,6 +69,8 @@ def momentum(scene, base, written):
         raise NotHere("non-reflecting ends have no reaction")
     rows = base.history
     dt, time = rows["Step_Size"], rows["Time"]
+    if scene.is_long:
+        raise NotHere("rows are not of each step")
     if len(time) < 4:
         raise NotHere("a run of some steps")
     around = np.empty(len(dt))
@@ -150,14 +150,17 @@ def signs(scene, base, written):
             return f"signs: {name} falls to {rows[name].min() / total:.2e} of all energy"
     for name in ("Plastic_Work", "Fracture_Energy"):
         back = (np.maximum.accumulate(rows[name]) - rows[name]).max()
-        if back > 1e-3 * total and not told(base, "energy"):
+        # The viscous pressure of a step is the mean of both ends: where a point begins to grow, half of the last one gives back.
+        allowed = 1e-2 if any("Viscosity" in key for m in scene.deck["Materials"].values() for key in m) else 1e-3
+        if back > allowed * total and not told(base, "energy"):
             return f"signs: {name} falls by {back / total:.2e} of all energy"
 
 
 def balance(scene, base, written):
     """Within a hundredth, or told. A thousandth is kept by smooth motions alone; `half the step` asks how the error falls."""
     worst = rows_after_start(base.history["Balance_Error"]).max()
-    if worst > 1e-2 and not told(base, "balance") and not told(base, "energy"):
+    # The work of load steps is that of the mean of both ends, right to second order in these: there are two to four.
+    if worst > (1e-2 if scene.explicit else 0.3 / len(base.history["Time"])**2) and not told(base, "balance") and not told(base, "energy"):
         return f"balance: off by {worst:.2e}, and nothing is told"
 
 

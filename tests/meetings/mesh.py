@@ -41,10 +41,10 @@ class Mesh:
     at_nodes: bool = False  # where the program's points are
 
     def elements(self):
-        return self.points if self.nodes is None else self.nodes[self.hexahedra].mean(axis=1)
+        return self.points if self.nodes is None else hexahedra_of(self.nodes[self.hexahedra])[1]
 
     def element_volumes(self):
-        return self.volumes if self.nodes is None else hexahedron_volumes(self.nodes[self.hexahedra])
+        return self.volumes if self.nodes is None else hexahedra_of(self.nodes[self.hexahedra])[0]
 
     def sites(self):
         return self.nodes if self.at_nodes else self.elements()
@@ -150,16 +150,18 @@ def of_box(kind, box, block_of_cell, jitter, rng, at_nodes=False, name=""):
     return Mesh(kind, blocks, nodes=nodes, hexahedra=number(cells[:, None, :] + CORNERS), sets={f"{name}mesh_top": top}, at_nodes=at_nodes)
 
 
-def hexahedron_volumes(corners):
-    """Exact: ∫ det J by two Gauss points an axis, of degree 3; det J has 2 in each."""
+def hexahedra_of(corners):
+    """Volumes and centroids, exact: by two Gauss points an axis, right to degree 3; x det J has 3 in each."""
     gauss = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3)
-    total = np.zeros(len(corners))
+    volumes, moments = np.zeros(len(corners)), np.zeros((len(corners), 3))
     for at in np.array(np.meshgrid(gauss, gauss, gauss)).reshape(3, -1).T:
         parts = np.where(CORNERS == 1, at, 1 - at)
         signs = np.where(CORNERS == 1, 1, -1)
         slopes = np.stack([signs[:, a] * np.prod(np.delete(parts, a, axis=1), axis=1) for a in range(3)], axis=1)
-        total += np.linalg.det(np.einsum("na,enb->eab", slopes, corners)) / 8
-    return total
+        share = np.linalg.det(np.einsum("na,enb->eab", slopes, corners)) / 8
+        volumes += share
+        moments += share[:, None] * np.einsum("n,enb->eb", np.prod(parts, axis=1), corners)
+    return volumes, moments / volumes[:, None]
 
 
 def names(file, variable, dimension, texts):

@@ -1,6 +1,7 @@
 """Pairs of runs that must agree. A relation makes the other run of a scene, compares, and returns what is wrong, or None; NotHere tells why
 it does not hold for a scene."""
 import itertools
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -19,8 +20,9 @@ NUDGE = 1e-11
 NUDGE_OF_EQUILIBRIA = 1e-6  # these are found to 1e-8 of the forces, which is more than round-off
 ENOUGH = 3.0  # times that
 NUDGES = 3  # a body that buckles goes to either side
-# The estimate of the critical step is right to 1 % and starts from a noise that goes by element numbers and axes.
-STEP_NOISE = 0.03
+# The estimate of the critical step starts from a noise that goes by element numbers and axes. It is right to 1 % where it has converged, and
+# takes what is left off the step where it has not.
+STEP_NOISE = 0.1
 
 
 class Case:
@@ -51,7 +53,7 @@ class Case:
         return self.differ(self.base, self.written, other, other_written, frame, reactions=reactions, **compared)
 
     def with_fixed_steps(self, frame, scene, order, reactions, **compared):
-        dt = 0.9 * self.base.history["Step_Size"].min()
+        dt = 0.9 * self.smallest_step()
         one = written(self.scene.fixed_step(dt))
         base = self.runner.run(one, name="base-fixed")
         two = written(scene.fixed_step(dt), frame, order=order)
@@ -59,6 +61,11 @@ class Case:
         if self.ended_differently(other, base):
             return self.ended_differently(other, base)
         return self.differ(base, one, other, two, frame, fixed=dt, reactions=reactions, **compared)
+
+    def smallest_step(self):
+        """Of any point: those that are subcycled take parts of a step."""
+        substeps = re.search(r"subcycled, up to (\d+) times a step", self.base.log)
+        return self.base.history["Step_Size"].min() / (int(substeps[1]) if substeps else 1)
 
     def ended_differently(self, other, base=None):
         base = base or self.base
@@ -306,7 +313,9 @@ def half_the_step(case):
         raise NotHere("thresholds")
     if case.base.status == 1:
         raise NotHere("the run ends with an error")
-    dt = 0.7 * case.base.history["Step_Size"].min()
+    dt = 0.7 * case.smallest_step()
+    if (scene.end - scene.begin) / dt > 1500:
+        raise NotHere("too many steps")
     results = [case.runner.run(written(scene.fixed_step(dt / parts)), name=f"step-{parts}") for parts in (1, 2, 4)]
     for one in results:
         if one.status == 1:
@@ -317,7 +326,9 @@ def half_the_step(case):
     if second > max(0.02, 0.6 * first):
         return f"Displacement: {first:.2e}, then {second:.2e} in the root mean square of the last frame"
     errors = [r.history["Balance_Error"][-1] for r in results]
-    if errors[2] > max(1e-3, 0.8 * errors[0]) and not any("WARNING" in line for line in results[2].warnings):
+    # Hypoelastic laws have no stored energy: what they take differs from ½ σ : C⁻¹ : σ by a part of the order of the strain.
+    strain = max(np.abs(f["Cauchy_Stress"]).max() for f in results[2].frames) / scene.modulus
+    if errors[2] > max(1e-3, 0.8 * errors[0], strain) and not any("WARNING" in line for line in results[2].warnings):
         return f"balance: {errors[0]:.2e}, {errors[1]:.2e}, {errors[2]:.2e} with smaller steps"
 
 

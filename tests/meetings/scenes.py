@@ -36,7 +36,7 @@ class Scene:
 
     @property
     def explicit(self):
-        return "Verlet" in self.deck["Solver"]
+        return "QuasiStatic" not in self.deck["Solver"]
 
     @property
     def begin(self):
@@ -58,6 +58,21 @@ class Scene:
         for section in self.deck["Blocks"].values():
             if f"block_{number}" in section["Block Names"].split():
                 return self.deck["Materials"][section["Material"]]["Density"].value
+
+    @property
+    def is_long(self):
+        return self.about.get("long", False)
+
+    def summary(self):
+        """In some words, for whoever reads of a failure."""
+        materials = {f"{m['Material Model'].removesuffix(' Correspondence')}{' quadratic' if m.get('Formulation', '').startswith('Quadratic') else ''}"
+                     for m in self.deck["Materials"].values()}
+        words = [self.mesh.kind + (" nodes" if self.mesh.at_nodes else ""), *sorted(materials)]
+        words += [f"breaks by {m['Damage Model']}" for m in self.deck.get("Damage Models", {}).values()]
+        words += [m["Contact Model"] + (" with friction" if "Friction Coefficient" in m else "") for m in self.deck.get("Contact", {}).get("Models", {}).values()]
+        words += sorted({c["Type"] for c in self.conditions.values()})
+        words.append("equilibria" if not self.explicit else "fixed steps" if "Fixed dt" in self.deck["Solver"].get("Verlet", {}) else "steps")
+        return "; ".join(words)
 
     def masses(self):
         density = np.array([self.density_of_block(b) for b in self.mesh.blocks])
@@ -184,15 +199,22 @@ class Draft:
 
     def bodies(self):
         kinds = self.schema.sections["Discretization"].keys["Type"].choices
-        self.kind = self.random.choices(kinds, [4 if kind == "Exodus" else 3 if kind == "Text File" else 1 for kind in kinds])[0]
-        count = 1 if self.kind == "PdQuickGrid" else self.random.choices((1, 2, 3), (6, 5, 1))[0]
+        self.kind = "Text File" if self.long else self.random.choices(kinds, [4 if kind == "Exodus" else 3 if kind == "Text File" else 1 for kind in kinds])[0]
+        count = 1 if self.kind == "PdQuickGrid" or self.long else self.random.choices((1, 2, 3), (6, 5, 1))[0]
         self.at_nodes = self.kind == "Exodus" and self.chance(0.3)
         self.reach = self.pick((1.75, 1.75, 2.1, 2.6))
         low, self.boxes, self.block_of, meshes, number = np.array([0.0, 0.0, 0.0]), [], [], [], 1
         jitter = 0.0 if self.kind == "PdQuickGrid" or self.chance(0.6) else 0.08
+        # A small stiff body beside a large one takes smaller steps than that: it is subcycled.
+        self.fast_body = count > 1 and self.chance(0.5)
         for body in range(count):
             cell = 1e-3 * self.pick((1, 1, 1, 0.75)) * np.array([self.pick((1, 1, 1, 1.2)) for _ in range(3)])
             counts = tuple(self.random.randint(2, 4 if count > 1 else 5) for _ in range(3))
+            if self.long:
+                counts = (3, 3, 3)
+            if self.fast_body:
+                counts = (5, 5, 4) if body == 0 else tuple(self.random.randint(2, 3) for _ in range(3))
+                cell = cell * (1 if body == 0 else 0.5)
             split = self.random.randint(1, counts[2] - 1) if self.kind != "PdQuickGrid" and body == 0 and self.chance(0.4) else counts[2]
             box = mesh.Box(low.copy(), counts, cell)
             own = number
@@ -209,8 +231,8 @@ class Draft:
     def discretization(self):
         section = {"Type": self.kind} | self.keys(self.schema.sections["Discretization"], 0.5)
         section.pop("Points", None)
-        if self.at_nodes:
-            section["Points"] = "Nodes"
+        if self.kind == "Exodus" and (self.at_nodes or self.chance(0.5)):
+            section["Points"] = "Nodes" if self.at_nodes else "Elements"
         if self.kind == "PdQuickGrid":
             section["NeighborhoodType"] = "Spherical"
         else:
@@ -243,12 +265,12 @@ class Draft:
 
     def materials(self):
         self.explicit = self.chance(0.87)
-        count = self.pick((1, 1, 2))
+        count = 2 if self.fast_body else self.pick((1, 1, 2))
         any_material = self.schema.at(f"Materials > {ANY}")
-        self.of_material, self.temperature = {}, {}
+        self.of_material, self.waves = {}, {}
         self.fastest = self.stiffest = 0.0
         for n in range(count):
-            stiff = n == 1 and self.chance(0.5)
+            stiff = n == 1 and (self.fast_body or self.chance(0.5))
             self.E, self.rho = 1e9 * self.uniform(0.5, 2) * (20 if stiff else 1), 1000 * self.uniform(0.5, 3)
             self.nu, self.flow = self.uniform(0.1, 0.4), 0.0
             self.flow = self.E * self.uniform(1e-3, 6e-3)
@@ -256,7 +278,8 @@ class Draft:
             self.reconciled(material)
             self.of_material[f"m{n + 1}"] = material
             modulus = self.E * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu)) * 1.5
-            self.fastest = max(self.fastest, (modulus / self.rho) ** 0.5)
+            self.waves[f"m{n + 1}"] = (modulus / self.rho) ** 0.5
+            self.fastest = max(self.waves.values())
             self.stiffest = max(self.stiffest, modulus)
 
     def reconciled(self, material):
@@ -287,7 +310,9 @@ class Draft:
         self.damage = {}
         for body, numbers in enumerate(self.block_of):
             for number in numbers:
-                name = self.pick(self.of_material)
+                name, self.h = self.pick(self.of_material), float(np.prod(self.boxes[body].cell)) ** (1 / 3)
+                if self.fast_body:
+                    name = "m2" if body == len(self.boxes) - 1 else "m1"
                 section = self.keys(any_block, 0.3)
                 section.pop("Initial Temperature", None)
                 section |= {"Block Names": f"block_{number}", "Material": name}
@@ -303,6 +328,7 @@ class Draft:
                 if model:
                     section["Damage Model"] = model
                 sections[f"part {number}"] = section
+        self.h = min(box.cell.min() for box in self.boxes)
         return sections
 
     def may_fail(self, model, material):
@@ -464,8 +490,9 @@ class Draft:
         made, held, thrown = {}, [], set()
         if not self.explicit:  # held first, or there is no equilibrium
             made |= self.motion(held, thrown)
+        free = self.explicit and self.chance(0.25)  # bodies that fly, turn and meet
         for _ in range(self.random.randint(1, 4)):
-            one = self.condition(self.pick(kinds))
+            one = self.condition("Initial Velocity" if free else self.pick(kinds))
             if self.free(one, held, thrown):
                 made[f"c{len(made) + 1}"] = one
         return made | self.motion(held, thrown) if self.explicit else made
@@ -500,9 +527,9 @@ class Draft:
             return True
         scene = Scene({"Node Sets": self.sets}, self.mesh, self.h, 0, 0, self.boxes)
         axes = one.get("Coordinate") or "".join(a for a, n in zip(AXES, one["Normal"].along) if n)
-        if one["Type"] == "Non-Reflecting End":
-            axes = AXES
         points = scene.members(one["Node Set"])
+        if one["Type"] == "Non-Reflecting End":
+            axes = "w"  # may meet others of its kind
         if any((points & other).any() and set(axes) & set(taken) for other, taken in held):
             return False
         held.append((points, axes))
@@ -520,15 +547,21 @@ class Draft:
         return solver | {"Verlet": self.keys(self.schema.at("Solver > Verlet"), 0.5)}
 
     def draw(self):
+        self.long = self.chance(0.05)
         self.bodies()
         self.materials()
-        self.steps = self.random.randint(16, 60)
+        self.explicit |= self.long
+        self.steps = self.random.randint(24, 80)
         self.load_steps = self.random.randint(2, 4)
         self.time = self.steps * 0.12 * self.h / self.fastest if self.explicit else 1e-3
+        if self.fast_body and self.explicit:  # some steps of the others
+            self.time = max(self.time, self.random.randint(16, 32) * 0.3 * self.boxes[0].cell.min() / self.waves["m1"])
         self.begin = self.pick((0.0, 0.0, 0.5 * self.time, -self.time))
-        waves = (1e9 / 1000) ** 0.5
-        self.speed = waves * self.uniform(0.002, 0.02) if self.explicit else 0.03 * 3 * self.h / self.time
+        slowest = min(self.waves.values())  # the strains are speeds over this
+        self.speed = slowest * self.uniform(0.002, 0.02) if self.explicit else 0.03 * 3 * self.h / self.time
         self.sets = {}
+        if self.long:
+            return self.free_vibration()
         deck = {"Discretization": self.discretization(), "Materials": self.of_material}
         deck["Blocks"] = self.blocks()
         if self.damage:
@@ -542,6 +575,24 @@ class Draft:
         used = {section["Material"] for section in deck["Blocks"].values()}
         deck["Materials"] = {name: m for name, m in deck["Materials"].items() if name in used}
         return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed})
+
+
+    def free_vibration(self):
+        """A body that vibrates for some thousand default steps, elastic as strains are small."""
+        self.time, self.begin = self.time / self.steps * 12000, 0.0
+        self.damage = {}
+        deck = {"Discretization": self.discretization(), "Materials": self.of_material, "Blocks": self.blocks(), "Node Sets": {}}
+        self.damage.clear()
+        for section in deck["Blocks"].values():
+            section.pop("Damage Model", None)
+        box = self.boxes[0]
+        bulge = f"(({{x}} - {float(box.low[0])!r})/{float(box.high[0] - box.low[0])!r} - 0.5)"
+        weak = self.fastest * self.uniform(1e-4, 5e-4)  # strains below yield
+        deck["Boundary Conditions"] = {"stretch": {"Type": "Initial Velocity", "Node Set": "all", "Coordinate": "x", "Value": Expr(bulge, weak, "m/s")}}
+        deck["Solver"] = {"Initial Time": Num(0.0, "s"), "Final Time": Num(self.time, "s")}
+        used = {section["Material"] for section in deck["Blocks"].values()}
+        deck["Materials"] = {name: m for name, m in deck["Materials"].items() if name in used}
+        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "long": True})
 
 
 def drawn(schema, seed):
@@ -616,7 +667,7 @@ def written(scene, frame=Frame(), restart=None, order=None):
     reactions = [f"Reaction_{a}({name})" for name, c in deck["Boundary Conditions"].items() if c["Type"] in REACTING for a in "XYZ"]
     interval = (scene.end - scene.begin) * frame.time / STEPS_A_FRAME
     deck["Output"] = {"Output Filename": "out.e", "Output Interval": interval, "Output Variables": {name: True for name in fields_of(scene)}}
-    deck["History"] = {"Filename": "out.csv", "Frequency": 1, "Variables": {name: True for name in reactions}}
+    deck["History"] = {"Filename": "out.csv", "Frequency": 25 if scene.is_long else 1, "Variables": {name: True for name in reactions}}
     if restart:
         deck["Restart"] = restart
     if order is not None:
