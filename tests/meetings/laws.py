@@ -107,7 +107,10 @@ def momentum(scene, base, written):
         sums = np.cumsum(between + given, axis=0)
         off = (p - p[1]) - (sums - sums[1])
         wrong.append(np.abs(off[2:-1]).max() / scale if len(off) > 3 else 0)
-    if min(wrong) > 100 * ROUND_OFF:
+    allowed = 100 * ROUND_OFF
+    if "subcycled" in base.log:  # what conditions give in substeps counts at the end of the step
+        allowed += np.abs(of_reactions).max() / scale
+    if min(wrong) > allowed:
         return f"momentum: off by {min(wrong):.2e} of the largest impulse"
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A net for meetings of features that each work alone.
 
-  meetings.py [--scenes N] [--seed S] [--only NAME …] [--all] [--jobs J] [--keep FOLDER] run_many strut mpirun [its options]
+  meetings.py [--scenes N] [--seed S] [--only NAME,NAME] [--all] [--jobs J] [--keep FOLDER] run_many strut mpirun [its options]
 
 Draws scenes at random from the deck's own schema (`strut --keys`): small bodies, their materials, damage, contact, tools, loads,
 steps. Each is run (run_many.cpp, some milliseconds), held against laws that every run must keep (laws.py), and run again in
@@ -164,7 +164,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scenes", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", nargs="+", metavar="NAME", help=f"of {', '.join([*LAWS, *RELATIONS])}")
+    parser.add_argument("--only", type=lambda text: text.split(","), metavar="NAME,NAME", help=f"of {', '.join([*LAWS, *RELATIONS])}")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep", default="meetings-failures")
@@ -173,6 +173,9 @@ def main():
     parser.add_argument("strut")
     parser.add_argument("mpirun", nargs=argparse.REMAINDER)
     options = parser.parse_args()
+    unknown = [name for name in options.only or () if name not in {*LAWS, *RELATIONS}]
+    if unknown:
+        parser.error(f"--only {','.join(unknown)}: expected some of {', '.join([*LAWS, *RELATIONS])}")
     schema = schema_of(options.strut)
     problems = [f"values.py has no range for {key}" for key in without_a_range(schema)]
     began, seen, asked, left, refusals, failures, errors = time.monotonic(), set(), collections.Counter(), collections.Counter(), collections.Counter(), [], 0

@@ -324,7 +324,8 @@ class Draft:
                     section.pop("Bonds Across Voids", None)
                 if self.knows_temperature(self.of_material[name]) and self.chance(0.5):
                     section["Initial Temperature"] = VALUES["Initial Temperature"](self)
-                model = self.damage_model(self.of_material[name]) if self.explicit and self.chance(0.3) else None
+                # Bodies whose bonds may break are not subcycled.
+                model = self.damage_model(self.of_material[name]) if self.explicit and self.chance(0.05 if self.fast_body else 0.3) else None
                 if model:
                     section["Damage Model"] = model
                 sections[f"part {number}"] = section
@@ -491,8 +492,13 @@ class Draft:
         if not self.explicit:  # held first, or there is no equilibrium
             made |= self.motion(held, thrown)
         free = self.explicit and self.chance(0.25)  # bodies that fly, turn and meet
-        for _ in range(self.random.randint(1, 4)):
-            one = self.condition("Initial Velocity" if free else self.pick(kinds))
+        some = [self.pick(kinds) for _ in range(self.random.randint(1, 4))]
+        if free:
+            some = ["Initial Velocity"] * len(some)
+        elif self.fast_body and self.chance(0.4):  # loads and substeps
+            some = ["Body Force", *some[:self.pick((0, 0, 1, 3))]]
+        for kind in some:
+            one = self.condition(kind)
             if self.free(one, held, thrown):
                 made[f"c{len(made) + 1}"] = one
         return made | self.motion(held, thrown) if self.explicit else made
@@ -542,7 +548,7 @@ class Draft:
         if not self.explicit:
             method = self.keys(self.schema.at("Solver > QuasiStatic"), 0.3)
             return solver | {"QuasiStatic": method | {"Number of Load Steps": self.load_steps, "Tolerance": Num(1e-8, "")}}
-        if self.chance(0.4):
+        if self.chance(0.1 if self.fast_body else 0.4):
             return solver | {"Verlet": {"Fixed dt": Num(self.time / self.steps, "s")}}
         return solver | {"Verlet": self.keys(self.schema.at("Solver > Verlet"), 0.5)}
 
