@@ -1,0 +1,176 @@
+"""What each run must keep by itself. Each law returns what is wrong, or None; a scene that it does not apply to raises NotHere with the reason."""
+import numpy as np
+
+from compare import ENERGIES
+from scenes import MOTIONS, REACTING, evaluated
+
+ROUND_OFF = 1e-9  # of the largest term: sums of some 100 points over some 100 steps, 1e-16 each, and what they amplify
+
+
+class NotHere(Exception):
+    pass
+
+
+def mass(scene, base, written):
+    """The mesh's volumes and the deck's densities."""
+    last = base.frames[-1]
+    total, expected = (last["Volume"] * last["Density"]).sum(), scene.masses().sum()
+    if abs(total - expected) > 1e-12 * expected * len(base.at):  # a sum of so many
+        return f"mass: {total!r} kg, the mesh has {expected!r}"
+
+
+def start(scene, base, written):
+    """The first frame is the body at rest in its places with the velocities of the deck."""
+    first = base.frames[0]
+    if abs(base.times[0] - scene.begin) > 1e-12 * (scene.end - scene.begin):
+        return f"start: the first frame is at {base.times[0]!r} s, the initial time {scene.begin!r}"
+    if not scene.explicit:
+        raise NotHere("equilibria have no velocities")
+    free = np.ones(len(base.at), bool)
+    velocity = np.zeros((len(base.at), 3))
+    sites = scene.mesh.sites()
+    apart = np.linalg.norm(base.at[:, None] - sites[None], axis=2)
+    number = np.argmin(apart, axis=1)
+    if apart.min(axis=1).max() > 1e-6 * scene.h:
+        return "start: points are not where the mesh has them"
+    for one in scene.conditions.values():
+        points = scene.members(one.get("Node Set", "all"))[number]
+        if one["Type"] in (*MOTIONS, "Symmetry Plane", "Non-Reflecting End"):
+            free &= ~points
+        elif one["Type"] == "Initial Velocity":
+            for axis in one["Coordinate"]:
+                velocity[points, "xyz".index(axis)] += evaluated(one["Value"], sites, scene.begin)[number][points]
+    if not free.any():
+        raise NotHere("all points are held")
+    off = np.abs(first["Velocity"] - velocity)[free].max()
+    if off > ROUND_OFF * max(np.abs(velocity).max(), 1e-4 * scene.speed):
+        return f"start: velocities in the first frame are off by {off:.3g} m/s, of {np.abs(velocity).max():.3g}"
+
+
+def end(scene, base, written):
+    if abs(base.times[-1] - scene.end) > 1e-9 * (scene.end - scene.begin):
+        return f"end: the last frame is at {base.times[-1]!r} s, the final time {scene.end!r}"
+
+
+def finite(scene, base, written):
+    for frame in base.frames:
+        for name, values in frame.items():
+            if not np.isfinite(values).all():
+                return f"finite: {name} is not"
+    if not all(np.isfinite(column).all() for column in base.history.values()):
+        return "finite: the history is not"
+
+
+def momentum(scene, base, written):
+    """Its change is the impulse of all forces from outside. Impulses at a time stand for half of both steps beside it; the first row is left to `start`."""
+    if not scene.explicit:
+        raise NotHere("equilibria have no momentum")
+    if scene.has("Non-Reflecting End"):
+        raise NotHere("non-reflecting ends have no reaction")
+    rows = base.history
+    dt, time = rows["Step_Size"], rows["Time"]
+    if scene.is_long:
+        raise NotHere("rows are not of each step")
+    if len(time) < 4:
+        raise NotHere("a run of some steps")
+    around = np.empty(len(dt))
+    around[1:] = 0.5 * (np.diff(time) + np.append(np.diff(time)[1:], np.diff(time)[-1]))
+    around[0] = 0.5 * (time[1] - time[0])
+    force = np.zeros((len(time), 3))
+    largest = np.zeros(3)
+    for name in [n for made in written.parts.values() for n in made]:
+        columns = [rows.get(f"Reaction_{a}({name})") for a in "XYZ"]
+        if columns[0] is not None:
+            force += np.stack(columns, axis=1)
+            largest += np.abs(np.stack(columns, axis=1)).max(axis=0)
+    volumes = volumes_at_sites(scene, base)
+    load = np.zeros((len(time), 3))
+    for one in scene.conditions.values():
+        if one["Type"] == "Body Force":
+            if volumes is None:
+                raise NotHere("volumes of nodes")
+            points = scene.members(one["Node Set"])
+            for axis in one["Coordinate"]:
+                for row, t in enumerate(time):
+                    f = (volumes * evaluated(one["Value"], scene.mesh.sites(), t))[points].sum()
+                    load[row, "xyz".index(axis)] += f
+    largest = np.abs(largest).max() + np.abs(load).max()
+    p = np.stack([rows[f"Momentum_{a}"] for a in "XYZ"], axis=1)
+    scale = max(np.abs(p).max(), largest * (time[-1] - time[0]), 1e-4 * scene.masses().sum() * scene.speed)
+    impulses = load * around[:, None]
+    between = np.vstack([np.zeros((1, 3)), 0.5 * (impulses[:-1] + impulses[1:])])
+    of_reactions = force * around[:, None]
+    at_times = np.vstack([np.zeros((1, 3)), 0.5 * (of_reactions[:-1] + of_reactions[1:])])  # forces of a time
+    as_means = np.vstack([np.zeros((1, 3)), force[1:] * np.diff(time)[:, None]])  # of the interval before
+    wrong = []
+    for given in (at_times, as_means):
+        sums = np.cumsum(between + given, axis=0)
+        off = (p - p[1]) - (sums - sums[1])
+        wrong.append(np.abs(off[2:-1]).max() / scale if len(off) > 3 else 0)
+    allowed = 100 * ROUND_OFF
+    if "subcycled" in base.log:  # what conditions give in substeps counts at the end of the step
+        allowed += np.abs(of_reactions).max() / scale
+    if min(wrong) > allowed:
+        return f"momentum: off by {min(wrong):.2e} of the largest impulse"
+
+
+def volumes_at_sites(scene, base):
+    if scene.mesh.at_nodes:
+        sites = scene.mesh.sites()
+        apart = np.linalg.norm(sites[:, None] - base.at[None], axis=2)
+        if apart.min(axis=1).max() > 1e-6 * scene.h:
+            return None
+        return base.frames[0]["Volume"][np.argmin(apart, axis=1)]
+    return scene.mesh.element_volumes()
+
+
+def angular_momentum(scene, base, written):
+    """Of free bodies: central differences keep Σ m y × v where no force has a moment."""
+    if not scene.explicit or scene.has(*REACTING, "Body Force", "Non-Reflecting End"):
+        raise NotHere("something acts from outside")
+    m = (base.frames[0]["Volume"] * base.frames[0]["Density"])[:, None]
+    def of(frame):
+        y = base.at + frame["Displacement"]
+        y = y - (m * base.at).sum(axis=0) / m.sum()
+        return (m * np.cross(y, frame["Velocity"])).sum(axis=0), (m[:, 0] * np.linalg.norm(y, axis=1) * np.linalg.norm(frame["Velocity"], axis=1)).sum()
+    values = [of(frame) for frame in base.frames]
+    scale = max(max(v[1] for v in values), 1e-4 * m.sum() * scene.speed * scene.h)
+    off = max(np.abs(v[0] - values[1][0]).max() for v in values[1:]) / scale
+    if off > 100 * ROUND_OFF:
+        return f"angular momentum: off by {off:.2e} of Σ m |y| |v|"
+
+
+def told(base, *words):
+    return any(all(word in line.lower() for word in words) for line in base.warnings)
+
+
+def signs(scene, base, written):
+    """Energies that cannot be negative are not, and what is dissipated does not come back, to a thousandth of all; or it is told."""
+    rows = base.history
+    total = max(sum(np.abs(rows[n]).max() for n in ENERGIES), 1e-12 * scene.masses().sum() * scene.speed**2)
+    for name in ("Kinetic_Energy", "Elastic_Energy", "Stabilization_Energy", "Plastic_Work", "Fracture_Energy", "Tool_Kinetic_Energy"):
+        if rows[name].min() < -1e-3 * total and not told(base, "energy"):
+            return f"signs: {name} falls to {rows[name].min() / total:.2e} of all energy"
+    for name in ("Plastic_Work", "Fracture_Energy"):
+        back = (np.maximum.accumulate(rows[name]) - rows[name]).max()
+        # The viscous pressure of a step is the mean of both ends: where a point begins to grow, half of the last one gives back.
+        allowed = 1e-2 if any("Viscosity" in key for m in scene.deck["Materials"].values() for key in m) else 1e-3
+        if back > allowed * total and not told(base, "energy"):
+            return f"signs: {name} falls by {back / total:.2e} of all energy"
+
+
+def balance(scene, base, written):
+    """Within a hundredth, or told. A thousandth is kept by smooth motions alone; `half the step` asks how the error falls."""
+    worst = rows_after_start(base.history["Balance_Error"]).max()
+    # The work of load steps is that of the mean of both ends, right to second order in these: there are two to four.
+    if worst > (1e-2 if scene.explicit else 0.3 / len(base.history["Time"])**2) and not told(base, "balance") and not told(base, "energy"):
+        return f"balance: off by {worst:.2e}, and nothing is told"
+
+
+def rows_after_start(column):
+    """The monitor looks from the eleventh row on: before, the largest energy so far is that of some first impulses."""
+    return column[10:] if len(column) > 10 else column[-1:]
+
+
+LAWS = {"mass": mass, "start": start, "end": end, "finite": finite, "momentum": momentum, "angular momentum": angular_momentum,
+        "signs": signs, "balance": balance}

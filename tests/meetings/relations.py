@@ -1,0 +1,414 @@
+"""Pairs of runs that must agree. A relation makes the other run of a scene, compares, and returns what is wrong, or None; NotHere tells why
+it does not hold for a scene."""
+import itertools
+import re
+from dataclasses import replace
+
+import numpy as np
+
+from compare import fields_differ, histories_differ, steps_differ
+from frame import AXES, Frame
+from laws import NotHere
+from scenes import MOTIONS, TOOLS, written
+from values import Direction, Expr, Num, Place
+
+# Two orders of the same sums differ by 1e-16 of places that are some ten spacings, and a strain of 1e-15 is 1e-11 of SMALL, the least that
+# differences are parts of. Some ten thousand times that is left for growth over a hundred steps.
+ROUND_OFF = 1e-7
+# Beyond, a scene is asked itself: how far a change of all places by 1e-11 of a spacing takes it, which is 1e4 times round-off.
+NUDGE = 1e-11
+NUDGE_OF_EQUILIBRIA = 1e-6  # these are found to 1e-8 of the forces, which is more than round-off
+ENOUGH = 3.0  # times that
+NUDGES = 3  # a body that buckles goes to either side
+# The estimate of the critical step starts from a noise that goes by element numbers and axes. It is right to 1 % where it has converged, and
+# takes what is left off the step where it has not.
+STEP_NOISE = 0.1
+
+
+class Case:
+    """A scene with its run, and the means to make others of it."""
+
+    def __init__(self, scene, runner, seed):
+        self.scene, self.runner, self.seed = scene, runner, seed
+        self.written = written(scene)
+        self.base = runner.run(self.written, name="base")
+        self.fixed = None
+
+    def chance(self, name):
+        return np.random.default_rng([self.seed, *map(ord, name)])
+
+    def same(self, frame=Frame(), scene=None, order=None, noise=True, name="other", reactions=True, **compared):
+        """Whether the other run is this one: with the steps that it takes itself, or, where the estimates of the step differ by their noise,
+        with fixed ones. `noise`: whether they may."""
+        scene = scene or self.scene
+        other_written = written(scene, frame, order=order)
+        other = self.runner.run(other_written, name=name)
+        if self.ended_differently(other):
+            return self.ended_differently(other)
+        off = steps_differ(self.base, other, frame) if self.scene.explicit else 0.0
+        if self.scene.explicit and (off is None or off > 1e-9):
+            if not noise or (off is not None and off > STEP_NOISE) or abs(len_of(self.base) - len_of(other)) > 1 + STEP_NOISE * len_of(self.base):
+                return f"steps: {len_of(self.base)} and {len_of(other)}, sizes off by {off if off is None else format(off, '.1e')}"
+            return self.with_fixed_steps(frame, scene, order, reactions, **compared)
+        return self.differ(self.base, self.written, other, other_written, frame, reactions=reactions, **compared)
+
+    def with_fixed_steps(self, frame, scene, order, reactions, **compared):
+        dt = 0.9 * self.smallest_step()
+        one = written(self.scene.fixed_step(dt))
+        base = self.runner.run(one, name="base-fixed")
+        two = written(scene.fixed_step(dt), frame, order=order)
+        other = self.runner.run(two, name="other-fixed")
+        if self.ended_differently(other, base):
+            return self.ended_differently(other, base)
+        return self.differ(base, one, other, two, frame, fixed=dt, reactions=reactions, **compared)
+
+    def smallest_step(self):
+        """Of any point: those that are subcycled take parts of a step."""
+        substeps = re.search(r"subcycled, up to (\d+) times a step", self.base.log)
+        return self.base.history["Step_Size"].min() / (int(substeps[1]) if substeps else 1)
+
+    def ended_differently(self, other, base=None):
+        base = base or self.base
+        if other.status in ("crash", "hang"):
+            return f"{other.status}"
+        if other.status != base.status:
+            return f"status: {base.status} and {other.status}: {(other.error or base.error)[:300]}"
+        if other.kind_of_error.split(":")[0] != base.kind_of_error.split(":")[0]:
+            return f"error: '{base.error[:200]}' and '{other.error[:200]}'"
+        if base.status == 1:
+            raise NotHere("the run ends with an error, the other one with the same")
+
+    def differ(self, base, base_written, other, other_written, frame, fixed=None, tolerance=ROUND_OFF, only=None, energies=True, reactions=True, nudge=True):
+        parts = fields_differ(base, other, self.scene, frame, only)
+        parts |= histories_differ(base, other, self.scene, frame, names(base_written), names(other_written), energies, reactions)
+        if not self.scene.explicit:
+            tolerance = max(tolerance, 1e-4)  # found to 1e-8 of the forces; what is left counts by the conditioning of the body
+        wrong = {name: part for name, part in parts.items() if part > tolerance}
+        if wrong and nudge and all(np.isfinite(part) for part in wrong.values()):
+            for n in range(NUDGES):
+                own = self.own_scatter(base, fixed, n)
+                wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
+        if wrong:
+            name = max(wrong, key=wrong.get)
+            return f"{name}: {wrong[name]:.2e}" + (f" ({len(wrong)} of {len(parts)} quantities)" if len(wrong) > 1 else "")
+
+    def own_scatter(self, base, fixed, n):
+        """By how much the run itself differs where its points are nudged, in one way or another."""
+        scene = self.scene.fixed_step(fixed) if fixed else self.scene.copy()
+        nudged = scene.copy()
+        rng = self.chance(f"nudge {n}")
+        part = NUDGE if scene.explicit else NUDGE_OF_EQUILIBRIA
+        if nudged.mesh.kind == "PdQuickGrid":
+            stretch = 1 + part * rng.uniform(-1, 1, 3)
+            nudged.mesh = nudged.mesh.mapped(lambda points: points * stretch, False, 1.0)
+        else:
+            amount = part * scene.h
+            nudged.mesh = nudged.mesh.mapped(lambda points: points + amount * rng.uniform(-1, 1, points.shape), False, 1.0)
+        files = written(nudged)
+        other = self.runner.run(files, name="nudged")
+        if other.status != base.status:
+            return {}
+        parts = fields_differ(base, other, self.scene, Frame())
+        return parts | histories_differ(base, other, self.scene, Frame(), names(files), names(files))
+
+
+def names(files):
+    return [name for made in files.parts.values() for name in made]
+
+
+def len_of(result):
+    return len(result.history.get("Time", []))
+
+
+# ---- where a scene is seen from
+
+
+def moved(case):
+    size = np.ptp(case.scene.mesh.sites(), axis=0).max()
+    return case.same(Frame(shift=case.chance("moved").uniform(-3, 3, 3) * size), noise=False)
+
+
+def later(case):
+    length = case.scene.end - case.scene.begin
+    return case.same(Frame(later=float(case.chance("later").uniform(-2, 2) * length)), noise=False)
+
+
+def signed_permutations(determinant):
+    for order in itertools.permutations(range(3)):
+        for signs in itertools.product((1, -1), repeat=3):
+            turn = np.zeros((3, 3), int)
+            turn[range(3), order] = signs
+            if round(np.linalg.det(turn)) == determinant and not (turn == np.eye(3)).all():
+                yield turn
+
+
+def quarter_turned(case):
+    return case.same(Frame(turn=case.chance("turned").choice(list(signed_permutations(1)))))
+
+
+def mirrored(case):
+    return case.same(Frame(turn=case.chance("mirrored").choice(list(signed_permutations(-1)))))
+
+
+def in_other_units(case):
+    """By powers of two, so that a number keeps its digits."""
+    mass, length, time = (int(n) for n in case.chance("units").integers(-8, 9, 3))
+    flows = [m.get("Flow Stress", {}).get("Type") for m in case.scene.deck["Materials"].values()]
+    if "Zerilli-Armstrong" in flows or "Mechanical Threshold" in flows:
+        time = 0  # they have the logarithm of a rate in 1/s
+    if "Mechanical Threshold" in flows:
+        mass = -2 * length  # and Boltzmann's constant in J/K
+    return case.same(Frame(mass=2.0**mass, length=2.0**length, time=2.0**time), noise=False)
+
+
+def flying(case):
+    """From a frame of reference that flies along (Galilei)."""
+    if not case.scene.explicit:
+        raise NotHere("equilibria have no velocities")
+    if case.scene.has("Non-Reflecting End"):
+        raise NotHere("what is behind a non-reflecting end rests")
+    scene = case.scene.copy()
+    speed = case.scene.speed * 0.02 * case.chance("flying").uniform(-1, 1, 3)
+    for one in scene.conditions.values():
+        if one["Type"] == "Symmetry Plane":
+            speed = speed * (np.array(one["Normal"].along) == 0)
+    at_rest = [(block, axis) for block in sorted(set(scene.mesh.blocks)) for axis in AXES
+               if not any(c["Type"] == "Initial Velocity" and axis in c["Coordinate"] and c["Node Set"] in ("all", f"block_{block}")
+                          for c in scene.conditions.values())]
+    for block, axis in at_rest:
+        scene.conditions[f"rest {block} {axis}"] = {"Type": "Initial Velocity", "Node Set": f"block_{block}", "Coordinate": axis, "Value": Expr("0", 1.0, "m/s")}
+    other = written(scene, Frame(speed=speed, begin=scene.begin))
+    result = case.runner.run(other, name="other")
+    if case.ended_differently(result):
+        return case.ended_differently(result)
+    frame = Frame(speed=speed, begin=scene.begin)
+    off = steps_differ(case.base, result, frame)
+    if off is None or off > 1e-6:
+        # Skin distances and bounds of contact may see the speed; the estimate's noise does not.
+        return case.with_fixed_steps(frame, scene, None, True, energies=False)
+    return case.differ(case.base, case.written, result, other, frame, energies=False)
+
+
+# ---- how a deck and a mesh are written
+
+
+def reordered(case):
+    return case.same(order=case.chance("order"))
+
+
+def cut_in_blocks(case):
+    """A block cut into two of the same material, bonded as before."""
+    scene = case.scene.copy()
+    if scene.mesh.kind == "PdQuickGrid":
+        raise NotHere("Peridigm's grid has one block")
+    if any("Damage Model" in section for section in scene.deck["Blocks"].values()):
+        raise NotHere("points fail, and bonds break, by what is least in their block (docs/theory.md, Fracture)")
+    if any(name != "touch" and "Surface" in scene.deck["Contact"]["Models"]["touch"]["Contact Model"] for name in scene.deck.get("Contact", {}).get("Interactions", {})):
+        raise NotHere("surfaces have the largest spacing of a block")
+    rng = case.chance("cut")
+    block, new = int(rng.choice(scene.mesh.blocks)), int(scene.mesh.blocks.max()) + 1
+    axis = int(rng.integers(3))
+    own = scene.mesh.blocks == block
+    along = scene.mesh.elements()[:, axis]
+    upper = own & (along > np.median(along[own]))
+    if not upper.any() or upper.sum() == own.sum():
+        raise NotHere("the block is one layer thick")
+    scene.mesh = replace(scene.mesh, blocks=np.where(upper, new, scene.mesh.blocks))
+    one, two = f"block_{block}", f"block_{new}"
+    for section in scene.deck["Blocks"].values():
+        if one in section["Block Names"].split():
+            section["Block Names"] += f" {two}"
+    for name, condition in list(scene.conditions.items()):
+        if condition.get("Node Set") == one:
+            scene.conditions[f"{name} cut"] = condition | {"Node Set": two}
+    interactions = scene.deck.get("Contact", {}).get("Interactions", {})
+    for name, pair in list(interactions.items()):
+        first, second = ([b, two] if b == one else [b] for b in (pair.get("First Block"), pair.get("Second Block")))
+        for n, (a, b) in enumerate(itertools.product(first, second)):
+            if a and n > 0 and not (pair["First Block"] == pair["Second Block"] and (a, b) == (two, one)):
+                interactions[f"{name} cut {n}"] = pair | {"First Block": a, "Second Block": b}
+    return case.same(scene=scene)
+
+
+# ---- how it is computed
+
+
+def bits(case, other, files, history):
+    if case.ended_differently(other):
+        return case.ended_differently(other)
+    parts = {name: part for name, part in fields_differ(case.base, other, case.scene, Frame()).items() if part > (0 if case.scene.explicit else 1e-4)}
+    parts |= {name: part for name, part in histories_differ(case.base, other, case.scene, Frame(), names(files), names(files)).items()
+              if part > (history if case.scene.explicit or history == 0 else 1e-4)}
+    if parts:
+        name = max(parts, key=parts.get)
+        return f"{name}: {parts[name]:.2e}"
+
+
+def on_three_ranks(case):
+    """Fields to the last bit (tests/parallel), totals to their round-off; equilibria by preconditioners that differ with the ranks."""
+    return bits(case, case.runner.run(case.written, ranks=3, name="other"), case.written, 1e-9)
+
+
+def on_two_threads(case):
+    return bits(case, case.runner.run(case.written, "--threads", "2", name="other"), case.written, 0)
+
+
+def broken_off(case):
+    """In the middle, by a signal, then continued: on as many ranks to the last bit."""
+    rng = case.chance("broken off")
+    scene, word = case.scene, "dt"
+    if not scene.explicit:
+        scene, word = scene.copy(), "iteration"
+        scene.deck["Solver"]["Verbose"] = True
+    files = written(scene)
+    broken = case.runner.run(files, "--break", int(rng.integers(1, 9)), word, name="other")
+    if broken.status in ("crash", "hang"):
+        return broken.status
+    if broken.status != 3:
+        raise NotHere("it was over before")
+    ranks = int(rng.choice([1, 1, 3]))
+    other = case.runner.run(files, "--continue", ranks=ranks, name="other", keep=True)
+    return bits(case, other, files, 0 if ranks == 1 else 1e-9)
+
+
+def checked(case):
+    """What `--check` says of it."""
+    checked = case.runner.run(case.written, "--check", name="other")
+    if checked.status in ("crash", "hang"):
+        return checked.status
+    if checked.status != 0:
+        return f"--check finds '{checked.error[:200]}', and the run does not"
+    if checked.frames or checked.history:
+        return "--check writes"
+
+
+def without_subcycling(case):
+    """To the order of the scheme: impulses differ by (ω Δt)² of what is subcycled."""
+    verlet = case.scene.deck["Solver"].get("Verlet")
+    if verlet is None or "subcycled" not in case.base.log:
+        raise NotHere("nothing is subcycled")
+    if any("Damage Model" in section for section in case.scene.deck["Blocks"].values()):
+        raise NotHere("thresholds")
+    scene = case.scene.copy()
+    scene.deck["Solver"]["Verlet"] = {k: v for k, v in verlet.items() if k != "Subcycling"} | {"Subcycling": False}
+    other = case.runner.run(written(scene), name="other")
+    if case.ended_differently(other):
+        return case.ended_differently(other)
+    off = last_displacements_differ(case.base, other)
+    if off > 0.1:
+        return f"Displacement: {off:.2e} in the root mean square of the last frame"
+
+
+def last_displacements_differ(one, two):
+    a, b = one.frames[-1]["Displacement"], two.frames[-1]["Displacement"]
+    return float(np.sqrt(((a - b)**2).sum() / max((a**2).sum(), 1e-300)))
+
+
+def half_the_step(case):
+    """Steps of 1, ½ and ¼: the second difference is a quarter of the first one where the motion is smooth; a half is asked for, or 2 %."""
+    scene = case.scene
+    if not scene.explicit:
+        raise NotHere("load steps are of first order in what flows")
+    if any("Damage Model" in section for section in scene.deck["Blocks"].values()):
+        raise NotHere("thresholds")
+    if case.base.status == 1:
+        raise NotHere("the run ends with an error")
+    dt = 0.7 * case.smallest_step()
+    if (scene.end - scene.begin) / dt > 1500:
+        raise NotHere("too many steps")
+    results = [case.runner.run(written(scene.fixed_step(dt / parts)), name=f"step-{parts}") for parts in (1, 2, 4)]
+    for one in results:
+        if one.status == 1:
+            raise NotHere("the run ends with an error")
+        if case.ended_differently(one):
+            return case.ended_differently(one)
+    first, second = (last_displacements_differ(a, b) for a, b in zip(results, results[1:]))
+    if second > max(0.02, 0.6 * first):
+        return f"Displacement: {first:.2e}, then {second:.2e} in the root mean square of the last frame"
+    errors = [r.history["Balance_Error"][-1] for r in results]
+    # Hypoelastic laws have no stored energy: what they take differs from ½ σ : C⁻¹ : σ by a part of the order of the strain.
+    strain = max(np.abs(f["Cauchy_Stress"]).max() for f in results[2].frames) / scene.modulus
+    if errors[2] > max(1e-3, 0.8 * errors[0], strain) and not any("WARNING" in line for line in results[2].warnings):
+        return f"balance: {errors[0]:.2e}, {errors[1]:.2e}, {errors[2]:.2e} with smaller steps"
+
+
+# ---- symmetry
+
+
+def half_of_it(case):
+    """A body with a symmetry plane, and the whole that it is a half of."""
+    scene = case.scene.copy()
+    if scene.mesh.kind == "PdQuickGrid":
+        raise NotHere("Peridigm's grid has one block, and its own place")
+    if "Bond Filters" in scene.deck["Discretization"]:
+        raise NotHere("cracks are not mirrored")
+    axis = 0
+    name, key = AXES[axis], AXES[axis].upper()
+    at = min(box.low[axis] for box in scene.bodies)
+    if any(abs(box.low[axis] - at) > 1e-9 * scene.h for box in scene.bodies):
+        raise NotHere("a body beside the plane")
+    shift = np.zeros(3)
+    shift[axis] = -at
+    scene.mesh = scene.mesh.mapped(lambda points: points + shift, False, 1.0)
+    kept = {}
+    for label, one in scene.conditions.items():
+        one = dict(one)
+        vector = one.get("Normal") or one.get("Axis")
+        if one["Type"] in ("Symmetry Plane", "Non-Reflecting End") and vector.along[axis]:
+            continue
+        if one["Type"] in TOOLS:
+            if vector and vector.along[axis]:
+                continue
+            for k in list(one):
+                if k.endswith(f" {key}"):
+                    del one[k]
+            if "Lower Corner" in one:
+                reach = 20 * scene.h
+                one["Lower Corner"] = Place(tuple(-reach if i == axis else v for i, v in enumerate(one["Lower Corner"].at)))
+                one["Upper Corner"] = Place(tuple(reach if i == axis else v for i, v in enumerate(one["Upper Corner"].at)))
+        if "Coordinate" in one:
+            one["Coordinate"] = one["Coordinate"].replace(name, "")
+            if not one["Coordinate"]:
+                continue
+            one["Value"] = replace(one["Value"], text=folded(one["Value"].text, name, at))
+        kept[label] = one
+    sets = {label: replace(value, text=folded(value.text, name, at)) for label, value in scene.deck["Node Sets"].items()}
+    scene.deck["Boundary Conditions"], scene.deck["Node Sets"] = kept, sets
+    scene.bodies = [replace(box, low=box.low + shift) for box in scene.bodies]
+    if scene.explicit:
+        scene = scene.fixed_step(0.1 * scene.h / scene.speed)
+    whole = scene.copy()
+    whole.mesh = whole.mesh.with_image(axis)
+    for label, one in whole.conditions.items():
+        for k in one:
+            if k == "Mass" or k.startswith("Force "):
+                one[k] = replace(one[k], value=2 * one[k].value) if isinstance(one[k], Num) else one[k].times(2)
+    half = scene.copy()
+    cell = max(box.cell[axis] for box in scene.bodies)
+    half.deck["Node Sets"]["mirror"] = Expr(f"({{{name}}} < {float((0.3 if scene.mesh.at_nodes else 0.85) * min(box.cell[axis] for box in scene.bodies))!r})")
+    half.conditions["mirror"] = {"Type": "Symmetry Plane", "Node Set": "mirror", "Point": Place((0.0, 0.0, 0.0)),
+                                 "Normal": Direction(tuple(float(i == axis) for i in range(3)))}
+    files, others = written(half), written(whole)
+    one, two = case.runner.run(files, name="half"), case.runner.run(others, name="whole")
+    if case.ended_differently(two, one):
+        return case.ended_differently(two, one)
+    kept = two.at[:, axis] > -1e-6 * scene.h
+    two.at = two.at[kept]
+    two.frames = [{field: values[kept] for field, values in frame.items()} for frame in two.frames]
+    shared = one.at[:, axis] < 1e-6 * scene.h if scene.mesh.at_nodes else None
+    fields = ["Displacement", "Velocity", "Cauchy_Stress", "Jacobian", "Equivalent_Plastic_Strain", "Temperature", "Damage"]
+    parts = fields_differ(one, two, half, Frame(), fields)
+    worst = max(parts, key=parts.get)
+    if parts[worst] > (1e-6 if scene.explicit else 1e-4):  # ROUND_OFF, of sums over two halves in place of one
+        return f"{worst}: {parts[worst]:.2e}"
+
+
+def folded(text, name, at):
+    """Of |x| in the place of x, seen from the plane."""
+    return text.replace(f"{{{name}}}", f"(fabs({{{name}}}) + {float(at)!r})")
+
+
+RELATIONS = {"moved": moved, "later": later, "quarter turned": quarter_turned, "mirrored": mirrored, "in other units": in_other_units,
+             "flying": flying, "reordered": reordered, "cut in blocks": cut_in_blocks, "on three ranks": on_three_ranks,
+             "on two threads": on_two_threads, "broken off": broken_off, "checked": checked, "without subcycling": without_subcycling,
+             "half the step": half_the_step, "half of it": half_of_it}
