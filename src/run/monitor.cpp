@@ -68,11 +68,6 @@ std::string balance_of(const Ledger& ledger) {
 
 }  // namespace
 
-void Monitor::passed(What what, const std::string& text) {
-  if (limits_.stops) raise_together(body_.domain.communicator, text);
-  tell_once(what, text);
-}
-
 void Monitor::tell_once(What what, const std::string& text) {
   if (!told_[what] && !text.empty()) tell_("WARNING: " + text + " (told once)");
   told_[what] = true;
