@@ -64,7 +64,8 @@ const RealKey safety_factor(
     {.name = "Safety Factor",
      .range = {.low = 0, .high = 1, .with_low = false},
      .fallback = "0.8",
-     .meaning = "Time step as a fraction of the critical time step, which follows the deformation."});
+     .meaning = "Time step as a fraction of the critical time step, which follows the deformation; it is "
+                "kept until it is 1.05 times as much."});
 
 const BooleanKey subcycling(
     {.name = "Subcycling",

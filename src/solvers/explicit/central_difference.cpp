@@ -25,8 +25,9 @@ constexpr int renewal_steps = 1000;
 
 constexpr double round_off = 1e-6;  // of a step: times are sums of up to millions of steps
 
-// The step grows by this factor at least, where an estimate of the critical time step is due.
-constexpr double least_growth = 1 / 0.75;
+// The step grows by this factor at least, when an estimate of the critical time step has been renewed, and to what
+// would have done since the one before.
+constexpr double least_growth = 4.0 / 3;
 
 }  // namespace
 
@@ -69,9 +70,12 @@ void CentralDifference::reassign_levels(StepReport& report) {
   levels_due_ = false;
   estimate_due_ = true;
   if (!control_.subcycling || control_.fixed_dt > 0) return;
-  const double bearable = steps_ == 0 ? 0 : frequency_bound_ * longest_stay() * critical_time_step() / dt_;
-  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor, bearable, step_may_grow_);
+  const double safety = control_.safety_factor;
+  report.frequency_bound = multi_stepping_.choose(
+      body_, safety, {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay() / safety});
   restrict_conditions();
+  levels_anew_ = multi_stepping_.anew();
+  if (levels_anew_) bound_of_step_ = multi_stepping_.bound();
 }
 
 void CentralDifference::restrict_conditions() {
@@ -99,7 +103,8 @@ void CentralDifference::choose_step(double final_time) {
   } else {
     // Equal steps to the end: a jump in dt at the last one would cost energy.
     dt_ = left / std::ceil(left / longest_step(estimated) * (1 - round_off));
-    step_may_grow_ = false;
+    if (levels_anew_) step_of_bound_ = dt_;
+    levels_anew_ = false;
   }
   next_time_ = dt_ == left ? final_time : time_ + dt_;
 }
@@ -113,10 +118,12 @@ double CentralDifference::longest_stay() const {
 
 // Each change of the step takes or gives energy, in proportion to it, and changes that follow a vibration feed it: the
 // step stays as it is while it is stable, and until it could be much longer.
-double CentralDifference::longest_step(bool estimated) const {
+double CentralDifference::longest_step(bool estimated) {
   const double critical = critical_time_step(), chosen = control_.safety_factor * critical;
-  const bool may_grow = step_may_grow_ || (estimated && chosen >= least_growth * dt_);
-  return steps_ > 0 && dt_ <= longest_stay() * critical && !may_grow ? dt_ : chosen;
+  const double since = std::min(chosen, least_chosen_);
+  least_chosen_ = estimated ? chosen : since;
+  if (steps_ == 0 || levels_anew_ || dt_ > longest_stay() * critical) return chosen;
+  return estimated && since >= least_growth * dt_ ? since : dt_;
 }
 
 void CentralDifference::advance_velocity(double final_time) {
@@ -316,7 +323,10 @@ void CentralDifference::serialize(Archive& archive) {
   archive.number("damping", damping_);
   archive.number("regroup_due", levels_due_);
   archive.number("estimate_due", estimate_due_);
-  archive.number("step_may_grow", step_may_grow_);
+  archive.number("levels_anew", levels_anew_);
+  archive.number("least_chosen", least_chosen_);
+  archive.number("bound_of_step", bound_of_step_);
+  archive.number("step_of_bound", step_of_bound_);
   serialize_work(archive);
   contact_.serialize(archive, kinematics(), dt_);
   if (!archive.loading()) return;

@@ -1,6 +1,8 @@
 // Explicit central differences (leap-frog form): velocities live at mid-steps, places and forces at steps.
 #pragma once
 
+#include <limits>
+
 #include "conditions/conditions.hpp"
 #include "conditions/mid_steps.hpp"
 #include "contact/contact.hpp"
@@ -83,7 +85,7 @@ class CentralDifference {
   void take_reactions(const ReactionImpulses& now, double impulse_time);
   void choose_step(double final_time);
   double longest_stay() const;
-  double longest_step(bool estimated) const;
+  double longest_step(bool estimated);
   void estimate_step();
   void reassign_levels(StepReport& report);
   void restrict_conditions();
@@ -110,11 +112,14 @@ class CentralDifference {
   StepImpulses impulses_;
   ReactionImpulses substep_impulses_;  // of the substeps since the last whole step
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
+  double least_chosen_ = std::numeric_limits<double>::infinity();  // s, since the last estimate
+  double bound_of_step_ = 0,
+         step_of_bound_ = 0;  // 1/s, s: the bound that levels were chosen for, the step that this led to
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   double initial_energy_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;
-  bool levels_due_ = true, estimate_due_ = true, step_may_grow_ = false;
+  bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
   std::string warning_;
   bool went_on_ = false;
   Request request_ = Request::none, agreed_request_ = Request::none;

@@ -29,8 +29,8 @@ constexpr double cost_of_substep = 1.5;
 // Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
 constexpr int families_between_levels = 2;
 
-constexpr double worth_while = 0.75;  // of the cost of a run without, or of one whose step stays as it is
-constexpr double pays_at_once = 0.9;  // of the latter, where a shorter step has fewer substeps
+constexpr double worth_while = 0.75;    // of the cost of a run without
+constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays as it is
 
 // A point's level falls when its frequency bound could be so much larger on the lower one: each change takes or gives
 // energy, and bounds go up and down with vibrations.
@@ -155,13 +155,20 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
-// Of owned points and ghosts, empty of none; and what they cost, for a time.
+// Of owned points and ghosts, empty of none; for steps that points of the frequency bound `bound` and below can have;
+// and the work of a step.
 struct Levels {
   std::vector<std::uint8_t> levels = {};
-  double cost;
+  double bound, work;
 };
 
-// With steps for points of the frequency bound `bound` and below. `before`: the levels so far, if any.
+double work_of_step(const Body& body, const std::vector<std::uint8_t>& levels) {
+  double work = 0;
+  for (int i = 0; i < body.owned(); ++i) work += cost_of_point(body, i) * cost_of(levels.empty() ? 0 : levels[i]);
+  return body.domain.communicator.sum(work);
+}
+
+// `before`: the levels so far, if any.
 Levels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
                   const std::vector<std::uint8_t>& before) {
   std::vector<std::uint8_t> levels(body.owned(), 0);
@@ -173,30 +180,20 @@ Levels levels_for(Body& body, const FrequencyBounds& bounds, double bound, doubl
   });
   exchange(body, body.domain.halo, levels);
   smooth_levels(body, levels);
-  double cost = 0;
-  for (int i = 0; i < body.owned(); ++i) cost += cost_of_point(body, i) * cost_of(levels[i]);
-  return {std::move(levels), body.domain.communicator.sum(cost) * bound};
+  const double work = work_of_step(body, levels);
+  return {std::move(levels), bound, work};
 }
 
-Levels no_levels(const Body& body, const FrequencyBounds& bounds) {
-  double cost = 0;
-  for (int i = 0; i < body.owned(); ++i) cost += cost_of_point(body, i);
-  return {.cost = body.domain.communicator.sum(cost) * bounds.largest};
-}
-
-// What costs least; points between stiff ones count, too. Sets `bound` to the frequency bound that its steps are for.
-Levels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin, double& bound) {
+// What costs least; points between stiff ones count, too.
+Levels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin) {
   FrequencyHistogram histogram(bounds.largest, margin);
   for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));
   histogram.agree(body.domain.communicator);
-  bound = std::max(histogram.best(), bounds.floor);
-  Levels none = no_levels(body, bounds);
-  if (bound < bounds.largest) {
-    Levels some = levels_for(body, bounds, bound, margin, {});
-    if (some.cost < worth_while * none.cost) return some;
-  }
-  bound = bounds.largest;
-  return none;
+  const double bound = std::max(histogram.best(), bounds.floor);
+  Levels none{{}, bounds.largest, work_of_step(body, {})};
+  if (!(bound < bounds.largest)) return none;
+  Levels some = levels_for(body, bounds, bound, margin, {});
+  return some.work * bound < worth_while * none.work * none.bound ? some : none;
 }
 
 // The level of the motion of each point: that of any point whose stress moves it.
@@ -259,18 +256,19 @@ std::vector<double> all_ids(Body& body) {
 
 }  // namespace
 
-double MultiTimeStepping::choose(Body& body, double safety_factor, double bearable, bool& anew) {
+double MultiTimeStepping::choose(Body& body, double safety_factor, const PresentStep& present) {
   const std::vector<std::uint8_t> before = std::move(body.time_levels);
-  const double margin = std::min(1.0, most_turn / safety_factor);
+  const double margin = std::min(1.0, most_turn / safety_factor), bearable = present.slack * present.bound;
   const FrequencyBounds bounds = frequency_bounds_of(body);
-  double bound = 0;
-  Levels best = cheapest_levels(body, bounds, margin, bound);
-  anew = true;
-  if (bearable > 0 && bearable >= bounds.floor) {
+  Levels best = cheapest_levels(body, bounds, margin);
+  anew_ = true;
+  if (present.bound > 0 && bearable >= bounds.floor) {
     Levels kept = levels_for(body, bounds, bearable, margin, before);
-    anew = best.cost < (bound < bearable ? worth_while : pays_at_once) * kept.cost;
-    if (!anew) best = std::move(kept);
+    const bool of_none = levels_.empty() && best.bound == bounds.largest && bearable >= bounds.largest;
+    anew_ = !of_none && best.work * best.bound < worth_a_change * kept.work * present.bound;
+    if (!anew_) best = std::move(kept);
   }
+  bound_ = best.bound;
   body.time_levels = std::move(best.levels);
   make_levels(body);
   spread_impulses(body, before);

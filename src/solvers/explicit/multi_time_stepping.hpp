@@ -20,9 +20,16 @@ class MultiTimeStepping {
   // what costs least; none where that saves little. The forces of the points whose time-step levels change are scaled
   // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
   // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
-  // the step will be such a part of the stable one. `bearable`: up to which bound points of level 0 can have the step
-  // that there is; 0: there is none. It stays as it is, unless another is much better: `anew`.
-  double choose(Body& body, double safety_factor, double bearable, bool& anew);
+  // the step will be such a part of the stable one. The present step stays as it is, unless another is much better.
+  struct PresentStep {
+    double bound;  // 1/s, the frequency bound that it was chosen for; 0: there is none
+    double slack;  // so many times as much is bearable
+  };
+  double choose(Body& body, double safety_factor, const PresentStep& present);
+
+  // Of the last choice: whether the step is to be chosen anew, and for which frequency bound.
+  bool anew() const { return anew_; }
+  double bound() const { return bound_; }
 
   // A step has 2^level_count() substeps. Times of level m come every Δt/2^m.
   int level_count() const { return static_cast<int>(levels_.size()); }
@@ -64,7 +71,8 @@ class MultiTimeStepping {
 
   std::vector<Level> levels_;
   std::vector<std::uint8_t> motion_levels_;
-  double updates_ = 1;
+  double updates_ = 1, bound_ = 0;
+  bool anew_ = false;
 };
 
 }  // namespace strut

@@ -358,7 +358,8 @@ class Wall {
 
   // At every step, after the kick.
   void look(const Ledger& now) {
-    const double kick = 0.5 * ((previous_dt_ > 0 ? previous_dt_ : now.dt) + now.dt);
+    // A body's velocities are about its time as if the step before were as long as the next: so is the push on it.
+    const double kick = now.dt, both = previous_dt_ + now.dt, part = previous_dt_ / both;
     previous_dt_ = now.dt;
     const Body& body = run_.body();
     Vector push = Vector::Zero();
@@ -370,7 +371,8 @@ class Wall {
       lowest_ = std::min(lowest_, normal_.dot(body.current(i)) - offset_);
     }
     body.domain.communicator.sum(std::span(push.data(), 3));
-    impulse_ = before_ + 0.5 * push;
+    push *= 0.5 * both / kick;
+    impulse_ = before_ + part * push;
     before_ += push;
     worst_balance_ = std::max(worst_balance_, now.balance_error);
   }
@@ -378,7 +380,7 @@ class Wall {
   // Over all ranks and steps so far.
   double lowest() const { return run_.body().domain.communicator.min(lowest_); }              // m, above the wall
   double hardest_pull() const { return run_.body().domain.communicator.max(hardest_pull_); }  // on a point, kg m/s
-  const Vector& impulse() const { return impulse_; }  // until now: half of the last push falls before it
+  const Vector& impulse() const { return impulse_; }  // until now: of the last push the part of the step before it
   double worst_balance() const { return worst_balance_; }
 
  private:

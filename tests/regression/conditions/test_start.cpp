@@ -76,7 +76,7 @@ TEST(AtTheInitialTime, SubcycledPointsHaveTheirInitialVelocities) {
     parts.blocks += section(block, key("Block Names", block) + key("Material", material) +
                                        key("Horizon Factor", "1.75") + key("Separate Body", "true"));
   }
-  parts.conditions = flight + wall + load;
+  parts.conditions = flight + wall;
   parts.times = key("Final Time", "2e-6");
   Simulation run(folder, parts);
   bool first = true;

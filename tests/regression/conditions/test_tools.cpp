@@ -213,7 +213,7 @@ TEST(FreeTool, KeepsMomentumAndEnergyWithTheBodyThatItStrikes) {
   const double momentum = 4e-3 * 20;
   double worst_momentum = 0, worst_balance = 0, pushed = 0;
   run.go([&](const Ledger& now) {
-    const double of_punch = 4e-3 * 0.5 * (punch.before[2] + punch.velocity[2]);
+    const double of_punch = 4e-3 * punch.mid_steps.velocity(punch.before, punch.velocity)[2];
     worst_momentum = std::max(worst_momentum, std::abs(now.momentum[2] + of_punch - momentum));
     worst_balance = std::max(worst_balance, now.balance_error);
     pushed = std::max(pushed, now.momentum[2]);

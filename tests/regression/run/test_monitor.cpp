@@ -73,15 +73,16 @@ TEST(Monitor, GoesOnWhereTheDeckSaysSoAndIsToldOnce) {
   EXPECT_LE(o.warnings(), 4) << "of the fixed step, the first percent, the limit, kinetic energy: " << o.said;
 }
 
-// One step, five times the stable one: too early for the first lines of a history, and the end.
-TEST(Monitor, LooksAtTheEnergyWhereverTheRunEnds) {
+// One step, twenty times the stable one: too early for the lines of the history that count, but the end of the run.
+TEST(Monitor, LooksAtTheEnergyAtTheEndHoweverEarlyItIs) {
   const RunFolder folder;
-  Parts parts = unstable();
-  parts.conditions += plane("wall", "Rigid Plane", "all", "0 0 0.5e-3", "0 0 1") +
-                      along("flight", "Initial Velocity", "all", "x", "-100*z/6e-3");
-  parts.times = key("Final Time", "2e-6");
-  parts.verlet = key("Fixed dt", "2e-6");
-  expect_words(outcome(folder, parts).error, {"at t = 2e-06 s", "balance of energy", "out of nothing"});
+  Parts parts;
+  parts.conditions =
+      along("flight", "Initial Velocity", "all", "z", "-100") + plane("wall", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  parts.materials = copper(key("Yield Stress", "400e6"));
+  parts.times = key("Final Time", "5e-6");
+  parts.verlet = key("Fixed dt", "5e-6");
+  expect_words(outcome(folder, parts).error, {"at t = 5e-06 s", "balance of energy", "Watch > Balance Error"});
 }
 
 // What a monitor tells of these balances, `error` being a part of the largest energy, one after the other; whether it
@@ -95,11 +96,10 @@ Told told_of(const std::vector<double>& gained, double kinetic = 1) {
   const RunFolder folder;
   Simulation run(folder, {});
   Told told;
-  Monitor monitor({}, 1, run.body(), [&](const std::string& line) { told.lines.push_back(line); });
+  const deck::Watch limits{.stops = true, .balance_error = 0.5};
+  Monitor monitor(limits, 1, run.body(), [&](const std::string& line) { told.lines.push_back(line); });
   const auto check = [&](double part, bool last) {
-    Ledger ledger{.kinetic = kinetic};
-    double largest = 1;
-    ledger.balance(1, 1 - part, largest);
+    const Ledger ledger{.kinetic = kinetic, .gained = part, .largest = 1, .balance_error = std::abs(part)};
     monitor.check_energy(ledger, last);
   };
   for (int n = 0; n < 10; ++n) check(0, false);
@@ -276,9 +276,7 @@ TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
   for (const double aside : {0.0, 0.5e-3}) {
     const Outcome o = outcome(folder, thrown(folder, contact_of({{"block_1", "block_2"}}, "1e-3", "1e12"), aside));
     EXPECT_EQ(o.error, "");
-    if (folder.world.rank() == 0) {
-      EXPECT_EQ(o.warnings(), 0) << o.said;
-    }
+    EXPECT_EQ(o.said.find("pass through"), std::string::npos) << o.said;  // coarse as it is, its balance is told of
   }
   Parts parts = thrown(folder, contact_of({{"block_1", "block_2"}}, "0.6e-3", "1e12"));
   folder.write("points.txt", cubes(1, {0, 0, 0}, 3, 3, 3, 1e-3) + cubes(2, {0.5e-3, 0.5e-3, 0.5e-3}, 3, 3, 3, 1e-3));

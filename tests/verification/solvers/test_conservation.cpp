@@ -58,7 +58,7 @@ TEST(Conservation, PlasticBlock) {
 }
 
 // Free elastic cubes whose own frequencies are not far below the highest. Steps that followed the frequency bound,
-// which follows the vibration, doubled the energy of such a cube in 14,000 steps at a tenth of this speed.
+// which follows the vibration, doubled the energy of such a cube in 14,000 steps at a fifth of this speed.
 struct Cube {
   const char* name;
   BlockMaterial material;
@@ -76,18 +76,18 @@ TEST_P(FreeCube, KeepsItsEnergyAtItsOwnStep) {
   CentralDifference solver(body, {}, {}, {}, 0);
   const Conservation outcome = run_free(solver, 3000 * 0.8 * solver.critical_time_step());
   EXPECT_GE(solver.steps(), 3000);
-  EXPECT_LT(solver.steps(), 3300);  // the step falls by some percent, once
-  EXPECT_LT(outcome.balance_error, 0.01) << GetParam().name;
+  EXPECT_LT(solver.steps(), 3300);                            // the step falls by some percent, once
+  EXPECT_LT(outcome.balance_error, 0.01) << GetParam().name;  // it swings with the strain, which is 0.01
 }
 
 const materials::AnyLaw stiff = elastic(117e9, 0.35);
 
 INSTANTIATE_TEST_SUITE_P(
     Of, FreeCube,
-    testing::Values(Cube{"mean gradient", {8930, stiff, MeanGradientStabilization{0.01}}, 100},
-                    Cube{"Silling", {8930, stiff, SillingStabilization{0.01}}, 100},
-                    Cube{"quadratic", {.density = 8930, .law = stiff, .formulation = Formulation::quadratic}, 100},
-                    Cube{"ordinary", {.density = 8930, .law = stiff, .formulation = Formulation::ordinary}, 100}),
+    testing::Values(Cube{"mean gradient", {8930, stiff, MeanGradientStabilization{0.01}}, 50},
+                    Cube{"Silling", {8930, stiff, SillingStabilization{0.01}}, 50},
+                    Cube{"quadratic", {.density = 8930, .law = stiff, .formulation = Formulation::quadratic}, 50},
+                    Cube{"ordinary", {.density = 8930, .law = stiff, .formulation = Formulation::ordinary}, 50}),
     [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 // A last step of any length is no loss: the energies at the end are those of steps as long as usual. What is left: the
