@@ -77,7 +77,8 @@ concept IsPrototype = requires(const T& prototype, std::vector<int> points, int 
   { prototype.on(points, place, body) } -> std::same_as<T>;
 };
 
-// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff. The
+// Stage::forces. It acts once a whole step, not in substeps: these are for stiff points, and a load is not stiff. Where
+// there are substeps, both are asked at several times of the step, for their mean. The
 // estimate of the critical time step does not know it: where it is stiff, the deck needs a smaller Safety Factor.
 //   add_forces  adds to the force density what it does at time t
 //   add_work    adds the work of these forces, once velocities are final; impulse_time is what they have acted for, the

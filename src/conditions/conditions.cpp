@@ -36,6 +36,14 @@ std::string Conditions::first_not_finite() const {
   return "";
 }
 
+bool depend_on_time(const Conditions& conditions, Stage stage) {
+  bool any = false;
+  conditions.visit([&](const auto& one) {
+    for (const Function& value : one.values_at_points()) any = any || (one.stage == stage && value.depends_on_time());
+  });
+  return any;
+}
+
 void add_forces(const Conditions& conditions, double t, Body& body) {
   conditions.visit([&]<class Type>(const Type& one) {
     if constexpr (Type::stage == Stage::forces) one.add_forces(t, body);

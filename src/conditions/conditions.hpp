@@ -33,6 +33,9 @@ class Conditions {
   std::vector<Function> expressions_;
 };
 
+// Whether any condition of a stage has a value that changes in time.
+bool depend_on_time(const Conditions& conditions, Stage stage);
+
 // Adds the forces of conditions at time t (s) to the force density.
 void add_forces(const Conditions& conditions, double t, Body& body);
 

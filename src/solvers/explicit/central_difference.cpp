@@ -34,6 +34,7 @@ constexpr double least_growth = 4.0 / 3;
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
                                      ToBeRestored)
     : body_(body), conditions_(std::move(conditions)), contact_(std::move(contact)), control_(control), time_(0) {
+  loads_change_ = depend_on_time(conditions_, Stage::forces);
   body_.time_levels.clear();
 }
 
@@ -130,7 +131,8 @@ void CentralDifference::advance_velocity(double final_time) {
   static Teuchos::Time& timer = phase("Motion and conditions");
   choose_step(final_time);
   const Timed timed(timer);
-  add_forces(conditions_, time_, body_);
+  choose_load_times(final_time);
+  add_loads();
   // Initial velocities are those of the initial time: the first impulse is of half a step.
   if (steps_ == 0) body_.velocity = predicted_velocities(conditions_, time_, dt_, body_);
   mid_steps_.before = previous_dt_ / (previous_dt_ + dt_);
@@ -138,6 +140,26 @@ void CentralDifference::advance_velocity(double final_time) {
   for_each_point(0, body_.owned(), [&](int i) { apply_force(i, impulse_time); });
   apply_conditions(impulse_time);
   if (steps_ == 0) initial_energy_ = 0, initial_energy_ = ledger().gained;
+}
+
+// Loads act once a step, by what they are at time(). With substeps a step is long, and loads that change in it act by
+// their mean over the time of the impulse, at as many times as there are substeps.
+void CentralDifference::choose_load_times(double final_time) {
+  const int count = steps_ > 0 && loads_change_ ? 1 << multi_stepping_.level_count() : 1;
+  load_times_.assign(1, time_);
+  if (count == 1) return;
+  const double begin = time_ - 0.5 * previous_dt_, end = std::min(time_ + 0.5 * dt_, final_time);
+  load_times_.clear();
+  for (int n = 0; n < count; ++n) load_times_.push_back(begin + (n + 0.5) / count * (end - begin));
+}
+
+void CentralDifference::add_loads() {
+  if (load_times_.size() == 1) return add_forces(conditions_, load_times_[0], body_);
+  std::vector<Vector> others(body_.owned(), Vector::Zero());
+  std::swap(others, body_.force_density);
+  for (const double t : load_times_) add_forces(conditions_, t, body_);
+  const double part = 1 / static_cast<double>(load_times_.size());
+  for_each_point(0, body_.owned(), [&](int i) { body_.force_density[i] = others[i] + part * body_.force_density[i]; });
 }
 
 void CentralDifference::apply_force(int i, double impulse_time) {
@@ -154,7 +176,8 @@ void CentralDifference::apply_conditions(double impulse_time) {
   steps.impulse = impulse_time / dt_;
   change_velocities(conditions_, time_, steps, body_, impulse_work_, impulses);
   take_reactions(impulses, impulse_time);
-  add_work_of_forces(conditions_, time_, impulse_time, body_, impulse_work_);
+  const double part = impulse_time / static_cast<double>(load_times_.size());
+  for (const double t : load_times_) add_work_of_forces(conditions_, t, part, body_, impulse_work_);
   add_work_of_friction(impulse_time);
   impulse_work_ = impulse_work_.split(mid_steps_);
   if (mid_steps_.before != 0.5) even_out();

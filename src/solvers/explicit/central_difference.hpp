@@ -76,6 +76,8 @@ class CentralDifference {
 
  private:
   contact::Kinematics kinematics() const;
+  void choose_load_times(double final_time);
+  void add_loads();
   void apply_force(int i, double impulse_time);
   void apply_conditions(double impulse_time);
   void even_out();
@@ -116,6 +118,8 @@ class CentralDifference {
   double bound_of_step_ = 0,
          step_of_bound_ = 0;  // 1/s, s: the bound that levels were chosen for, the step that this led to
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
+  bool loads_change_ = false;
+  std::vector<double> load_times_;  // s, at which loads are asked for the impulses at time()
   double initial_energy_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;

@@ -17,20 +17,32 @@ namespace {
 // body is round-off of its loading.
 constexpr double smallest_scale = 1e-4;
 
-// Of the stiffness, the force that the round-off of places leaves at a point. Measured: TODO.
-constexpr double few = 16;
+// Of the forces that round-off leaves: what moves a little has others than what rests.
+constexpr double few = 4;
 
-// N, of all points: the forces of strains that are the round-off of places, ε |X|/h.
-double round_off_of_forces(const Body& body) {
+// Of the forces by the round-off of places, those of a body at rest, where terms that cancel are larger: with quadratic
+// correspondence some 200 times. What is more is no round-off: a body that is handed over strained.
+constexpr double most_cancelled = 1e4;
+
+// N, of all points: places are off by ε |X|, and forces by the stiffness of their points, ω² m, times that.
+double round_off_of_places(const Body& body) {
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
-      const double side = std::cbrt(body.domain.volume(i)), place = body.domain.reference(i).cwiseAbs().maxCoeff();
-      sum += std::pow(block.moduli(k).longitudinal() * side * std::max(place, side), 2);
+      const double omega = frequency_bound(body, block, static_cast<int>(k));
+      sum += std::pow(omega * omega * body.mass(i) * body.domain.reference(i).cwiseAbs().maxCoeff(), 2);
     }
   }
-  return few * std::numeric_limits<double>::epsilon() * std::sqrt(body.domain.communicator.sum(sum));
+  return std::numeric_limits<double>::epsilon() * std::sqrt(body.domain.communicator.sum(sum));
+}
+
+// N, of all points: what is left of the forces of a body at rest.
+double forces_at_rest(Body& body) {
+  advance_by_any_step(body, 1, false);  // of any length: laws in rates see nothing in none
+  double sum = 0;
+  for (int i = 0; i < body.owned(); ++i) sum += (body.domain.volume(i) * body.force_density[i]).squaredNorm();
+  return std::sqrt(body.domain.communicator.sum(sum));
 }
 
 }  // namespace
@@ -45,7 +57,9 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
   residual_.assign(body.owned(), Vector::Zero());
   outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
-  round_off_ = round_off_of_forces(body);
+  const double of_places = round_off_of_places(body);
+  round_off_ = few * std::clamp(forces_at_rest(body), of_places, most_cancelled * of_places);
+  committed_.restore(body);
   looked_at_.resize(body.owned());
   for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
 }
