@@ -33,13 +33,13 @@ void Couples::bring_to_present(const Kinematics& kinematics) {
   domain.halo.exchange(reinterpret_cast<double*>(motions_.data()), 6, 6);
 }
 
-Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i) const {
+Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i, double arm) const {
   const Domain& domain = kinematics.domain;
   const Vector here = domain.current(i);
   PatchSums sums;
   sums.add(domain.volume(i), Vector::Zero());
   domain.families.for_each(i, [&](int j) { sums.add(domain.volume(j), place(domain, j) - here); });
-  Neighborhood around{sums.patch()};
+  Neighborhood around{sums.patch(arm)};
   const Vector middle = around.patch.middle;
   Vector turning = -domain.volume(i) * middle.cross(kinematics.velocities[i]);
   domain.families.for_each(i, [&](int j) {

@@ -23,7 +23,7 @@ class Couples {
   };
   // Collective: what ghosts are doing now. After that `of` answers for owned points.
   void bring_to_present(const Kinematics& kinematics);
-  Neighborhood of(const Kinematics& kinematics, int i) const;
+  Neighborhood of(const Kinematics& kinematics, int i, double arm) const;  // `arm`: as PatchSums has it
 
   // Collective. Adds forces that are couples[k] (N m) on the neighborhood of points[k]. Each point sums its own, in the
   // order of its family: the same on any number of ranks.

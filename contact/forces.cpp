@@ -69,10 +69,12 @@ struct Slider {
   Vector spin = Vector::Zero();  // of its neighborhood, 1/s
   Vector push = Vector::Zero();  // the sum of its normal forces, N
   double mobility = 0;           // velocity that its contacts give it by a unit of impulse each, 1/kg
+  double turning = 0;            // the same beside it, by turning its neighborhood, over arm², 1/(kg m²)
   double turns = 0;              // 1: its neighborhood can take up couples
 
   // Of the body at a place so far from the point, m.
   Vector velocity_at(const Vector& arm) const { return velocity + spin.cross(arm); }
+  double mobility_at(const Vector& arm) const { return mobility + turning * arm.squaredNorm(); }
 };
 constexpr int slider_width = sizeof(Slider) / sizeof(double);
 
@@ -89,11 +91,10 @@ std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto&
     });
     slider.mobility = contacts / pairs.masses[k];
     if (contacts == 0) continue;
-    neighborhoods[k] = couples.of(kinematics, pairs.owned[k]);
+    neighborhoods[k] = couples.of(kinematics, pairs.owned[k], 0.5 * law.radius);
     const Patch& patch = neighborhoods[k].patch;
     if (!patch.turns) continue;
-    // A neighborhood is turned by all its points that touch.
-    slider.mobility *= 1 + 0.25 * law.radius * law.radius * patch.weight / patch.smallest;
+    slider.turning = slider.mobility * patch.weight / patch.smallest;  // by all of its points
     slider.spin = neighborhoods[k].spin;
     slider.turns = 1;
   }
@@ -155,7 +156,8 @@ Friction friction_forces(const Kinematics& kinematics, const L& law, double coef
       const Vector way = touch.distance * touch.direction, arm = place_of_friction(here, there) * way,
                    other_arm = -place_of_friction(there, here) * way;
       const Vector velocity = there.velocity_at(other_arm) - here.velocity_at(arm);
-      const Vector force = friction_force(coefficient, load, velocity, normal, here.mobility + there.mobility, dt);
+      const Vector force =
+          friction_force(coefficient, load, velocity, normal, here.mobility_at(arm) + there.mobility_at(other_arm), dt);
       friction.forces[k] += force;
       friction.couples[k] += arm.cross(force);
     });

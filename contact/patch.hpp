@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "base/math/tensors.hpp"
 
@@ -16,7 +17,7 @@ struct Patch {
   Tensor per_couple = Tensor::Zero();  // θ of a couple: points feel it as the forces weight θ × (place − middle)
   double smallest = 0;                 // moment of its points about any axis, weight m²
   bool turns = false;                  // about any axis: its points are not in one row
-  Vector row = Vector::Zero();         // of unit length along the row; zero where the patch turns, or is one point
+  Vector row = Vector::Zero();  // of unit length along the row; zero where the patch turns, or is as good as one point
 };
 
 // What its points add up to; places are seen from one near them, m.
@@ -28,22 +29,27 @@ class PatchSums {
     second_ += weight * place * place.transpose();
   }
 
-  Patch patch() const {
-    constexpr double thin = 0.01;  // of the moment across a row: less is a row
+  Vector middle() const { return first_ / weight_; }  // of some weight
+
+  // `arm`: how far from the middle friction acts, m. About an axis with a moment so small beside it that a force there
+  // would meet next to no inertia, the patch does not turn.
+  Patch patch(double arm) const {
+    constexpr double most = 10;  // arm² in moments over weight: what is then felt there is as heavy as a point or more
     Patch patch;
     if (!(weight_ > 0)) return patch;
     patch.weight = weight_;
-    patch.middle = first_ / weight_;
+    patch.middle = middle();
     const Tensor spread = second_ - weight_ * patch.middle * patch.middle.transpose();
     const Eigen::SelfAdjointEigenSolver<Tensor> axes(spread);
-    const Vector along = axes.eigenvalues().cwiseMax(0);
-    if (!(along[2] > 1e-9 * second_.trace())) return patch;
-    patch.smallest = along[0] + along[1];
-    patch.turns = patch.smallest > thin * along[2];
+    const Vector along = axes.eigenvalues().cwiseMax(0), moments = Vector::Constant(along.sum()) - along;
+    const double least = std::max(weight_ * arm * arm / most, 1e-9 * second_.trace());
+    if (!(moments[1] > least)) return patch;
+    patch.smallest = moments[2];
+    patch.turns = patch.smallest > least;
     if (!patch.turns) patch.row = axes.eigenvectors().col(2);
     for (int c = 0; c < (patch.turns ? 3 : 2); ++c) {
       const Vector axis = axes.eigenvectors().col(c);
-      patch.per_couple += axis * axis.transpose() / (along.sum() - along[c]);
+      patch.per_couple += axis * axis.transpose() / moments[c];
     }
     return patch;
   }

@@ -317,7 +317,7 @@ Patch Surfaces::felt_patch(const Pairs& pairs, std::size_t k) const {
   over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
     sums.add(pairs.sites[partner].volume() * Smoothing(reach).value(distance2), eta);
   });
-  return sums.patch();
+  return sums.patch(sums.middle().norm());
 }
 
 void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,

@@ -141,12 +141,13 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
     const std::vector<std::string>& names = body_.domain.cloud.block_names;
     text << at(time);
     if (found->first == found->second) {
-      text << "block " << names[found->first] << " passes through itself";
+      text << "block " << names[found->first]
+           << " passes through itself, for the deck declares no contact of it with itself: ";
     } else {
-      text << "blocks " << names[found->first] << " and " << names[found->second] << " pass through each other";
+      text << "blocks " << names[found->first] << " and " << names[found->second]
+           << " pass through each other, for the deck declares no contact between them: ";
     }
-    text << ", for the deck declares no contact between them: " << found->points
-         << " points are inside of material that was elsewhere: " << locate(body_, found->point)
+    text << found->points << " points are inside of material that was elsewhere: " << locate(body_, found->point)
          << ". Expected: Contact > Interactions > 'Self Contact' for bodies that fold, 'General Contact' for bodies "
             "that meet";
   }

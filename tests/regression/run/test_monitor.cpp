@@ -209,7 +209,7 @@ TEST(Monitor, BodyThatFoldsThroughItselfIsToldOf) {
   parts.conditions =
       along("up", "Initial Velocity", "lower", "z", "400") + along("down", "Initial Velocity", "upper", "z", "-400");
   parts.times = key("Final Time", "30e-6");
-  const std::string words = "block block_1 passes through itself, for the deck declares no contact";
+  const std::string words = "block block_1 passes through itself, for the deck declares no contact of it with itself";
   const Outcome folds = outcome(folder, parts);
   EXPECT_EQ(folds.error, "");
   parts.contact = section("Models", section("m", key("Contact Model", "Surface"))) +

@@ -113,6 +113,27 @@ class Scene {
     return world_.sum(power);
   }
 
+  // The largest difference of the friction of a trial that sticks, all along `ways`, from what the tangent makes of
+  // them, and the largest friction, N.
+  std::pair<double, double> sticking(double size) {
+    std::vector<Vector> ways(domain_.owned), friction, with(domain_.owned, Vector::Zero()), without = with,
+                                                                                            forces = with;
+    for (int i = 0; i < domain_.owned; ++i) {
+      const double x = static_cast<double>(domain_.id(i));
+      ways[i] = size * Vector(std::sin(x), std::cos(3 * x), std::sin(7 * x));
+    }
+    surfaces_->add_stiffness(pairs_, ways, without);
+    surfaces_->add_friction({.of = ways, .is_trial = true}, law_, 1e3, pairs_, forces, friction);
+    surfaces_->add_stiffness(pairs_, ways, with);
+    double largest = 0, difference = 0;
+    for (int i = 0; i < domain_.owned; ++i) {
+      const Vector force = forces[i] * domain_.volume(i);
+      largest = std::max(largest, force.norm());
+      difference = std::max(difference, (force + with[i] - without[i]).norm());
+    }
+    return {world_.max(difference), world_.max(largest)};
+  }
+
   // What the tangent makes of the second body's motion by a unit vector, along it, N/m.
   double stiffness(const Vector& along) {
     std::vector<Vector> field(domain_.owned, Vector::Zero()), result = field;
@@ -268,6 +289,18 @@ TEST(Surfaces, FrictionTurnsNothing) {
     EXPECT_LT(power, 0);
     EXPECT_LT((scene.force(0) + scene.force(1)).norm(), 1e3 * epsilon * force);  // of some hundred points
     EXPECT_LT(scene.torque().norm(), 1e4 * epsilon * force * 18 * h) << lower.ny << " " << lower.nz;
+  }
+}
+
+// Friction that sticks is linear in the ways of points: its tangent is the force of equilibria, for blocks and for what
+// takes no couple.
+TEST(Surfaces, TangentOfStickingFrictionIsItsForce) {
+  for (const Box& lower : {Box{18, 18, 4}, Box{18, 1, 1}}) {
+    Scene scene({points_of(lower), points_of({6, 6, 4})});
+    scene.place(Vector(0.3 * h, -0.2 * h, -0.05 * h), turned(3, Vector(1, 2, 3)));
+    const auto [difference, largest] = scene.sticking(1e-5 * h);
+    EXPECT_GT(largest, 0);
+    EXPECT_LT(difference, 1e3 * epsilon * largest * 1e2) << "of normal forces' tangent, a hundred times as stiff";
   }
 }
 

@@ -20,9 +20,10 @@ struct Cell {
 using Cells = std::vector<Cell>;
 
 // By the program; every rank brings its share.
-double thickness(const Cells& cells) {
+double thickness(const Cells& cells, PointsAt at = PointsAt::elements) {
   const Communicator world;
   PointCloud cloud;
+  cloud.at = at;
   cloud.block_names = {"all"};
   double largest = 0;
   for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -76,6 +77,24 @@ TEST(Thickness, OfPlatesAndBarsInAnyDirection) {
     const double found = thickness(cells), expected = exact(a, b, c);
     EXPECT_NEAR(found, expected, of_steps * expected) << a << " " << b << " " << c;
     EXPECT_NEAR(thickness(turned(cells)), found, 1e-9 * found) << "round-off";
+  }
+}
+
+// Nodes, of which those on a face have half a volume, an edge a quarter.
+Cells nodes_of_box(const std::array<int, 3>& n) {
+  Cells nodes;
+  for (Cell node : box(n[0] + 1, n[1] + 1, n[2] + 1)) {
+    for (int c = 0; c < 3; ++c) node.volume *= std::abs(node.middle[c]) > 0.5 * n[c] - 0.25 ? 0.5 : 1;
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+TEST(Thickness, OfNodes) {
+  for (const auto& n : {std::array{40, 40, 2}, {40, 40, 4}, {2, 2, 40}, {4, 4, 40}, {12, 12, 40}}) {
+    const double expected = exact(n[0], n[1], n[2]);
+    EXPECT_NEAR(thickness(turned(nodes_of_box(n)), PointsAt::nodes), expected, of_steps * expected)
+        << n[0] << " " << n[2];
   }
 }
 
