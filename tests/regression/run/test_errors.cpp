@@ -164,7 +164,7 @@ TEST_F(Mistake, NamesOfTheMeshThatMeanTwoThings) {
                {"History > Variables > Max_Displacement(plate): 'plate' is a node set and a block"});
   expect_error(
       with("all", {0, 1, 2}),
-      {"Discretization > Input Mesh File: its node set 'all' holds 2 of 96 points, and in a deck 'all' means all"});
+      {"Discretization > Input Mesh File: its node set 'all' holds 3 of 96 points, and in a deck 'all' means all"});
   EXPECT_EQ(outcome(with("all", {})).value_or("no error"), "no error") << "it is all";
 }
 
