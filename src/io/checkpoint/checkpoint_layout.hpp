@@ -10,7 +10,7 @@
 namespace strut::io::checkpoint_layout {
 
 // Of the layout below: raise it with every change of what the file holds.
-constexpr int version = 4;
+constexpr int version = 5;
 constexpr const char* mark = "strut_restart";
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }
