@@ -1,5 +1,7 @@
 #include "run/input.hpp"
 
+#include <sstream>
+
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/portions.hpp"
@@ -32,11 +34,21 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
 
 }  // namespace
 
-void check_not_to_resume(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
-  if (!deck.restart.resumes || !checkpoint_exists(deck, communicator)) return;
-  problems.add("Restart > Restart", "'true' asks to go on from a checkpoint, and there is one, " +
-                                        deck.restart.file.string() + ": expected 'strut --continue " +
-                                        deck.file.string() + "', or 'false' to begin anew and replace it");
+void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, deck::Problems& problems) {
+  if (!deck.restart.resumes) return;
+  const std::string file = deck.restart.file.string(), key = "Restart > Restart";
+  if (is_there && begins_anew) {
+    problems.add(key, "'true' asks to go on from a checkpoint, and there is one, " + file +
+                          ": expected 'strut --continue " + deck.file.string() +
+                          "', or 'false' to begin anew and replace it");
+  }
+  if (is_there || deck.solver.initial_time == 0) return;
+  std::ostringstream text;
+  text << "'true' asks to go on from a checkpoint at t = " << deck.solver.initial_time
+       << " s (Solver > Initial Time), but there is none, " << file
+       << ": expected the deck of the first part with a later Final Time, and 'strut --continue' with that; or 'false' "
+          "to begin then with bodies that are undeformed";
+  problems.add(key, text.str());
 }
 
 PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator) {

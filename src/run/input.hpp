@@ -14,7 +14,9 @@ class Communicator;
 // deck has already, those of the mesh, of the names of output variables, and of files that cannot be replaced.
 PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator);
 
-// Collective. A deck that itself asks to resume is not to begin anew and replace the checkpoint without a word.
-void check_not_to_resume(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems);
+// A deck that itself asks to resume (Peridigm's Restart) does not begin anew without a word where there is a
+// checkpoint, which it would replace, nor where there is none and it is of a later part of a run. `is_there`: the
+// checkpoint.
+void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, deck::Problems& problems);
 
 }  // namespace strut

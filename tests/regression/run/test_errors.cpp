@@ -263,6 +263,23 @@ TEST_F(Mistake, CheckFindsWhatARunWouldFind) {
   expect_error(deck, {"2 problems", "cannot be the name of a history column", "is no checkpoint of strut"});
 }
 
+// Peridigm's second part of a run. The first part has the same key, and no checkpoint before it.
+TEST_F(Mistake, ADeckThatGoesOnFromACheckpointThatIsNotThere) {
+  const auto with = [](const std::string& initial_time) {
+    Parts parts = right_parts();
+    parts.times = key("Initial Time", initial_time) + key("Final Time", "1.5e-2");
+    parts.verlet = key("Fixed dt", "1e-8");
+    return changed(parts.text(), "<ParameterList name=\"Solver\">",
+                   section("Restart", key("Filename", "@/none.restart") + key("Restart", "true")) +
+                       "<ParameterList name=\"Solver\">");
+  };
+  expect_error(with("1e-2"),
+               {"Restart > Restart: 'true' asks to go on from a checkpoint at t = 0.01 s (Solver > Initial "
+                "Time), but there is none",
+                "'strut --continue'"});
+  EXPECT_EQ(outcome(changed(with("0"), "1.5e-2", "1e-7")).value_or("no error"), "no error");
+}
+
 // A slip in a section does not hide those that only the mesh shows.
 TEST_F(Mistake, ProblemsOfDeckMeshAndOutputAreToldAtOnce) {
   Parts parts = right_parts();
