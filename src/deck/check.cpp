@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "deck/convert.hpp"
+#include "deck/numbers.hpp"
 
 namespace strut::deck {
 
@@ -78,7 +79,17 @@ class Checker {
 
   void read_any_keys() {
     if (!section_.any_key) return;
-    for (const Parameter& parameter : list_.parameters) set(*section_.any_key, parameter, true);
+    for (const Parameter& parameter : list_.parameters) {
+      check_given_name(parameter.name);
+      set(*section_.any_key, parameter, true);
+    }
+  }
+
+  // Who refers to it has no blanks around the name.
+  void check_given_name(const std::string& name) {
+    if (!name.empty() && trimmed(name) == name) return;
+    problems_.add(path_to(path_, "'" + name + "'"), name.empty() ? "a section without a name; expected one"
+                                                                 : "blanks around a name; expected none");
   }
 
   void read_sections(const Section& parent) {
@@ -99,7 +110,10 @@ class Checker {
   }
 
   void read_any_sections(const Section& section) {
-    for (const List& list : list_.lists) values_.add(check(list, section, path_to(path_, list.name), problems_), true);
+    for (const List& list : list_.lists) {
+      check_given_name(list.name);
+      values_.add(check(list, section, path_to(path_, list.name), problems_), true);
+    }
     if (section.required && list_.lists.empty()) {
       problems_.add(path_, "empty; expected at least one section, named as you like");
     }

@@ -179,10 +179,10 @@ std::string told(const PointCloud& cloud, const Pair& pair, std::int64_t count) 
 std::string coincident_points(const PointCloud& cloud, const Communicator& communicator,
                               const std::function<bool(int, int)>& allowed) {
   std::vector<Record> points = records_of(cloud);
-  double edges = 0;
-  for (const Record& one : points) edges += one.edge;
-  const double all = static_cast<double>(communicator.sum(static_cast<std::int64_t>(points.size())));
-  const Cells cells(communicator.sum(edges) / std::max(1.0, all));
+  double logarithms = 0;  // a few points as large as the whole body do not make all others one cell
+  for (const Record& one : points) logarithms += std::log(one.edge);
+  const auto all = communicator.sum(static_cast<std::int64_t>(points.size()));
+  const Cells cells(std::exp(communicator.sum(logarithms) / static_cast<double>(std::max<std::int64_t>(1, all))));
   if (communicator.size() > 1) points = sent_to_owners(points, cells, communicator);
   const Found found = found_on_this_rank(points, cells, communicator, allowed);
   const std::int64_t count = communicator.sum(found.points);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
 #include "io/netcdf/trial_read.hpp"
 #include "mechanics/fracture/fracture.hpp"
@@ -113,7 +114,7 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   deck::Problems problems;
   const deck::Deck deck = deck::read(deck_file, communicator, problems);
   io::set_trial_reads(deck.discretization.trial_reads);
-  check_new_run(deck, communicator, problems);
+  check_resumption(deck, checkpoint_exists(deck, communicator), true, problems);
   Scene scene = set_up(deck, checked_mesh(deck, problems, communicator), communicator);
   const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);
   const std::string scene_text = describe_scene(scene);

@@ -1,5 +1,7 @@
 #include "run/input.hpp"
 
+#include <sstream>
+
 #include "base/errors.hpp"
 #include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
@@ -27,19 +29,28 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
   if (deck.history.enabled) attempt("History > Filename", [&] { io::check_not_held(deck.history.file); });
   if (!deck.restart.enabled) return;
   attempt("Restart > Filename", [&] { io::check_not_held(lock_of(deck.restart.file)); });
+  if (std::filesystem::exists(before_of(deck.restart.file))) return;  // a damaged one is no obstacle to going on
+  const std::string why = obstacle(deck.restart.file, FileKind::checkpoint);
+  if (!why.empty() && !problems.about("Restart > Filename")) problems.add("Restart > Filename", why);
 }
 
 }  // namespace
 
-void check_new_run(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
-  if (deck.restart.enabled && communicator.rank() == 0) {
-    const std::string why = obstacle(deck.restart.file, FileKind::checkpoint);
-    if (!why.empty()) problems.add("Restart > Filename", why);
+void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, deck::Problems& problems) {
+  if (!deck.restart.resumes) return;
+  const std::string file = deck.restart.file.string(), key = "Restart > Restart";
+  if (is_there && begins_anew) {
+    problems.add(key, "'true' asks to go on from a checkpoint, and there is one, " + file +
+                          ": expected 'strut --continue " + deck.file.string() +
+                          "', or 'false' to begin anew and replace it");
   }
-  if (!deck.restart.resumes || !checkpoint_exists(deck, communicator)) return;
-  problems.add("Restart > Restart", "'true' asks to go on from a checkpoint, and there is one, " +
-                                        deck.restart.file.string() + ": expected 'strut --continue " +
-                                        deck.file.string() + "', or 'false' to begin anew and replace it");
+  if (is_there || deck.solver.initial_time == 0) return;
+  std::ostringstream text;
+  text << "'true' asks to go on from a checkpoint at t = " << deck.solver.initial_time
+       << " s (Solver > Initial Time), but there is none, " << file
+       << ": expected the deck of the first part with a later Final Time, and 'strut --continue' with that; or 'false' "
+          "to begin then with bodies that are undeformed";
+  problems.add(key, text.str());
 }
 
 PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator) {

@@ -14,8 +14,9 @@ class Communicator;
 // deck has already, those of the mesh, of the names of output variables, and of files that cannot be replaced.
 PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator);
 
-// Collective. What speaks against a run from the beginning: what stands in the place of the checkpoint is none, or the
-// deck itself asks to resume. Adds what rank 0 alone sees there, which checked_mesh() tells all.
-void check_new_run(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems);
+// A deck that itself asks to resume (Peridigm's Restart) does not begin anew without a word where there is a
+// checkpoint, which it would replace, nor where there is none and it is of a later part of a run. `is_there`: the
+// checkpoint.
+void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, deck::Problems& problems);
 
 }  // namespace strut

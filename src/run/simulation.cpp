@@ -133,6 +133,17 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
   return over;
 }
 
+// Whether the run can go on from it, or begin without it, is found before the mesh is read.
+void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator& communicator,
+                        deck::Problems& problems) {
+  const bool is_there = checkpoint_exists(deck, communicator);
+  check_resumption(deck, is_there, start == Start::anew, problems);
+  if (!problems.empty()) return;
+  if (is_there && start == Start::continued) check_changes(deck, communicator);
+  if (!is_there && (start == Start::continued || deck.restart.resumes))
+    say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
+}
+
 }  // namespace
 
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
@@ -144,15 +155,12 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   const deck::Deck deck = deck::read(deck_file, communicator, problems);
   io::set_trial_reads(deck.discretization.trial_reads);
   const EarlyEnd early_end(began, deck.solver.wall_time);
-  const bool goes_on = start == Start::continued && checkpoint_exists(deck, communicator);
-  if (goes_on && problems.empty()) check_changes(deck, communicator);
-  if (start == Start::anew) check_new_run(deck, communicator, problems);
-  if (start == Start::continued && !goes_on && problems.empty() && is_over(deck, communicator)) {
+  if (start == Start::continued && problems.empty() && !checkpoint_exists(deck, communicator) &&
+      is_over(deck, communicator)) {
     say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
     return true;
   }
-  if (start == Start::continued && !goes_on)
-    say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
+  look_at_checkpoint(deck, start, communicator, problems);
   std::optional<Scene> parts = set_up(deck, checked_mesh(deck, std::move(problems), communicator), communicator);
   Scene& scene = *parts;  // which stays there, also where another takes its place
   say(communicator, describe_scene(scene));

@@ -1,5 +1,7 @@
 #include "setup/setup.hpp"
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "deck/problems.hpp"
@@ -68,7 +70,10 @@ Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& commun
 }
 
 PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
-  if (problems.about("Discretization")) return {};
+  const auto is_of_mesh = [](const std::string& line) {
+    return line.starts_with("Discretization") && !line.starts_with("Discretization > Bond Filters");
+  };
+  if (std::any_of(problems.lines().begin(), problems.lines().end(), is_of_mesh)) return {};
   PointCloud cloud;
   try {
     cloud = read_mesh(deck, communicator);

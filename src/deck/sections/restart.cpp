@@ -23,10 +23,12 @@ const RealKey minutes({.name = "Minutes",
                        .fallback = "30",
                        .meaning = "And every so many minutes of computing."});
 
-const BooleanKey resumes({.name = "Restart",
-                          .fallback = "false",
-                          .meaning = "Peridigm's. True: where there is a checkpoint already, a run that would begin "
-                                     "anew and replace it is refused; `strut --continue deck.xml` goes on from it."});
+const BooleanKey resumes(
+    {.name = "Restart",
+     .fallback = "false",
+     .meaning = "Peridigm's. True: where there is a checkpoint already, a run that would begin "
+                "anew and replace it is refused (`strut --continue deck.xml` goes on from it), and "
+                "so is one without a checkpoint whose Initial Time is not 0."});
 
 }  // namespace
 

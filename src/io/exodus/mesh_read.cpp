@@ -59,15 +59,20 @@ std::optional<int> attribute_of(const ExodusFile::Block& block, const std::strin
   return std::nullopt;
 }
 
-// Where the attributes of cells are. None where not all of them are there: other codes have attributes of their own.
-std::vector<int> cell_columns(const ExodusFile::Block& block) {
+// Where the attributes of cells are. None where not all of them are there: other codes have attributes of their own,
+// but no moments. `missing`: the first that is not there, of a block that has some moments.
+std::vector<int> cell_columns(const ExodusFile::Block& block, std::string& missing) {
   std::vector<int> columns;
-  for (const char* name : partial_cell_attributes) {
+  bool has_moments = false;
+  for (const std::string name : partial_cell_attributes) {
     const auto found = std::find(block.attributes.begin(), block.attributes.end(), name);
-    if (found == block.attributes.end()) return {};
-    columns.push_back(static_cast<int>(found - block.attributes.begin()));
+    const bool is_there = found != block.attributes.end();
+    if (is_there) columns.push_back(static_cast<int>(found - block.attributes.begin()));
+    if (!is_there && missing.empty()) missing = name;
+    has_moments = has_moments || (is_there && name.find("moment_") != std::string::npos);
   }
-  return columns;
+  if (!has_moments) missing.clear();
+  return columns.size() == partial_cell_attributes.size() ? columns : std::vector<int>();
 }
 
 }  // namespace
@@ -112,7 +117,12 @@ void MeshFile::take_blocks() {
       fail("block '" + name + "': element type " + block.type + " with " + std::to_string(block.nodes_per_element) +
            " nodes is not supported, expected HEX8, TET4 or SPHERE");
     }
-    cell_columns_.push_back(type == "HEX8" ? cell_columns(block) : std::vector<int>());
+    std::string missing;
+    cell_columns_.push_back(type == "HEX8" ? cell_columns(block, missing) : std::vector<int>());
+    if (!missing.empty()) {
+      fail("block '" + name + "' has attributes of partly filled elements, but not '" + missing + "'; expected all " +
+           std::to_string(partial_cell_attributes.size()) + ", or none");
+    }
     layout_.blocks.push_back({name, type.empty() ? "SPHERE" : type, block.elements, !cell_columns_.back().empty()});
   }
 }

@@ -164,7 +164,7 @@ TEST_F(Mistake, NamesOfTheMeshThatMeanTwoThings) {
                {"History > Variables > Max_Displacement(plate): 'plate' is a node set and a block"});
   expect_error(
       with("all", {0, 1, 2}),
-      {"Discretization > Input Mesh File: its node set 'all' holds 2 of 96 points, and in a deck 'all' means all"});
+      {"Discretization > Input Mesh File: its node set 'all' holds 3 of 96 points, and in a deck 'all' means all"});
   EXPECT_EQ(outcome(with("all", {})).value_or("no error"), "no error") << "it is all";
 }
 
@@ -261,6 +261,23 @@ TEST_F(Mistake, CheckFindsWhatARunWouldFind) {
   for (const char* part : {"2 problems", "cannot be the name of a history column", "is no checkpoint of strut"})
     EXPECT_NE(told.find(part), std::string::npos) << part << " in:\n" << told;
   expect_error(deck, {"2 problems", "cannot be the name of a history column", "is no checkpoint of strut"});
+}
+
+// Peridigm's second part of a run. The first part has the same key, and no checkpoint before it.
+TEST_F(Mistake, ADeckThatGoesOnFromACheckpointThatIsNotThere) {
+  const auto with = [](const std::string& initial_time) {
+    Parts parts = right_parts();
+    parts.times = key("Initial Time", initial_time) + key("Final Time", "1.5e-2");
+    parts.verlet = key("Fixed dt", "1e-8");
+    return changed(parts.text(), "<ParameterList name=\"Solver\">",
+                   section("Restart", key("Filename", "@/none.restart") + key("Restart", "true")) +
+                       "<ParameterList name=\"Solver\">");
+  };
+  expect_error(with("1e-2"),
+               {"Restart > Restart: 'true' asks to go on from a checkpoint at t = 0.01 s (Solver > Initial "
+                "Time), but there is none",
+                "'strut --continue'"});
+  EXPECT_EQ(outcome(changed(with("0"), "1.5e-2", "1e-7")).value_or("no error"), "no error");
 }
 
 // A slip in a section does not hide those that only the mesh shows.

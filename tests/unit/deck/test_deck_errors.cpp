@@ -108,6 +108,10 @@ INSTANTIATE_TEST_SUITE_P(Values, OneProblem, testing::ValuesIn(values), name_of)
 // ---- Names: unknown, missing, twice --------------------------------------------------------------------------------
 
 const std::vector<Case> names = {
+    {"SectionWithoutAName", R"(<ParameterList name="pull">)", R"(<ParameterList name="">)",
+     "Boundary Conditions > '': a section without a name; expected one"},
+    {"BlanksAroundTheNameOfASet", R"(name="low" type)", R"(name=" low" type)",
+     "Node Sets > ' low': blanks around a name; expected none"},
     {"UnknownKey", R"("Block Names" type="string" value="block_2"/>)",
      R"("Block Names" type="string" value="block_2"/> <Parameter name="Horizn" type="double" value="1"/>)",
      "Blocks > plate > Horizn: unknown key (did you mean 'Horizon'?)"},

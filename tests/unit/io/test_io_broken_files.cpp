@@ -264,6 +264,19 @@ TEST_F(BrokenFile, AttributesOfSpheresAreReadByTheirNames) {
       << text;
 }
 
+// Whole hexahedra would be another body.
+TEST_F(BrokenFile, PartlyFilledElementsWithoutOneOfTheirAttributes) {
+  std::vector<std::string> names(partial_cell_attributes.begin(), partial_cell_attributes.end());
+  names.erase(names.begin() + 7);
+  run_on_root(world, [&] {
+    const ExodusFile file = ExodusFile::create(folder / "cells.g");
+    file.put_sizes("", {3, 8, 1, 1, 0});
+    file.put_blocks({{1, "foam", "HEX8", 1, 8, names}});
+    file.put_coordinates({std::vector<double>(8), std::vector<double>(8), std::vector<double>(8)});
+  });
+  expect_error(world, folder / "cells.g", "block 'foam' has attributes of partly filled elements, but not 'moment_xy'");
+}
+
 TEST_F(BrokenFile, UnknownElementType) {
   run_on_root(world, [&] {
     const ExodusFile file = ExodusFile::create(folder / "pyramid.g");

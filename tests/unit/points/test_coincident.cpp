@@ -90,6 +90,14 @@ TEST(Coincident, SizesMayDiffer) {
       << spread.found();
 }
 
+// One point that is as large as a planet, or cells of the mean size would have all others in one of them.
+TEST(Coincident, OneHugePointCostsNoTime) {
+  Spread spread;
+  add_lattice(spread, 40, 1e-3);
+  spread.add(Vector(-1, -1, -1), 1e7);
+  EXPECT_EQ(spread.found(), "");
+}
+
 TEST(Coincident, NoPointsAtAll) { EXPECT_EQ(Spread().found(), ""); }
 
 }  // namespace
