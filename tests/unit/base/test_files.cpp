@@ -75,6 +75,7 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
           << content << " and " << static_cast<int>(other);
     }
   }
+  EXPECT_EQ(obstacle(write("file", std::string("CDF\2") + "api_version"), FileKind::result), "") << "as it is begun";
   for (const std::string content : {"shape = box\n", "\x89HDF\r\n", "<ParameterList/>", "CDF", "Time,x\n0,1\n"}) {
     const fs::path file = write("file", content);
     for (const auto& [kind, unused] : kinds) EXPECT_NE(obstacle(file, kind), "") << content;
