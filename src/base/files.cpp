@@ -122,8 +122,9 @@ std::string obstacle(const fs::path& file, FileKind kind) {
   if (there && !regular && !takes_lines) return name + " is a folder or a device; expected a file that may be replaced";
   if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;
   if (!regular || is_of_kind(file, kind)) return "";
-  return name + " is there and is no " + known(kind).name +
-         ", which would replace it; expected another name, or that it is removed";
+  const bool hdf5 = head_of(file).starts_with("\x89HDF");
+  return name + " is there" + (hdf5 ? ", in the format netCDF-4 (was it converted?)," : "") + " and is no " +
+         known(kind).name + ", which would replace it; expected another name, or that it is removed";
 }
 
 fs::path before_of(const fs::path& checkpoint) { return checkpoint.string() + ".old"; }
