@@ -145,6 +145,18 @@ sleep 0.5
 kill -TERM "$(cat pid)" || fail "nohup: SIGHUP has ended the run"
 wait "$(cat pid)"
 
+# Who reads what the run says goes after the first line: the run goes on, and ends as it would.
+rm -f history.csv
+mkfifo said
+head -n 1 < said > /dev/null &
+"$strut" deck.xml > said 2> log &
+echo $! > pid
+wait_for_lines "a reader that goes"
+kill -TERM "$(cat pid)" || fail "a reader that goes: the run has ended"
+wait "$(cat pid)"
+status=$?
+[ $status -eq 3 ] || fail "a reader that goes: exit status $status, expected 3"
+
 # mpirun has the status of its ranks. Where Open MPI's is told to end itself, it kills, after a second, ranks that may
 # still write, and SIGUSR1 it hands on; MPICH's hands all three on and waits, and now and then ends with 0 then.
 told_to_end="3 0" handed_on="3 0"
