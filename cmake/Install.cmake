@@ -13,6 +13,6 @@ install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY tools DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/(prepare|test|packages(-[a-z]+)?)$" EXCLUDE)
 install(DIRECTORY inputs DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
-        REGEX "\\.(g|e|csv|png|log|restart)$" EXCLUDE)  # what runs have left
+        REGEX "\\.(g|e|csv|png|log|restart|restart\\.old)$" EXCLUDE)  # what runs have left
 install(DIRECTORY docs DESTINATION ${STRUT_SHARE})
 install(FILES README.md CHANGELOG.md LICENSE CITATION.cff DESTINATION ${STRUT_SHARE})

@@ -145,6 +145,7 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a write that is too much fails, and is told as a full disk is
+  std::signal(SIGPIPE, SIG_IGN);  // who read what is said has gone: the run goes on
   const strut::Communicator world;
   try {
     return reported({argv + 1, argv + argc}, world);

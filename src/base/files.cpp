@@ -51,7 +51,9 @@ bool is_classic_netcdf(const std::string& head) {
 bool has_title(const std::string& head, const std::string& title) {
   const std::string name_and_type("title\0\0\0\0\0\0\2", 12);
   const std::size_t found = head.find(name_and_type);
-  if (!is_classic_netcdf(head) || found == std::string::npos) return false;
+  if (!is_classic_netcdf(head)) return false;
+  // A run that was killed as it began leaves what Exodus writes before the title: nothing is lost with it.
+  if (found == std::string::npos) return head.find("api_version") != std::string::npos;
   const std::size_t count_bytes = head[3] == 5 ? 8 : 4, begin = found + name_and_type.size() + count_bytes;
   if (begin > head.size()) return false;
   const auto count = static_cast<std::size_t>(static_cast<unsigned char>(head[begin - 1]));  // of at most 80
@@ -120,8 +122,9 @@ std::string obstacle(const fs::path& file, FileKind kind) {
   if (there && !regular && !takes_lines) return name + " is a folder or a device; expected a file that may be replaced";
   if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;
   if (!regular || is_of_kind(file, kind)) return "";
-  return name + " is there and is no " + known(kind).name +
-         ", which would replace it; expected another name, or that it is removed";
+  const bool hdf5 = head_of(file).starts_with("\x89HDF");
+  return name + " is there" + (hdf5 ? ", in the format netCDF-4 (was it converted?)," : "") + " and is no " +
+         known(kind).name + ", which would replace it; expected another name, or that it is removed";
 }
 
 fs::path before_of(const fs::path& checkpoint) { return checkpoint.string() + ".old"; }

@@ -13,7 +13,7 @@ const BooleanKey enabled({.name = "Enabled", .fallback = "true", .meaning = "Fal
 const OptionalKey<std::string> file(
     {.name = "Filename",
      .meaning = "Relative to the working folder. Where it is not given: the deck's name with the "
-                "suffix `.restart`."});
+                "suffix `.restart`. The one before stays beside it, as `.old`."});
 
 const WhenKeys when;
 

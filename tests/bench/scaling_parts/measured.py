@@ -73,7 +73,7 @@ class Bench:
 
     def log(self, edge, ranks, steps, *options):
         (self.work / "run.xml").write_text(deck(edge, steps, FRAMES))
-        for name in ("run.restart", "run.e"):
+        for name in ("run.restart", "run.restart.old", "run.e"):
             (self.work / name).unlink(missing_ok=True)
         command = ["mpirun", "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", *options, "-np", str(ranks),
                    "python3", "wrapper.py", self.root / "build/release/strut", "run.xml"]

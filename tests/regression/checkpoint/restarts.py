@@ -92,7 +92,7 @@ def plane(name, z, normal, **more):
 
 
 def sinks(name, frame_every, line_every, *reactions, more=(), profiles=""):
-    fields = ("Displacement", "Velocity", "Cauchy_Stress", "Equivalent_Plastic_Strain", "Dilatation")
+    fields = ("Displacement", "Velocity", "Cauchy_Stress", "Equivalent_Plastic_Strain", "Dilatation", "Force")
     variables = [f"Reaction_Z({reaction})" for reaction in reactions] + ["Max_Equivalent_Plastic_Strain", *more]
     flags = lambda names: "\n".join(f'<Parameter name="{n}" type="bool" value="true"/>' for n in names)
     return [
@@ -246,11 +246,8 @@ class Test:
         command = [self.strut, *options, "deck.xml"]
         if ranks > 1:
             command = [*self.mpirun, "-n", str(ranks), *command]
-        # As on a full disk, a file that may not grow is to be an error of a write, not a signal.
-        before = lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-
         with open(folder / "log", "w") as log:
-            return subprocess.Popen(command, cwd=folder, stdout=log, stderr=subprocess.STDOUT, preexec_fn=before)
+            return subprocess.Popen(command, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
 
     def run(self, folder, *options, ranks=1, expect=0):
         status = self.start(folder, *options, ranks=ranks).wait(timeout=100)
@@ -386,7 +383,7 @@ class Test:
             return False
 
     def disk_full(self, scene, whole):
-        """No file may grow any more: first a frame, then what is kept finds no room."""
+        """No file may grow any more, by a limit whose signal (SIGXFSZ) would kill: first a frame, then what is kept finds no room."""
         result, kept = (Path(whole, name).stat().st_size for name in (f"{scene}.e", "deck.restart"))
         for limit, frequency, frames, expected in (
             (0.6 * result, 40, True, f"{scene}.e: cannot"),
@@ -400,8 +397,9 @@ class Test:
             log = (folder / "log").read_text()
             if status != 1 or expected not in log or "--continue" not in log:
                 self.fail(f"{folder}: status {status}; expected '{expected}' and how to go on", folder / "log")
-            if (folder / "deck.restart.part").exists():
-                self.fail(f"{folder}: a part of a file is left")
+            for rest in ("part", "lock"):
+                if (folder / f"deck.restart.{rest}").exists():
+                    self.fail(f"{folder}: deck.restart.{rest} is left")
             self.run(folder, "--continue")
             if frames:
                 self.same(whole, folder, scene)
@@ -453,12 +451,38 @@ class Test:
 
         deck.write_text(text)
         kept.write_bytes(good)
+        other = self.folder(f"{scene}-other", scene, 10**6)
+        (other / "deck.xml").write_text(text.replace('value="50000000.0"', 'value="50000001.0"'))
+        self.run(other)
+        for name in (f"{scene}.csv", f"{scene}.e"):  # of another run, with as many rows and frames
+            shutil.copy(Path(whole, f"{scene}.csv"), folder)
+            shutil.copy(Path(whole, f"{scene}.e"), folder)
+            shutil.copy(other / name, folder)
+            if f"{name}: is not the " not in self.run(folder, "--continue", expect=1):
+                self.fail(f"{folder}: {name} of another run is gone on with", folder / "log")
+            if (folder / name).read_bytes() != (other / name).read_bytes():
+                self.fail(f"{folder}: {name} of another run has been touched")
         mesh = folder / "points.txt"
         lines = mesh.read_text().splitlines()
         x, rest = lines[0].split(" ", 1)
         mesh.write_text("\n".join([f"{float(x) * 1.0001:.17g} {rest}", *lines[1:]]) + "\n")
         if "the mesh is not the one with which the run began" not in self.run(folder, "--continue", expect=1):
             self.fail(f"{folder}: a mesh of as many points is taken for the same", folder / "log")
+
+    def damaged(self, scene, whole):
+        """The newest checkpoint is damaged: the one before is as good."""
+        folder = self.folder(f"{scene}-damaged", scene)
+        process = self.start(folder)
+        self.wait_for(folder / "deck.restart.old", process, folder / "log")
+        process.kill()
+        process.wait()
+        kept = folder / "deck.restart"
+        content = bytearray(kept.read_bytes())
+        content[len(content) // 2] ^= 1
+        kept.write_bytes(content)
+        if "going on from the one before, deck.restart.old" not in self.run(folder, "--continue"):
+            self.fail(f"{folder}: it is not told that the checkpoint before is read", folder / "log")
+        self.same(whole, folder, scene)
 
     def over(self, scene, whole):
         """A job that comes after the end, and finds only the result, leaves it alone."""
@@ -506,6 +530,7 @@ class Test:
             self.disk_full(name, whole)
             self.two_in_a_folder(name, whole)
             self.refused(name, whole)
+            self.damaged(name, whole)
             self.extended(name, whole)
             self.over(name, whole)
 

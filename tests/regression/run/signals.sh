@@ -129,10 +129,33 @@ END
 
 conditions=$(condition twist "Initial Velocity" all x "10*sin(500*z)") solver="" frequency=20
 write_deck
-for signal in TERM INT USR1; do
+for signal in TERM INT USR1 USR2 HUP XCPU; do
   run_and_check "one process, SIG$signal" pid $signal "$strut" deck.xml
   [ $status -eq 3 ] || { fail "one process, SIG$signal: exit status $status, expected 3"; cat log; }
+  [ -e deck.restart.lock ] && fail "one process, SIG$signal: the lock stays"
 done
+
+# What nohup starts goes on when its terminal is gone.
+rm -f history.csv
+nohup "$strut" deck.xml > log 2>&1 &
+echo $! > pid
+wait_for_lines "nohup"
+kill -HUP "$(cat pid)"
+sleep 0.5
+kill -TERM "$(cat pid)" || fail "nohup: SIGHUP has ended the run"
+wait "$(cat pid)"
+
+# Who reads what the run says goes after the first line: the run goes on, and ends as it would.
+rm -f history.csv
+mkfifo said
+head -n 1 < said > /dev/null &
+"$strut" deck.xml > said 2> log &
+echo $! > pid
+wait_for_lines "a reader that goes"
+kill -TERM "$(cat pid)" || fail "a reader that goes: the run has ended"
+wait "$(cat pid)"
+status=$?
+[ $status -eq 3 ] || fail "a reader that goes: exit status $status, expected 3"
 
 # mpirun has the status of its ranks. Where Open MPI's is told to end itself, it kills, after a second, ranks that may
 # still write, and SIGUSR1 it hands on; MPICH's hands all three on and waits, and now and then ends with 0 then.

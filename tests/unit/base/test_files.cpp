@@ -75,11 +75,13 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
           << content << " and " << static_cast<int>(other);
     }
   }
+  EXPECT_EQ(obstacle(write("file", std::string("CDF\2") + "api_version"), FileKind::result), "") << "as it is begun";
   for (const std::string content : {"shape = box\n", "\x89HDF\r\n", "<ParameterList/>", "CDF", "Time,x\n0,1\n"}) {
     const fs::path file = write("file", content);
     for (const auto& [kind, unused] : kinds) EXPECT_NE(obstacle(file, kind), "") << content;
     EXPECT_EQ(obstacle(file, FileKind::unchecked), "");
   }
+  EXPECT_NE(obstacle(write("file", "\x89HDF\r\n"), FileKind::result).find("netCDF-4"), std::string::npos);
   EXPECT_NE(obstacle(folder / ".", FileKind::log).find("is a folder"), std::string::npos);
   EXPECT_NE(obstacle(folder / "no/file", FileKind::log).find("there is no folder"), std::string::npos);
   EXPECT_EQ(obstacle("/dev/null", FileKind::log), "") << "loses nothing";
