@@ -740,6 +740,8 @@ class Damaged(ToolTest):
         kept("voxels", raw, self.path("link.g"), self.path("hard.g"), os.path.join(self.folder, ".", "a.raw"), words=shape)
         os.symlink("a.raw", self.path("slices.png"))
         self.refused("voxels", "slices.png is .*a.raw, which is read", raw, *shape, "--slices", self.path("slices.png"))
+        done = self.run_tool("voxels", raw, self.path("one.png"), *shape, "--slices", self.path("one.png"))
+        self.assertIn("one.png is to be both the mesh and the picture of --slices", done.stderr)
         header = self.write("a.mhd", "ObjectType = Image\nNDims = 3\nDimSize = 6 5 4\nElementType = MET_UCHAR\nElementDataFile = a.raw\n")
         kept("voxels", header, raw, words=("--size", 1))
         os.mkdir(self.path("slices"))
