@@ -10,7 +10,7 @@ import subprocess
 import time
 
 from launcher import is_open_mpi, mpirun
-from strut_tools import fail, programs
+from strut_tools import fail, own_file, programs
 
 from . import inputs
 
@@ -54,7 +54,7 @@ class Case:
 
     def prepare(self):
         """Whether there is something to go on with. Else the folder is made anew."""
-        if self.state() and glob.glob(os.path.join(self.folder, "*.restart*")):
+        if self.state() and glob.glob(os.path.join(glob.escape(self.folder), "*.restart*")):
             return True
         if os.path.isdir(self.folder) and not os.path.isfile(os.path.join(self.folder, "state.json")):
             fail(f"{self.folder} is there, and not of a study: name another folder")
@@ -136,7 +136,7 @@ def claim(out, path, *written):
     there = [name for name in written if os.path.lexists(os.path.join(out, name))]
     if found is None and there and not of_runs:
         fail(f"{os.path.join(out, there[0])} is there, and not of runs in this folder: name another folder")
-    with open(note, "w") as file:
+    with open(own_file(out, "runs-of.json"), "w") as file:
         json.dump({"path": own}, file)
 
 

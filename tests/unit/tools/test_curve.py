@@ -243,7 +243,18 @@ class Runs(InFolder):
         blow[0] = -300 * force.max()
         self.history({**columns, "Reaction_Z(top)": blow})
         self.assertEqual(self.made("block.xml"), expected)
-        self.assertIn("first row", self.curve("block.xml").stdout)
+        self.assertIn("first force        left out", self.curve("block.xml").stdout)
+        # In means since the row before it is in the first of them.
+        means, blow = np.concatenate([[0], 0.5 * (force[1:] + force[:-1])]), np.zeros(len(force))
+        units = ("s", "N (mean)", "N (mean)")
+        columns = {"Time": columns["Time"], "Reaction_Z(top)": -means, "Reaction_Z(bottom)": means}
+        self.history(columns, units=units)
+        expected = self.made("block.xml")
+        blow[1] = -2 * force.max()
+        self.history({**columns, "Reaction_Z(top)": blow - means}, units=units)
+        found = self.made("block.xml")
+        for name in ("largest_stress", "plateau_stress", "plateau_end"):
+            self.assertEqual(found[name], expected[name], name)
 
     def test_means_since_the_row_before_belong_to_the_middle_between(self):
         times = np.linspace(0, 1.2, 13)  # s; at 1e-2 m/s of 20 mm to 60 %, with a stress of 1 Pa a second
