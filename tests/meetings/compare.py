@@ -102,4 +102,9 @@ def histories_differ(base, other, scene, frame, base_parts, other_parts, energie
         if not np.isscalar(first) and not np.isscalar(second):
             scale = max(np.abs(first).max(), SMALL * scene.modulus * scene.h**2)
             parts["Reactions"] = np.abs(second / frame.scale("N") - frame.vectors(first)).max() / scale
+    for name in one:
+        if name.startswith("Contact_Force_X") and name in two:
+            first, second = (np.stack([r[name.replace("_X(", f"_{a}(")] for a in "XYZ"], axis=1) for r in (one, two))
+            scale = max(np.abs(first).max(), SMALL * scene.modulus * scene.h**2)
+            parts[f"Contact_Force{name[15:]}"] = np.abs(second / frame.scale("N") - frame.vectors(first)).max() / scale
     return {name: float(v) if np.isfinite(v) else np.inf for name, v in parts.items()}

@@ -46,6 +46,15 @@ class Mesh:
     def element_volumes(self):
         return self.volumes if self.nodes is None else hexahedra_of(self.nodes[self.hexahedra])[0]
 
+    def site_volumes(self):
+        """Of a node its part of the elements around it, ∫N dV."""
+        if not self.at_nodes:
+            return self.element_volumes()
+        volumes = np.zeros(len(self.nodes))
+        for shape, volume in gauss_points(self.nodes[self.hexahedra]):
+            np.add.at(volumes, self.hexahedra, volume[:, None] * shape)
+        return volumes
+
     def sites(self):
         return self.nodes if self.at_nodes else self.elements()
 
@@ -150,17 +159,22 @@ def of_box(kind, box, block_of_cell, jitter, rng, at_nodes=False, name=""):
     return Mesh(kind, blocks, nodes=nodes, hexahedra=number(cells[:, None, :] + CORNERS), sets={f"{name}mesh_top": top}, at_nodes=at_nodes)
 
 
-def hexahedra_of(corners):
-    """Volumes and centroids, exact: by two Gauss points an axis, right to degree 3; x det J has 3 in each."""
+def gauss_points(corners):
+    """Of each hexahedron, right to degree 3 in each local coordinate: shape functions, and the volume that each point stands for."""
     gauss = 0.5 + np.array([-0.5, 0.5]) / np.sqrt(3)
-    volumes, moments = np.zeros(len(corners)), np.zeros((len(corners), 3))
     for at in np.array(np.meshgrid(gauss, gauss, gauss)).reshape(3, -1).T:
         parts = np.where(CORNERS == 1, at, 1 - at)
         signs = np.where(CORNERS == 1, 1, -1)
         slopes = np.stack([signs[:, a] * np.prod(np.delete(parts, a, axis=1), axis=1) for a in range(3)], axis=1)
-        share = np.linalg.det(np.einsum("na,enb->eab", slopes, corners)) / 8
-        volumes += share
-        moments += share[:, None] * np.einsum("n,enb->eb", np.prod(parts, axis=1), corners)
+        yield np.prod(parts, axis=1), np.linalg.det(np.einsum("na,enb->eab", slopes, corners)) / 8
+
+
+def hexahedra_of(corners):
+    """Volumes and centroids, exact: x det J is of degree 3."""
+    volumes, moments = np.zeros(len(corners)), np.zeros((len(corners), 3))
+    for shape, volume in gauss_points(corners):
+        volumes += volume
+        moments += volume[:, None] * np.einsum("n,enb->eb", shape, corners)
     return volumes, moments / volumes[:, None]
 
 

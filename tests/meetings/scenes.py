@@ -75,8 +75,9 @@ class Scene:
         return "; ".join(words)
 
     def masses(self):
-        density = np.array([self.density_of_block(b) for b in self.mesh.blocks])
-        return density * self.mesh.element_volumes()
+        """Of the sites. A node that blocks share belongs to the first of them in the file (src/io/README.md)."""
+        density = {b: self.density_of_block(b) for b in set(self.mesh.blocks)}
+        return np.array([density[b] for b in self.mesh.owners()]) * self.mesh.site_volumes()
 
     def members(self, name):
         """Which sites a set or block has: a function of place."""
@@ -346,7 +347,7 @@ class Draft:
         models = [name for name in any_model.cases if self.may_fail(name, material)]
         if not models:
             return None
-        model = self.section(any_model, case=self.pick(models))
+        model = self.section(any_model, case=models[(self.seed + len(self.damage)) % len(models)])  # each in turn
         if "D5" in model and not self.knows_temperature(material):
             del model["D5"]
         if "D5" in model:
@@ -422,6 +423,8 @@ class Draft:
         if "Normal" not in case.keys:
             raise KeyError(f"Boundary Conditions, Type = \"{kind}\": scenes.py does not know how to place it")
         body, axis, high = self.random.randrange(len(self.boxes)), self.random.randrange(3), self.chance(0.5)
+        if kind == "Non-Reflecting End" and self.chance(0.7):  # they meet at edges
+            body = 0
         if "Point" in case.keys:  # a plane in the face of a body, which it holds
             high = False
             at = self.boxes[body].low.copy()
@@ -497,6 +500,8 @@ class Draft:
             some = ["Initial Velocity"] * len(some)
         elif self.fast_body and self.chance(0.4):  # loads and substeps
             some = ["Body Force", *some[:self.pick((0, 0, 1, 3))]]
+        if "Non-Reflecting End" in some and self.chance(0.5):
+            some += ["Non-Reflecting End"] * 2
         for kind in some:
             one = self.condition(kind)
             if self.free(one, held, thrown):
@@ -513,13 +518,20 @@ class Draft:
                     made[f"flight {n}"] = {"Type": "Initial Velocity", "Node Set": block, "Coordinate": "z",
                                            "Value": Expr("1", -self.speed * self.uniform(0.3, 1.5), "m/s")}
             return made
-        later = f"(1 - cos(3*({{t}} - {self.begin!r})/{self.time!r}))"
-        for body in range(len(self.boxes)):
-            amount = self.speed * self.time / 3 * self.uniform(0.3, 1)
-            for name, axes, high, value in (("foot", "xyz", False, Expr("0", 1.0, "m")), ("head", self.pick("xyz"), True, Expr(later, amount, "m"))):
-                one = {"Type": "Prescribed Displacement", "Coordinate": axes, "Node Set": self.face(body, 0, high), "Value": value}
-                if self.free(one, held, thrown):
-                    made[f"{name} {body}"] = one
+        later = f"(1 - cos(3*({{t}} - {self.begin!r})/{self.time!r}))"  # to 1.99
+        fixed = Expr("0", 1.0, "m")
+        pull = lambda: Expr(later, self.speed * self.time / 3 * self.uniform(0.3, 1), "m")
+        parts = [("foot", "xyz", 0, 0, False, fixed), ("head", self.pick("xyz"), 0, 0, True, pull())]
+        if len(self.boxes) > 1:  # the last one is pressed on the others, and dragged
+            way = sum(top.low[2] - one.high[2] for one, top in zip(self.boxes, self.boxes[1:])) + self.h * self.uniform(0.02, 0.1)
+            last = len(self.boxes) - 1
+            parts = [("foot", "xyz", 0, 2, False, fixed), ("press", "z", last, 2, True, Expr(later, -0.5 * way, "m")),
+                     ("drag", "x", last, 2, True, pull()), ("aside", "y", last, 2, True, fixed)]
+            parts += [("side", "xy", body, 0, False, fixed) for body in range(1, last)]
+        for name, axes, body, axis, high, value in parts:
+            one = {"Type": "Prescribed Displacement", "Coordinate": axes, "Node Set": self.face(body, axis, high), "Value": value}
+            if self.free(one, held, thrown):
+                made[f"{name} {body}"] = one
         return made
 
     def free(self, one, held, thrown):
@@ -655,6 +667,18 @@ class Written:
             self.mesh.write(folder / self.deck["Discretization"]["Input Mesh File"])
 
 
+def touching_blocks(scene):
+    """Pairs of them that the deck says may touch, of different numbers."""
+    blocks = sorted(set(scene.mesh.owners()))
+    pairs = set()
+    for one in scene.deck.get("Contact", {}).get("Interactions", {}).values():
+        if "First Block" in one:
+            pairs.add((int(one["First Block"][6:]), int(one["Second Block"][6:])))
+        else:
+            pairs |= {(a, b) for a in blocks for b in blocks if a < b}
+    return sorted((a, b) for a, b in pairs if a != b)
+
+
 def written(scene, frame=Frame(), restart=None, order=None):
     deck = {name: frame.section(section) for name, section in scene.deck.items() if name not in ("Boundary Conditions", "Discretization")}
     grid = scene.mesh.mapped(frame.places, frame.mirrors, frame.length**3)
@@ -671,9 +695,10 @@ def written(scene, frame=Frame(), restart=None, order=None):
     parts = {name: frame.condition(name, condition) for name, condition in scene.conditions.items()}
     deck["Boundary Conditions"] = {name: part for made in parts.values() for name, part in made.items()}
     reactions = [f"Reaction_{a}({name})" for name, c in deck["Boundary Conditions"].items() if c["Type"] in REACTING for a in "XYZ"]
+    touching = [f"Contact_Force_{a}(block_{one}:block_{other})" for one, other in touching_blocks(scene) for a in "XYZ"]
     interval = (scene.end - scene.begin) * frame.time / STEPS_A_FRAME
     deck["Output"] = {"Output Filename": "out.e", "Output Interval": interval, "Output Variables": {name: True for name in fields_of(scene)}}
-    deck["History"] = {"Filename": "out.csv", "Frequency": 25 if scene.is_long else 1, "Variables": {name: True for name in reactions}}
+    deck["History"] = {"Filename": "out.csv", "Frequency": 25 if scene.is_long else 1, "Variables": {name: True for name in reactions + touching}}
     if restart:
         deck["Restart"] = restart
     if order is not None:

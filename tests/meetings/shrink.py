@@ -1,8 +1,6 @@
 """A scene made smaller, part by part, as long as it fails in the same way."""
-import copy
+import re
 from dataclasses import replace
-
-import numpy as np
 
 from values import Expr, Num
 
@@ -92,7 +90,14 @@ def fewer_points(scene):
 
 
 def kind_of(problem):
-    return problem.split(":")[0]
+    """Without its numbers: "signs: Kinetic_Energy falls to"."""
+    return re.split(r" ?-?\d", problem)[0]
+
+
+def alike(one, other):
+    """Of fields it does not matter which one differs most."""
+    of_field = lambda text: re.match(r"\w+: [\d.]", text) is not None
+    return kind_of(one) == kind_of(other) or (of_field(one) and of_field(other))
 
 
 def tidied(scene):
@@ -115,7 +120,7 @@ def shrunk(case, name, problem, case_of, failure_of):
                 found, _ = (None, None) if smaller_case.base.refused or smaller_case.base.status in ("crash", "hang") else failure_of(smaller_case, name)
             except Exception:  # a scene that lacks what a relation looks for is no smaller one
                 continue
-            if found and (name in found or kind_of(found) == kind_of(problem) or len(kind_of(found)) < 20):
+            if found and alike(found, problem):
                 scene, problem, again = one, found, True
                 break
     return scene, problem
