@@ -106,7 +106,8 @@ void serialize(Archive& archive, Body& body) {
   serialize_motion(archive, body);
   keep_points(archive, body);
   if (archive.loading()) {
-    body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3);
+    body.domain.halo.exchange(body.domain.sites.data()->current.data(), sizeof(Site) / sizeof(double), 3,
+                                reflect_place);
   }
   if (body.fracture) body.fracture->serialize(archive, body);
 }

@@ -13,6 +13,7 @@
 #include "setup/families.hpp"
 #include "setup/filled_tools.hpp"
 #include "setup/mesh.hpp"
+#include "setup/mirrors.hpp"
 #include "setup/outline.hpp"
 #include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
@@ -32,7 +33,8 @@ std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
 Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Communicator& communicator) {
   Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
-  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
+  const Mirrors found = mirrors(deck, cloud, communicator);
+  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), found.planes, communicator, dropped);
   Scene scene{
       make_body(std::move(domain), deck.discretization.influence, materials),
       {},
@@ -44,7 +46,9 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Commu
       0,
       0,
       dropped,
-      {}};
+      {},
+      {},
+      found.warnings};
   add_conditions(deck, scene, communicator);
   return scene;
 }
@@ -93,6 +97,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
   scene.outline = outline(scene, ways, start, duration);
   scene.warnings += improbable_materials(scene.body);
   scene.warnings += improbable_scales(scene, ways, start, duration);
+  scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);

@@ -6,6 +6,7 @@
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
+#include "mechanics/reflected.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -29,8 +30,6 @@ constexpr double least_for_stress = 0.02;
 // operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularization.
 constexpr double regularization = 0.5, inner_diagonal = 23;
 constexpr int iterations = 16;
-
-constexpr int state_width = sizeof(QuadraticState) / sizeof(double);
 
 CellShape cube_of(double volume) {
   CellShape cube;
@@ -241,7 +240,7 @@ class ConsistencyCorrection {
   int count() const { return static_cast<int>(points_.size()); }
   bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
   Halo& halo() const { return body_.domain.halo; }
-  void exchange_multipliers() { halo().exchange(fits_.multipliers_.data()->data(), 4, 3); }
+  void exchange_multipliers() { halo().exchange(fits_.multipliers_.data()->data(), 4, 3, reflect_direction); }
 
   void set_missing();
   void set_operator();
@@ -252,8 +251,12 @@ class ConsistencyCorrection {
   // A linear fit as others need it: c, C, and V² of the point; nothing of points that carry no stress.
   struct Share {
     double c[3], C[9], weight;
+
+    friend void reflect(const Reflection& by, Share& share) {
+      reflect_direction(by, share.c);
+      reflect_rows(by, share.C);  // columns do as well
+    }
   };
-  static constexpr int share_width = sizeof(Share) / sizeof(double);
 
   Body& body_;
   QuadraticFits& fits_;
@@ -275,7 +278,7 @@ void ConsistencyCorrection::set_missing() {
     states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
     states[i].failed = 1;  // a mark, here of points by quadratic correspondence
   }
-  halo().exchange(reinterpret_cast<double*>(states.data()), state_width, state_width);
+  halo().exchange_records(states);
   missing_.assign(body_.owned(), Vector::Zero());
   bonds::with_influence(body_.influence, [&](auto weight) {
     for_each_point(0, count(), [&, weight](int p) {
@@ -302,7 +305,7 @@ void ConsistencyCorrection::set_operator() {
     moments_[i] = inverse_moments(body_, i);
     shares_[i].weight = volume * volume;
   }
-  halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
+  halo().exchange_records(shares_);
   for (const int i : points_) {
     const double volume = body_.domain.volume(i);
     double sum = shares_[i].weight;
@@ -322,7 +325,7 @@ void ConsistencyCorrection::apply_operator() {
     Eigen::Map<Vector>{shares_[i].c} = fit.c;
     Eigen::Map<Tensor>{shares_[i].C} = fit.C;
   });
-  halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
+  halo().exchange_records(shares_);
   for_each_point(0, count(), [&](int p) {
     const int i = points_[p];
     const Vector mu = fits_.multipliers_[i].head<3>().matrix();

@@ -89,6 +89,7 @@ class CentralDifference {
   enum Severity { harmless, passable, fatal };
   Severity severity(const StepReport& report) const;
   void check(const StepReport& report);
+  void add_mirror_impulses(const std::vector<Vector>& forces, double impulse_time, ReactionImpulses& impulses) const;
   double imbalance(const Ledger& now) const;
 
   Body& body_;
@@ -102,6 +103,7 @@ class CentralDifference {
   ImpulseWork impulse_work_;                     // of the impulses at time()
   std::vector<Vector> reaction_forces_;  // N, on this rank's points at time(), by condition; empty: not asked for
   ReactionImpulses substep_impulses_;    // of the substeps since the last whole step
+  std::vector<Vector> mirror_forces_;    // N, at time(), of domain.mirrors on this rank's points
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   double initial_energy_ = 0, largest_energy_ = 0;

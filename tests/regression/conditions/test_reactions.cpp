@@ -50,7 +50,9 @@ TEST_P(HeldBody, WeighsWhatItWeighs) {
     ASSERT_NEAR(table.at("Reaction_Y(hold)")[n], 0, 1e-9 * weight);
   }
   EXPECT_NEAR(integral(force, time, time.size() - 1) / 100e-6, weight, 0.05 * weight);
-  EXPECT_NEAR(force[0], weight / 6, 1e-9 * weight);  // at first of the held points alone, a layer of six
+  // At first of the held points alone, a layer of six; the mirror image of a body holds it once it is strained.
+  const bool is_mirror = GetParam().find("Symmetry Plane") != std::string::npos;
+  EXPECT_NEAR(force[0], is_mirror ? 0 : weight / 6, 1e-9 * weight);
 }
 
 INSTANTIATE_TEST_SUITE_P(By, HeldBody,
@@ -118,13 +120,14 @@ TEST(Reaction, OfOneConditionIsThatOfOneForEachAxis) {
 
 // Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time: an
 // impulse between two kicks counts with the step before, by so much too little or too much.
-TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
+class StoppedBar : public testing::TestWithParam<std::string> {};
+
+TEST_P(StoppedBar, HasTheImpulsesOfSubstepsInItsReaction) {
   Lattice lattice;
   lattice.nz = 60;
   Parts parts;
   parts.materials = copper(key("Yield Stress", "100e6"));
-  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-227") +
-                     plane("wall", "Rigid Plane", "all", "0 0 -0.2e-3", "0 0 1");
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-227") + GetParam();
   parts.times = key("Final Time", "20e-6");
   const Table table = history_of(parts, {"Reaction_Z(wall)"}, lattice);
   const std::vector<double>& momentum = table.at("Momentum_Z");
@@ -132,6 +135,10 @@ TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
   EXPECT_GT(stopped, -0.05 * momentum.front());
   EXPECT_NEAR(integral(table.at("Reaction_Z(wall)"), table.at("Time"), momentum.size() - 1), stopped, 0.01 * stopped);
 }
+
+INSTANTIATE_TEST_SUITE_P(By, StoppedBar,
+                         testing::Values(plane("wall", "Rigid Plane", "all", "0 0 -0.2e-3", "0 0 1"),
+                                         plane("wall", "Symmetry Plane", "foot", "0 0 0", "0 0 1")));
 
 }  // namespace
 }  // namespace strut::regression
