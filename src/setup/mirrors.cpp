@@ -25,6 +25,7 @@ struct Place {
   double before = 0, behind = 0;                  // how many are off the plane, on the sides of the normal
   double distances = 0;                           // of those in the set, their sum; of cells in their reach
   double least = HUGE_VAL, most = 0, most_m = 0;  // of those in the set; in m
+  double off = 0;                                 // of those in the set, off the plane
   double cut = 0;                                 // cells of their own that count the plane as surface
   double free = 0;                                // at the plane, but not in the set
 };
@@ -44,10 +45,10 @@ class Search {
   Place place() const {
     Place found;
     over_body([&](std::size_t i) { look_at(i, found); });
-    double sums[] = {found.points, found.in_set, found.before, found.behind, found.distances, found.cut};
+    double sums[] = {found.points, found.in_set, found.before, found.behind, found.distances, found.off, found.cut};
     double most[] = {-found.least, found.most, found.most_m};
     communicator_.sum(sums), communicator_.max(most);
-    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0], most[1], most[2], sums[5]};
+    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0], most[1], most[2], sums[5], sums[6]};
     const double mean = found.in_set > 0 ? found.distances / found.in_set : 0;
     double free = 0;
     over_body([&](std::size_t i) { free += !is_in(cloud_, set_, i) && distance(i) <= mean + 1e-6 ? 1 : 0; });
@@ -71,8 +72,10 @@ class Search {
   void look_at(std::size_t i, Place& found) const {
     const double signed_distance = plane_.distance(cloud_.positions[i]);
     ++found.points;
-    if (!plane_.holds(cloud_.positions[i], cloud_.spacings[i])) ++(signed_distance > 0 ? found.before : found.behind);
+    const bool is_off = !plane_.holds(cloud_.positions[i], cloud_.spacings[i]);
+    if (is_off) ++(signed_distance > 0 ? found.before : found.behind);
     if (!is_in(cloud_, set_, i)) return;
+    found.off += is_off ? 1 : 0;
     const double here = distance(i);
     ++found.in_set;
     found.distances += here;
@@ -89,6 +92,9 @@ class Search {
   const std::vector<BlockBonds>& bonds_;
   const Communicator& communicator_;
 };
+
+// Whether the points are on the plane, in the middle of a body that is whole: they stay there, and nothing is missing.
+bool holds_the_middle(const Place& place) { return place.before > 0 && place.behind > 0 && place.off == 0; }
 
 // Why the plane is none by which the body goes on; empty: it is one. `whole_cells`: whether its formulation asks for
 // whole cells, of which nodes on the plane have a half.
@@ -181,7 +187,7 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
       plane.body = body;
       const std::string& set = deck.conditions[plane.number].node_set;
       const Place place = Search(cloud, plane, set, bonds, communicator).place();
-      if (place.in_set == 0) continue;
+      if (place.in_set == 0 || holds_the_middle(place)) continue;
       const bool is_quadratic = is_quadratic_body(deck, cloud, bonds, body);
       const std::string text = objection(place, cloud.at, is_quadratic);
       if (text.empty()) {

@@ -92,10 +92,11 @@ FamilySums sums_of_family(double h, double volume, const Over& over) {
   return sums;
 }
 
-// (M + penalty)⁻¹.
+// (M + penalty)⁻¹. The penalty is on |H|², in which xy counts as yx does, too: alike in all directions.
 Matrix9 inverse_with(const FamilySums& sums, double penalty) {
   Matrix9 M = sums.moments;
-  M.diagonal().tail<6>().array() += penalty * sums.weight;
+  M.diagonal().segment<3>(3).array() += penalty * sums.weight;
+  M.diagonal().tail<3>().array() += 2 * penalty * sums.weight;
   return M.ldlt().solve(Matrix9::Identity());
 }
 

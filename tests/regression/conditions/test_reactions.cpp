@@ -133,7 +133,11 @@ TEST_P(StoppedBar, HasTheImpulsesOfSubstepsInItsReaction) {
   const std::vector<double>& momentum = table.at("Momentum_Z");
   const double stopped = momentum.back() - momentum.front();
   EXPECT_GT(stopped, -0.05 * momentum.front());
-  EXPECT_NEAR(integral(table.at("Reaction_Z(wall)"), table.at("Time"), momentum.size() - 1), stopped, 0.01 * stopped);
+  const std::vector<double>& force = table.at("Reaction_Z(wall)");
+  std::vector<double> size;  // a mirror image pulls, too
+  for (const double now : force) size.push_back(std::abs(now));
+  const std::size_t last = momentum.size() - 1;
+  EXPECT_NEAR(integral(force, table.at("Time"), last), stopped, 0.01 * integral(size, table.at("Time"), last));
 }
 
 INSTANTIATE_TEST_SUITE_P(By, StoppedBar,
