@@ -1,8 +1,21 @@
 #include "conditions/symmetry_plane.hpp"
 
+#include <algorithm>
+
 #include "conditions/velocity_update.hpp"
 
 namespace strut {
+
+SymmetryPlane SymmetryPlane::on(std::vector<int> all, int place, const Body& body) const {
+  const Domain& domain = body.domain;
+  std::erase_if(all, [&](int i) {
+    const int of_point = domain.blocks[domain.cloud.blocks[i]].body;
+    return std::any_of(domain.mirrors.begin(), domain.mirrors.end(), [&](const Mirror& mirror) {
+      return mirror.number == place && mirror.body == of_point && !mirror.holds(domain.reference(i), domain.horizon(i));
+    });
+  });
+  return {std::move(all), normal, place, point};
+}
 
 void SymmetryPlane::change_velocities(VelocityUpdate& update) const {
   for (const int i : points) {

@@ -9,7 +9,8 @@
 
 namespace strut {
 
-// Points keep their distance to a plane.
+// Bodies that end at the plane go on as their mirror images (points/mirror.hpp); their points on it stay there, which
+// only round-off and loads would change. Points of others keep their distance to it.
 struct SymmetryPlane {
   std::vector<int> points = {};
   Vector normal = Vector::UnitX();  // of unit length
@@ -17,13 +18,14 @@ struct SymmetryPlane {
   // Along the normal in the directions that other conditions leave free: what takes 1 m/s along it from a point.
   // Without: the normal.
   std::optional<Vector> push = {};
+  Vector point = Vector::Zero();  // of the plane, m
 
   static constexpr Stage stage = Stage::planes;
   static constexpr double Work::*ledger_entry = &Work::external;
   static constexpr InEquilibria in_equilibria = InEquilibria::hold;
 
   std::vector<Function> values_at_points() const { return {}; }
-  SymmetryPlane on(std::vector<int> all, int place, const Body&) const { return {std::move(all), normal, place}; }
+  SymmetryPlane on(std::vector<int> all, int place, const Body& body) const;
 
   void change_velocities(VelocityUpdate& update) const;
   std::optional<SymmetryPlane> in_substeps(const MovingPoints& moving) const;

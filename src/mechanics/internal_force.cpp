@@ -52,7 +52,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
     return together(reports);
   }
   behind_exchange(
-      body.domain.halo, places(body.domain.sites), site_stride, 3, [&] { over(Part::interior); },
+      body.domain.halo, places(body.domain.sites), site_stride, 3, reflect_place, [&] { over(Part::interior); },
       [&] { over(Part::boundary); });
   if (body.fracture) body.fracture->finish_step();
   return together(reports);

@@ -5,6 +5,7 @@
 
 #include "base/timing.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
+#include "mechanics/reflected.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -16,7 +17,8 @@ inline double* places(std::vector<Site>& sites) { return sites.empty() ? nullptr
 
 // Runs `interior` while the halo of `data` is under way, then `boundary`.
 template <class Interior, class Boundary>
-void behind_exchange(Halo& halo, double* data, int stride, int width, Interior&& interior, Boundary&& boundary) {
+void behind_exchange(Halo& halo, double* data, int stride, int width, Reflect reflect, Interior&& interior,
+                     Boundary&& boundary) {
   static Teuchos::Time& waiting = phase("Halo exchange");
   {
     const Timed timed(waiting);
@@ -25,7 +27,7 @@ void behind_exchange(Halo& halo, double* data, int stride, int width, Interior&&
   interior();
   {
     const Timed timed(waiting);
-    halo.finish(data, stride, width);
+    halo.finish(data, stride, width, reflect);
   }
   boundary();
 }
@@ -35,8 +37,8 @@ template <class State, class Work>
 void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
   constexpr int width = sizeof(State) / sizeof(double);
   behind_exchange(
-      halo, reinterpret_cast<double*>(states.data()), width, width, [&] { work(Part::interior); },
-      [&] { work(Part::boundary); });
+      halo, reinterpret_cast<double*>(states.data()), width, width, reflect_record<State>,
+      [&] { work(Part::interior); }, [&] { work(Part::boundary); });
 }
 
 // Which bodies a pass is over: forces need only those that are strained, a tangent is of all.

@@ -27,13 +27,19 @@ class VelocityRange {
   }();
 };
 
-// Adds the velocities of a block's points; the first that differs from the others settles it.
-void add(const Body& body, const MaterialBlock& block, VelocityRange& range) {
+// Adds the velocities of a block's points and of their images by symmetry planes; the first that differs from the
+// others settles it.
+void add(const Body& body, const MaterialBlock& block, int number, VelocityRange& range) {
   for (const int i : block.points) {
     const Vector& v = body.velocity[i];
     if (v != body.velocity[block.points.front()]) return range.spoil();
   }
-  if (!block.points.empty()) range.add(body.velocity[block.points.front()]);
+  if (block.points.empty()) return;
+  const Vector& v = body.velocity[block.points.front()];
+  range.add(v);
+  for (const Mirror& mirror : body.domain.mirrors) {
+    if (mirror.body == number) range.add(Reflection::by(mirror).turn * v);
+  }
 }
 
 bool is_in_place(const Body& body, const MaterialBlock& block) {
@@ -71,7 +77,7 @@ void update_rigid_motion(Body& body) {
   for (const int one : bodies) {
     VelocityRange range;
     for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-      if (body.domain.blocks[b].body == one) add(body, body.blocks[b], range);
+      if (body.domain.blocks[b].body == one) add(body, body.blocks[b], one, range);
     }
     most.insert(most.end(), range.most.begin(), range.most.end());
   }

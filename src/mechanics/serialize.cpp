@@ -126,7 +126,7 @@ void serialize(Archive& archive, Body& body) {
   serialize_motion(archive, body);
   keep_points(archive, body);
   if (archive.loading()) {
-    body.domain.halo.exchange(places(body.domain.sites), site_stride, 3);
+    body.domain.halo.exchange(places(body.domain.sites), site_stride, 3, reflect_place);
   }
   if (body.fracture) body.fracture->serialize(archive, body);
 }

@@ -120,7 +120,7 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
   const Displacements field{directions.data(), true};
   const TangentStates set_states{body, field, tangents, scratch, result};
   behind_exchange(
-      halo, places(directions), site_stride, 3, [&] { set_states(Part::interior); },
+      halo, places(directions), site_stride, 3, reflect_direction, [&] { set_states(Part::interior); },
       [&] { set_states(Part::boundary); });
   if (!scratch.gradients.empty()) {
     const ResidualSum sum{body, Bodies::all, field, scratch, result, {}};

@@ -39,6 +39,8 @@ inline CellShape shape_of(const ShapeNumbers& numbers) {
           Eigen::Map<const Vector>(numbers.data() + 9), Eigen::Map<const Tensor>(numbers.data() + 12)};
 }
 
+constexpr int first_plane_bit = 48, most_planes = 15;
+
 struct PointCloud {
   // One entry a point.
   std::vector<std::int64_t> ids;          // 0-based place in the file's order: unique over all ranks
@@ -51,7 +53,8 @@ struct PointCloud {
   // Empty unless they were asked for, and where the file does not tell them (text):
   std::vector<CellShape> shapes;
   // What of the mesh a point shares with those it hangs together with: the nodes of an element, the elements around a
-  // node; ascending. Two points touch if they have one of these numbers in common.
+  // node; ascending. Two points touch if they have one of these numbers in common. From bit first_plane_bit on, on
+  // which symmetry planes a node lies.
   std::vector<std::vector<std::int64_t>> joints;
 
   // The same on all ranks.

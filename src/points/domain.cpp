@@ -24,20 +24,88 @@ namespace {
 struct Candidate {
   double position[3];
   double volume, horizon;
-  std::int64_t id;
+  std::int64_t id;   // of an image: Images::id
   int block, owner;  // the rank
 };
 
-// Points of other ranks that lie within `reach` of the box of this rank's points.
-std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<double>& horizons, double reach,
-                                  const Communicator& communicator) {
-  std::vector<Candidate> mine;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Vector& X = cloud.positions[i];
-    mine.push_back(
-        {{X[0], X[1], X[2]}, cloud.volumes[i], horizons[i], cloud.ids[i], cloud.blocks[i], communicator.rank()});
+// The mirrors, and the images that they make.
+struct Mirrored {
+  std::vector<Mirror> mirrors;
+  std::vector<Eigen::AlignedBox3d> boxes;  // of each mirror: that of its body
+  Images images;
+};
+
+// Collective.
+Mirrored mirrored(std::vector<Mirror> mirrors, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
+                  double reach, const Communicator& communicator) {
+  Mirrored result{.mirrors = std::move(mirrors)};
+  for (const Mirror& mirror : result.mirrors) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (bonds[cloud.blocks[i]].body == mirror.body) box.extend(cloud.positions[i]);
+    }
+    result.boxes.push_back(common_box(box, communicator));
   }
-  return from_nearby_ranks<Candidate>(box_around(cloud.positions), cloud.positions, mine, reach, communicator);
+  result.images = Images(result.mirrors, result.boxes, reach);
+  return result;
+}
+
+// What others than the owner's own families may need of a point: itself (image 0) and its images.
+struct Offered {
+  int point, image;
+  Vector place;
+};
+
+// Of the points of this rank, whose `reach` is the largest horizon.
+std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored,
+                             double reach) {
+  std::vector<Offered> all;
+  for (int i = 0; i < static_cast<int>(cloud.size()); ++i) all.push_back({i, 0, cloud.positions[i]});
+  for (std::size_t m = 0; m < mirrored.mirrors.size(); ++m) {
+    const int body = mirrored.mirrors[m].body;
+    if (m > 0 && mirrored.mirrors[m - 1].body == body) continue;  // they are sorted by bodies
+    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+      if (bonds[cloud.blocks[i]].body != body) continue;
+      for (const int image : mirrored.images.of_body(body)) {
+        const Vector place = mirrored.images[image](cloud.positions[i]);
+        if (mirrored.boxes[m].squaredExteriorDistance(place) <= reach * reach) all.push_back({i, image, place});
+      }
+    }
+  }
+  return all;
+}
+
+// The records of what is offered to this rank, each of its place: what other ranks send, then images of its own points.
+template <class Record>
+std::vector<Record> received(const PointCloud& cloud, std::span<const Vector> places,
+                             const std::vector<Record>& records, const std::vector<char>& is_image, double reach,
+                             const Communicator& communicator) {
+  const Eigen::AlignedBox3d box = box_around(cloud.positions);
+  std::vector<Record> all = from_nearby_ranks<Record>(box, places, records, reach, communicator);
+  if (box.isEmpty()) return all;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    if (is_image[k] && box.squaredExteriorDistance(places[k]) <= reach * reach) all.push_back(records[k]);
+  }
+  return all;
+}
+
+// Points of other ranks, and images, that lie within `reach` of the box of this rank's points.
+std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<double>& horizons,
+                                  const std::vector<Offered>& offers, double reach, const Communicator& communicator) {
+  std::vector<Candidate> mine;
+  std::vector<Vector> places;
+  std::vector<char> is_image;
+  for (const auto& [i, image, X] : offers) {
+    mine.push_back({{X[0], X[1], X[2]},
+                    cloud.volumes[i],
+                    horizons[i],
+                    Images::id(cloud.ids[i], image),
+                    cloud.blocks[i],
+                    communicator.rank()});
+    places.push_back(X);
+    is_image.push_back(image > 0);
+  }
+  return received(cloud, places, mine, is_image, reach, communicator);
 }
 
 // Owned points first, then candidates.
@@ -50,6 +118,13 @@ struct CandidatePool {
   std::vector<char> asks;      // for bonds through material, or (2) for those that touch
   std::vector<double> deltas;  // δ, m: horizons are those of the search
   std::vector<int> owners;     // the ranks of the candidates
+
+  // A point on a symmetry plane, which has the half of its cell that is there, is where its image is.
+  bool is_own_image(int i, int j, const Vector& xi) const {
+    constexpr double round_off = 1e-8;  // of the horizon
+    return ids[i] != ids[j] && Images::original(ids[i]) == Images::original(ids[j]) &&
+           xi.squaredNorm() < round_off * round_off * horizons[i] * horizons[i];
+  }
 };
 
 CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons,
@@ -110,6 +185,7 @@ void for_each_within(const CellGrid& grid, const CandidatePool& pool, int i, dou
   grid.visit_near(here, [&](int j, const Vector& there) {
     const Vector xi = there - here;
     if (xi.squaredNorm() > reach * reach || j == i || pool.bodies[i] != pool.bodies[j]) return;
+    if (pool.is_own_image(i, j, xi)) return;
     if (bonded(pool.horizons[i], pool.horizons[j], xi)) visit(j);
   });
 }
@@ -151,25 +227,95 @@ struct JointOf {
   std::int64_t id, joint;
 };
 
+// The joints of points and of their images.
+class Joints {
+ public:
+  Joints(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored)
+      : cloud_(cloud), bonds_(bonds), mirrored_(mirrored) {}
+
+  // Calls visit(joint) for those of an image of point i. What lies on a symmetry plane is its own image.
+  template <class Visit>
+  void for_each(int i, int image, const Visit& visit) const {
+    const int body = bonds_[cloud_.blocks[i]].body;
+    const bool is_mirrored = !mirrored_.images.of_body(body).empty();
+    for (const std::int64_t joint : cloud_.joints[i]) {
+      const std::int64_t number = joint & ((std::int64_t{1} << first_plane_bit) - 1);
+      if (!is_mirrored) {
+        visit(number);
+      } else if (cloud_.at == PointsAt::nodes) {  // joints are elements, none of which is its own image
+        for_each_image_at(body, cloud_.positions[i], image, [&](int one) { visit(Images::id(number, one)); });
+      } else {
+        visit(Images::id(number, first_image(body, joint >> first_plane_bit, image)));
+      }
+    }
+  }
+
+ private:
+  // Those that take X to the same place as `image` does.
+  template <class Visit>
+  void for_each_image_at(int body, const Vector& X, int image, const Visit& visit) const {
+    const Images& images = mirrored_.images;
+    const auto look_at = [&](int one) {
+      if (is_same(images[one](X), images[image](X))) visit(one);
+    };
+    look_at(0);
+    for (const int one : images.of_body(body)) look_at(one);
+  }
+  // The first of those that differ from `image` by reflections about some planes.
+  int first_image(int body, std::int64_t planes, int image) const {
+    std::vector<Reflection> alike{mirrored_.images[image]};
+    int first = image;
+    for (std::size_t n = 0; n < alike.size(); ++n) {
+      first = std::min(first, number_of(body, alike[n], image));
+      for (const Mirror& mirror : mirrored_.mirrors) {
+        if (mirror.body != body || (planes >> mirror.bit & 1) == 0) continue;
+        const Reflection next = alike[n].after(Reflection::by(mirror));
+        const auto is_next = [&](const Reflection& one) { return is_same(one, next); };
+        if (std::none_of(alike.begin(), alike.end(), is_next)) alike.push_back(next);
+      }
+    }
+    return first;
+  }
+  // `otherwise`: where it is out of reach.
+  int number_of(int body, const Reflection& reflection, int otherwise) const {
+    if (is_same(reflection, Reflection())) return 0;
+    for (const int one : mirrored_.images.of_body(body)) {
+      if (is_same(reflection, mirrored_.images[one])) return one;
+    }
+    return otherwise;
+  }
+  bool is_same(const Vector& a, const Vector& b) const { return (a - b).norm() < 1e-9 * size_; }
+  bool is_same(const Reflection& a, const Reflection& b) const {
+    return (a.turn - b.turn).norm() < 1e-9 && is_same(a.shift, b.shift);
+  }
+
+  const PointCloud& cloud_;
+  const std::vector<BlockBonds>& bonds_;
+  const Mirrored& mirrored_;
+  double size_ = mirrored_.boxes.empty() ? 0 : mirrored_.boxes.front().sizes().norm();
+};
+
 // Each joint with a pool member that has it, of some blocks. Collective: the candidates' come from their owners, which
-// go through the same points in the same order as for the candidates themselves.
+// go through the same offers in the same order as for the candidates themselves.
 std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, const std::vector<char>& blocks,
-                                                    const CandidatePool& pool, double reach,
+                                                    const CandidatePool& pool, const Joints& all,
+                                                    const std::vector<Offered>& offers, double reach,
                                                     const Communicator& communicator) {
   std::vector<std::pair<std::int64_t, int>> joints;
   std::vector<Vector> places;
   std::vector<JointOf> mine;
-  for (std::size_t i = 0; i < cloud.joints.size(); ++i) {
-    if (!blocks[cloud.blocks[i]]) continue;
-    for (const std::int64_t joint : cloud.joints[i]) {
-      joints.emplace_back(joint, static_cast<int>(i));
-      places.push_back(cloud.positions[i]);
-      mine.push_back({cloud.ids[i], joint});
-    }
+  std::vector<char> is_image;
+  for (const auto& [i, image, place] : offers) {
+    if (cloud.joints.empty() || !blocks[cloud.blocks[i]]) continue;
+    all.for_each(i, image, [&](std::int64_t joint) {
+      if (image == 0) joints.emplace_back(joint, i);
+      places.push_back(place);
+      mine.push_back({Images::id(cloud.ids[i], image), joint});
+      is_image.push_back(image > 0);
+    });
   }
   std::size_t member = cloud.size();
-  for (const JointOf& one :
-       from_nearby_ranks<JointOf>(box_around(cloud.positions), places, mine, reach, communicator)) {
+  for (const JointOf& one : received(cloud, places, mine, is_image, reach, communicator)) {
     while (pool.ids[member] != one.id) ++member;
     joints.emplace_back(one.joint, static_cast<int>(member));
   }
@@ -199,13 +345,14 @@ LeftOut left_out_of(std::vector<std::pair<int, int>> pairs, int owned) {
 }
 
 // Collective.
-LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const CandidatePool& pool,
-                 const CellGrid& grid, double reach, const Communicator& communicator) {
+LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored,
+                 const std::vector<Offered>& offers, const CandidatePool& pool, const CellGrid& grid, double reach,
+                 const Communicator& communicator) {
   const std::vector<char> blocks = concerned(bonds);
   if (std::find(blocks.begin(), blocks.end(), 1) == blocks.end()) return {};
   check_through_material(cloud, bonds, communicator);
   ThroughMaterial material({pool.positions, pool.horizons, pool.bodies},
-                           joints_of(cloud, blocks, pool, reach, communicator));
+                           joints_of(cloud, blocks, pool, Joints(cloud, bonds, mirrored), offers, reach, communicator));
   std::vector<std::pair<int, int>> pairs;
   std::vector<int> family, asked, apart;
   const int owned = static_cast<int>(cloud.size());
@@ -431,6 +578,41 @@ std::vector<LatticeFrame> chosen_frames(const std::vector<LatticeFrame>& found, 
   return chosen;
 }
 
+// Those of lattices on which the images of their points are, too, with room for these; images on the cells of points
+// are none. Collective.
+std::vector<LatticeFrame> frames_with_images(const std::vector<LatticeFrame>& found, const CandidatePool& pool,
+                                             int owned, const Mirrored& mirrored, const Communicator& communicator) {
+  std::vector<LatticeFrame> frames;
+  for (LatticeFrame frame : found) {
+    bool fits = true;
+    if (!mirrored.images.of_body(frame.body).empty()) {
+      frame.make_room();
+      for (std::size_t j = owned; j < pool.ids.size(); ++j) {
+        if (pool.bodies[j] == frame.body && Images::image(pool.ids[j]) > 0) fits = fits && frame.has(pool.positions[j]);
+      }
+      for (const Mirror& mirror : mirrored.mirrors) {
+        if (mirror.body != frame.body) continue;
+        for (int i = 0; i < owned; ++i) {
+          fits = fits && (pool.bodies[i] != frame.body ||
+                          std::abs(mirror.distance(pool.positions[i])) > 0.25 * frame.spacing.minCoeff());
+        }
+      }
+    }
+    if (communicator.max(fits ? 0.0 : 1.0) == 0) frames.push_back(frame);
+  }
+  return frames;
+}
+
+// Cracks and their images.
+std::vector<Crack> with_images(const std::vector<Crack>& cracks, const Images& images) {
+  std::vector<Crack> all = cracks;
+  if (cracks.empty()) return all;
+  for (int image = 1; image < images.count(); ++image) {
+    for (const Crack& crack : cracks) all.push_back(image_of(crack, images[image]));
+  }
+  return all;
+}
+
 // The points of a domain in their order, owned ones and ghosts.
 struct Members {
   std::vector<int> in_pool, local, bodies;  // local: of the pool's members, −1 of those that are left out
@@ -481,7 +663,7 @@ void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& 
 }  // namespace
 
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
-                   const std::vector<Crack>& cracks) {
+                   const std::vector<Crack>& cracks, std::vector<Mirror> mirrors) {
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
   double reach = std::numeric_limits<double>::min();  // where there is no point
@@ -490,24 +672,29 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
     blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
   }
   const int owned = static_cast<int>(cloud.size());
+  std::stable_sort(mirrors.begin(), mirrors.end(), [](const Mirror& a, const Mirror& b) { return a.body < b.body; });
+  const Mirrored all = mirrored(std::move(mirrors), cloud, bonds, reach, communicator);
+  const std::vector<Offered> offers = offered(cloud, bonds, all, reach);
   const CandidatePool pool =
-      candidates_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, reach, communicator));
-  const std::vector<LatticeFrame> found = lattice_frames(cloud, own_horizons, bonds, communicator);
+      candidates_of(cloud, own_horizons, bonds, candidates(cloud, own_horizons, offers, reach, communicator));
+  const std::vector<LatticeFrame> found =
+      frames_with_images(lattice_frames(cloud, own_horizons, bonds, communicator), pool, owned, all, communicator);
   Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
   const std::vector<LatticeFrame> frames = chosen_frames(found, stencils, pool, owned, communicator);
   if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
   bool any_lists = false;
   for (std::size_t i = 0; i < stencils.of.size(); ++i) any_lists = any_lists || stencils.is_listed(static_cast<int>(i));
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
-  const LeftOut apart = left_out(cloud, bonds, pool, grid, reach, communicator);
-  const Search search{grid, apart, cracks, reach};
+  const LeftOut apart = left_out(cloud, bonds, all, offers, pool, grid, reach, communicator);
+  const std::vector<Crack> all_cracks = with_images(cracks, all.images);
+  const Search search{grid, apart, all_cracks, reach};
   const Order order = order_of(stencils, search, pool, cloud.blocks);
   PointCloud mine = reordered(cloud, order.points);
   mine.positions = {}, mine.volumes = {};
   Members members = members_of(pool, order, owned);
   Families families{.lists = lists_of(stencils, search, pool, cloud.blocks, order, members.local)};
   add_lattices(frames, pool, members, owned, families);
-  Halo halo(communicator, mine.ids, members.ghost_ids, members.ghost_owners);
+  Halo halo(communicator, mine.ids, members.ghost_ids, members.ghost_owners, all.images);
   const int ghosts = static_cast<int>(order.ghosts.size());
   return {communicator,
           std::move(mine),
@@ -519,7 +706,8 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
           std::move(families),
           std::move(halo),
           std::move(members.ghost_ids),
-          parted_by_cracks(search, pool, order.points)};
+          parted_by_cracks(search, pool, order.points),
+          all.mirrors};
 }
 
 PointCloud whole_cloud(const Domain& domain) {

@@ -8,6 +8,7 @@
 #include "base/parallel/communicator.hpp"
 #include "points/cloud.hpp"
 #include "points/halo.hpp"
+#include "points/mirror.hpp"
 #include "points/neighbors/block_bonds.hpp"
 #include "points/neighbors/cracks.hpp"
 #include "points/neighbors/families.hpp"
@@ -23,7 +24,7 @@ struct BlockHorizons {
 };
 
 // Local indices: [0, interior) owned, all neighbors owned; [interior, owned) owned, with ghosts in the family;
-// [owned, owned + ghosts) owned by other ranks.
+// [owned, owned + ghosts) owned by other ranks, or images of points by symmetry planes.
 struct Domain {
   Communicator communicator;
   PointCloud cloud;  // owned points; their positions and volumes have gone to sites
@@ -38,6 +39,8 @@ struct Domain {
   // Owned points, each with the id of one to which it is not bonded for a crack alone; ascending. No ghost stands for
   // it.
   std::vector<std::pair<int, std::int64_t>> parted;
+  // Symmetry planes; the images of points by them are ghosts, with ids by Images::id.
+  std::vector<Mirror> mirrors = {};
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
   Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
@@ -47,9 +50,9 @@ struct Domain {
 };
 
 // Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud; all may lose bonds where there
-// are cracks.
+// are cracks. Throws Error where mirrors do not meet at 180°/n.
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
-                   const std::vector<Crack>& cracks = {});
+                   const std::vector<Crack>& cracks = {}, std::vector<Mirror> mirrors = {});
 
 // The owned points as they were read.
 PointCloud whole_cloud(const Domain& domain);

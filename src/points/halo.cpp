@@ -46,32 +46,54 @@ std::vector<int> places_of(const Ids& wanted, std::span<const std::int64_t> owne
 
 }  // namespace
 
+void reflect_place(const Reflection& by, double* numbers) {
+  Eigen::Map<Vector> place(numbers);
+  place = by(place);
+}
+
+void reflect_direction(const Reflection& by, double* numbers) {
+  Eigen::Map<Vector> direction(numbers);
+  direction = (by.turn * direction).eval();
+}
+
 struct Halo::Plan {
   Teuchos::RCP<Tpetra::Distributor> distributor;  // null where there is one rank
   std::vector<int> sent, receivers, received;  // local indices, the ranks that `sent` go to; as ranks follow each other
   Buffer outgoing, incoming;
+  std::vector<ImagePoint> images;
 };
 
 // A rank asks the owners of its ghosts, which learn so to whom they send what.
 Halo::Halo(const Communicator& communicator, std::span<const std::int64_t> owned, std::span<const std::int64_t> ghosts,
-           std::span<const int> owners)
+           std::span<const int> owners, const Images& images)
     : plan_(std::make_unique<Plan>()) {
-  if (communicator.size() == 1) return;
-  std::vector<std::int64_t> asked;
+  std::vector<std::int64_t> asked, own_originals;
   std::vector<int> from;
   for (const int g : by_owners(owners)) {
-    plan_->received.push_back(static_cast<int>(owned.size()) + g);
-    asked.push_back(ghosts[g]);
+    const int image = Images::image(ghosts[g]), place = static_cast<int>(owned.size()) + g;
+    if (image > 0) plan_->images.push_back({place, -1, images[image]});
+    if (image > 0 && owners[g] == communicator.rank()) {
+      plan_->images.back().original = static_cast<int>(own_originals.size());
+      own_originals.push_back(Images::original(ghosts[g]));
+      continue;
+    }
+    plan_->received.push_back(place);
+    asked.push_back(Images::original(ghosts[g]));
     from.push_back(owners[g]);
   }
+  const std::vector<int> originals = places_of(own_originals, owned);
+  for (ImagePoint& image : plan_->images) {
+    if (image.original >= 0) image.original = originals[image.original];
+  }
+  if (communicator.size() == 1) return;
   Teuchos::Array<std::int64_t> wanted;
   Teuchos::Array<int> receivers;
   plan_->distributor = Teuchos::rcp(new Tpetra::Distributor(communicator.teuchos()));
   plan_->distributor->createFromRecvs(view(asked), view(from), wanted, receivers);
   plan_->sent = places_of(wanted, owned);
   plan_->receivers.assign(receivers.begin(), receivers.end());
-  // No rank sends by its plan before all have theirs: without, three ranks with Tpetra 16.1 and Open MPI 6.0.0rc2 waited
-  // for each other in most runs. Which of the three is at fault is not known.
+  // No rank sends by its plan before all have theirs: without, three ranks with Tpetra 16.1 and Open MPI 6.0.0rc2
+  // waited for each other in most runs. Which of the three is at fault is not known.
   communicator.barrier();
 }
 
@@ -80,6 +102,8 @@ Halo::Halo(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
 // Of each pair of ranks, what one sends is in the order in which the other receives it; so is a part of it.
 Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const {
   auto part = std::make_unique<Plan>();
+  std::ranges::copy_if(plan_->images, std::back_inserter(part->images),
+                       [&](const ImagePoint& image) { return wanted[image.ghost] != 0; });
   if (plan_->distributor.is_null()) return Halo(std::move(part));
   for (std::size_t k = 0; k < plan_->sent.size(); ++k) {
     if (wanted[plan_->sent[k]] == 0) continue;
@@ -93,6 +117,8 @@ Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std
   part->distributor->createFromSends(view(part->receivers));
   return Halo(std::move(part));
 }
+
+const std::vector<ImagePoint>& Halo::images() const { return plan_->images; }
 
 Halo::~Halo() = default;
 Halo::Halo(Halo&&) noexcept = default;
@@ -110,13 +136,19 @@ void Halo::start(const double* data, int stride, int width) const {
   bytes_sent_ += static_cast<std::int64_t>(outgoing * sizeof(double));
 }
 
-void Halo::finish(double* data, int stride, int width) const {
-  if (plan_->distributor.is_null()) return;
-  plan_->distributor->doWaits();
-  const double* from = plan_->incoming.data();
-  for (const int i : plan_->received) {
-    std::copy_n(from, width, data + static_cast<std::size_t>(i) * stride);
-    from += width;
+void Halo::finish(double* data, int stride, int width, Reflect reflect) const {
+  const auto numbers_of = [&](int i) { return data + static_cast<std::size_t>(i) * stride; };
+  if (!plan_->distributor.is_null()) {
+    plan_->distributor->doWaits();
+    const double* from = plan_->incoming.data();
+    for (const int i : plan_->received) {
+      std::copy_n(from, width, numbers_of(i));
+      from += width;
+    }
+  }
+  for (const ImagePoint& image : plan_->images) {
+    if (image.original >= 0) std::copy_n(numbers_of(image.original), width, numbers_of(image.ghost));
+    if (reflect) reflect(image.by, numbers_of(image.ghost));
   }
 }
 

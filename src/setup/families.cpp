@@ -62,14 +62,14 @@ void refuse_degenerate(std::int64_t count, std::string text, const Communicator&
 }  // namespace
 
 // Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
-Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                                        Dropped& dropped) {
+Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
+                                        const Communicator& communicator, Dropped& dropped) {
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
   PiecesOfPoints before;
   for (;;) {
-    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks);
+    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks, mirrors);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));

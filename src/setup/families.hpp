@@ -8,8 +8,9 @@
 namespace strut {
 
 // Collective. Families of the partitioned cloud, less the points that the deck lets go; `dropped` tells of these.
+// `mirrors`: by which bodies go on.
 // Throws Error on all ranks where the deck does not let them go.
-Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator,
-                                        Dropped& dropped);
+Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
+                                        const Communicator& communicator, Dropped& dropped);
 
 }  // namespace strut

@@ -15,6 +15,7 @@
 #include "points/coincident.hpp"
 #include "setup/blocks.hpp"
 #include "setup/finite_value.hpp"
+#include "setup/mirrors.hpp"
 
 namespace strut {
 
@@ -127,13 +128,16 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator) {
   const Timed timed(phase("Mesh in"));
   const deck::Discretization& discretization = deck.discretization;
   const deck::Grid& grid = discretization.grid;
-  const bool with_cells = needs_cells(deck);
+  const std::vector<Mirror> planes = symmetry_planes(deck);
+  const bool with_cells =
+      needs_cells(deck) || (!planes.empty() && deck.discretization.points == deck::Points::elements);
   if (discretization.type == deck::MeshType::grid) {
-    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells);
+    return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells, planes);
   }
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
   const bool nodes = discretization.points == deck::Points::nodes;
-  return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements, with_cells);
+  return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements, with_cells,
+                         planes);
 }
 
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems) {

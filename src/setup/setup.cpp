@@ -15,6 +15,7 @@
 #include "setup/families.hpp"
 #include "setup/filled_tools.hpp"
 #include "setup/mesh.hpp"
+#include "setup/mirrors.hpp"
 #include "setup/outline.hpp"
 #include "setup/tool_paths.hpp"
 #include "setup/trajectories.hpp"
@@ -35,7 +36,8 @@ std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
 Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Communicator& communicator) {
   Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
-  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), communicator, dropped);
+  const Mirrors found = mirrors(deck, cloud, communicator);
+  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), found.planes, communicator, dropped);
   Scene scene{
       make_body(std::move(domain), deck.discretization.influence, materials),
       {},
@@ -47,7 +49,9 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Commu
       0,
       0,
       dropped,
-      {}};
+      {},
+      {},
+      found.warnings};
   add_conditions(deck, scene, communicator);
   return scene;
 }
@@ -119,6 +123,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += improbable_materials(scene.body);
   scene.warnings += improbable_temperatures(scene.body);
   scene.warnings += improbable_scales(scene, ways, start, duration);
+  scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_tools(scene, ways, spacing, start, duration);
   scene.warnings += apart_tools(scene, start, duration);

@@ -110,11 +110,16 @@ void check_corners(const Values& values, Problems& problems) {
 
 }  // namespace
 
-Section symmetry_plane_section() { return plane("Symmetry Plane", "The points keep their distance to the plane."); }
+Section symmetry_plane_section() {
+  return plane("Symmetry Plane",
+               "A body that ends at the plane goes on behind it as its mirror image: a half, or a quarter between two "
+               "planes, is the whole. The node set has all points at the plane and no others: elements with a face on "
+               "it, or nodes. Points of `all` or of a block keep their distance to the plane (plane strain), and so do "
+               "those of a set that is none of these, of which a warning tells. Contact does not see mirror images.");
+}
 
-// `Point` is for the reader of the deck: the points keep the distance that they have.
 ConditionPrototype read_symmetry_plane(const Values& values, Problems& problems) {
-  return SymmetryPlane{.normal = read_direction(values, normal, problems)};
+  return SymmetryPlane{.normal = read_direction(values, normal, problems), .point = values[point_on_plane]};
 }
 
 Section rigid_plane_section() {

@@ -24,11 +24,23 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-std::vector<std::int64_t> joints_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element) {
+// A node with the bits of the planes that it lies on (PointCloud::joints).
+std::int64_t joint_at(const MeshSlice& slice, int node, const std::vector<Mirror>& planes, double spacing) {
+  std::int64_t joint = slice.nodes[node];
+  for (const Mirror& plane : planes) {
+    if (plane.holds(slice.mesh.nodes[node], spacing)) joint |= std::int64_t{1} << (first_plane_bit + plane.bit);
+  }
+  return joint;
+}
+
+std::vector<std::int64_t> joints_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element,
+                                    const std::vector<Mirror>& planes, double spacing) {
   if (block.type == "SPHERE") return {};
   const std::size_t size = block.nodes.size() / block.elements();
   std::vector<std::int64_t> joints;
-  for (std::size_t n = element * size; n < (element + 1) * size; ++n) joints.push_back(slice.nodes[block.nodes[n]]);
+  for (std::size_t n = element * size; n < (element + 1) * size; ++n) {
+    joints.push_back(joint_at(slice, block.nodes[n], planes, spacing));
+  }
   std::sort(joints.begin(), joints.end());
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());  // an element that is collapsed to a wedge
   return joints;
@@ -62,8 +74,8 @@ void check_cell(const PartialCell& cell, const Mesh::Block& block, std::int64_t 
 
 class Converter {
  public:
-  Converter(const MeshSlice& slice, const std::string& file, bool with_cells)
-      : slice_(slice), mesh_(slice.mesh), file_(file), with_cells_(with_cells) {}
+  Converter(const MeshSlice& slice, const std::string& file, bool with_cells, const std::vector<Mirror>& planes)
+      : slice_(slice), mesh_(slice.mesh), file_(file), with_cells_(with_cells), planes_(planes) {}
 
   PointCloud convert() {
     for (const MeshLayout::NodeSet& set : slice_.layout.node_sets) cloud_.set_names.push_back(set.name);
@@ -108,25 +120,29 @@ class Converter {
       shape.surface = block.cells[element].surface;
       shape.surface_moments = block.cells[element].surface_moments;
     }
-    cloud_.joints.push_back(joints_of(slice_, block, element));
+    cloud_.joints.push_back(joints_of(slice_, block, element, planes_, cloud_.spacings.back()));
   }
 
   const MeshSlice& slice_;
   const Mesh& mesh_;
   const std::string& file_;
   const bool with_cells_;
+  const std::vector<Mirror>& planes_;
   PointCloud cloud_;
 };
 
 }  // namespace
 
-PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells) {
+PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells,
+                              const std::vector<Mirror>& planes) {
   check_corners(slice, file);
-  return Converter(slice, file, with_cells).convert();
+  return Converter(slice, file, with_cells, planes).convert();
 }
 
-void add_surfaces(const MeshSlice& slice, const Communicator& communicator, PointCloud& cloud) {
+void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
+                  PointCloud& cloud) {
   for (const Face& face : surface_of(slice, communicator)) {
+    if (is_on(planes, face, slice.mesh)) continue;
     const std::size_t point = static_cast<std::size_t>(face.element);
     if (!slice.mesh.blocks[cloud.blocks[point]].cells.empty()) continue;
     CellShape& shape = cloud.shapes[point];

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "points/cloud.hpp"
+#include "points/mirror.hpp"
 
 namespace strut {
 class Communicator;
@@ -25,11 +26,12 @@ namespace strut::io {
 // node that a hex8 or tet4 element uses, in the block that comes first in the file; ids count the file's nodes from 0.
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
-// `with_cells`: also shapes and joints of the points (cloud.hpp).
+// `with_cells`: also shapes and joints of the points (cloud.hpp); faces on symmetry `planes` are no surface.
 // HEX8 blocks with the attributes of PartialCell: volume and place of a point at an element are the cell's, the spacing
 // stays the hexahedron's. Throws Error where the cell is not one (names element and block), and for points at nodes.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
-                       PointsAt at = PointsAt::elements, bool with_cells = false);
+                       PointsAt at = PointsAt::elements, bool with_cells = false,
+                       const std::vector<Mirror>& planes = {});
 
 // Lines "x y z block volume" (m, m³; block: an integer n, named "block_n"); '#' starts a comment. Errors name the line.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator);

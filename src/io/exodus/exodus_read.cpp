@@ -80,23 +80,23 @@ void check_blocks_have_points(const PointCloud& cloud, const std::string& file, 
 }
 
 PointCloud at_nodes(const std::optional<MeshFile>& file, const MeshLayout& layout, const std::string& name,
-                    bool with_cells, const Communicator& communicator) {
+                    bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
   check_elements_have_nodes(layout, name);
   const MeshSlice slice = elements_around_slice(file ? &*file : nullptr, layout, communicator);
   const auto numbers = numbers_of(file, ExodusFile::On::nodes, layout.nodes, communicator);
   const std::int64_t begin = slice_begin(layout.nodes, communicator.size(), communicator.rank());
   PointCloud cloud = on_all_ranks(communicator, [&] {
-    return points_at_nodes(slice, {begin, begin + std::ssize(numbers)}, numbers, name, with_cells);
+    return points_at_nodes(slice, {begin, begin + std::ssize(numbers)}, numbers, name, with_cells, planes);
   });
   check_blocks_have_points(cloud, name, communicator);
   return cloud;
 }
 
 PointCloud at_elements(const std::optional<MeshFile>& file, const MeshLayout& layout, const std::string& name,
-                       bool with_cells, const Communicator& communicator) {
+                       bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
   const MeshSlice slice = slice_of_elements(file ? &*file : nullptr, layout, communicator);
-  PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells); });
-  if (with_cells) add_surfaces(slice, communicator, cloud);
+  PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells, planes); });
+  if (with_cells) add_surfaces(slice, planes, communicator, cloud);
   cloud.element_ids = numbers_of(file, ExodusFile::On::elements, layout.elements, communicator);
   return cloud;
 }
@@ -104,12 +104,12 @@ PointCloud at_elements(const std::optional<MeshFile>& file, const MeshLayout& la
 }  // namespace
 
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator, PointsAt at,
-                       bool with_cells) {
+                       bool with_cells, const std::vector<Mirror>& planes) {
   std::optional<MeshFile> mesh;
   run_on_root(communicator, [&] { mesh.emplace(opened(file)); });
   const MeshLayout layout = broadcast_layout(mesh ? mesh->layout() : MeshLayout(), communicator);
   PointCloud cloud =
-      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, file.string(), with_cells, communicator);
+      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, file.string(), with_cells, planes, communicator);
   const auto alone = [](const std::vector<std::int64_t>& joints) { return joints.empty(); };
   const bool any_alone = std::any_of(cloud.joints.begin(), cloud.joints.end(), alone);
   cloud.joined = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;

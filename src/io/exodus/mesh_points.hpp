@@ -6,14 +6,17 @@
 #include <vector>
 
 #include "io/exodus/mesh_slice.hpp"
+#include "points/mirror.hpp"
 
 namespace strut::io {
 
 // A point for each element, at its centroid; their surfaces are missing yet. `file`: the mesh's name, for errors.
 // Throws Error on this rank: see read_exodus.
-PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells);
+PointCloud points_at_elements(const MeshSlice& slice, const std::string& file, bool with_cells,
+                              const std::vector<Mirror>& planes);
 // Collective. The surfaces of the shapes of those points, but of cells, which bring their own.
-void add_surfaces(const MeshSlice& slice, const Communicator& communicator, PointCloud& cloud);
+void add_surfaces(const MeshSlice& slice, const std::vector<Mirror>& planes, const Communicator& communicator,
+                  PointCloud& cloud);
 
 // A point for each node of `own` that an element uses: nodes around which the slice has all elements. `numbers`: the
 // mesh's own, of these. Throws Error on this rank: see read_exodus.
@@ -21,7 +24,7 @@ struct NodeRange {
   std::int64_t begin, end;  // places in the file
 };
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
-                           const std::string& file, bool with_cells);
+                           const std::string& file, bool with_cells, const std::vector<Mirror>& planes);
 
 // The nodes of an element of `size` nodes.
 template <std::size_t size>

@@ -67,7 +67,7 @@ class Shares {
 // What of the elements around each node belongs to it, and which elements these are.
 class Cells {
  public:
-  explicit Cells(const MeshSlice& slice)
+  Cells(const MeshSlice& slice, const std::vector<Mirror>& planes)
       : slice_(slice),
         mesh_(slice.mesh),
         integrals_(slice.nodes.size()),
@@ -79,6 +79,7 @@ class Cells {
       if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
     }
     for (const Face& face : surface_of(mesh_)) {
+      if (is_on(planes, face, mesh_)) continue;
       const double share = 1.0 / static_cast<double>(face.corners().size());
       for (std::size_t c = 0; c < face.corners().size(); ++c) {
         const int node = face.nodes[c];
@@ -160,12 +161,12 @@ void check_given_once(const MeshSlice& slice, const std::string& file) {
 }  // namespace
 
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
-                           const std::string& file, bool with_cells) {
+                           const std::string& file, bool with_cells, const std::vector<Mirror>& planes) {
   check_corners(slice, file);
   check_given_once(slice, file);
   const std::vector<Share> shares = Shares(slice, file).collect();
   std::optional<Cells> cells;
-  if (with_cells) cells.emplace(slice);
+  if (with_cells) cells.emplace(slice, planes);
   PointCloud cloud;
   cloud.at = PointsAt::nodes;
   for (const MeshLayout::Block& block : slice.layout.blocks) cloud.block_names.push_back(block.name);

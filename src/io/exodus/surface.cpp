@@ -128,6 +128,13 @@ std::vector<Face> faces_of(const Mesh& mesh, const std::vector<Side>& sides, con
 
 }  // namespace
 
+bool is_on(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh) {
+  const double size = std::sqrt(face.area.norm());
+  return std::ranges::any_of(planes, [&](const Mirror& plane) {
+    return std::ranges::all_of(face.corners(), [&](int node) { return plane.holds(mesh.nodes[node], size); });
+  });
+}
+
 Vector Face::middle(const Mesh& mesh) const {
   Vector sum = Vector::Zero();
   for (const int node : corners()) sum += mesh.nodes[node];

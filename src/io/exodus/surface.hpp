@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/exodus/mesh_slice.hpp"
+#include "points/mirror.hpp"
 
 namespace strut::io {
 
@@ -18,6 +19,9 @@ struct Face {
   // The mean of corner number c, the middles of the edges beside it and the middle of the face: of the corner's part.
   Vector middle_at(const Mesh& mesh, std::size_t c) const;
 };
+
+// Whether it lies on one of the planes: there the body goes on.
+bool is_on(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh);
 
 // Of hexahedra and tetrahedra, in an order that depends on the mesh alone: of the elements here, as if there were no
 // others; and, collective, those of the whole mesh that belong to elements here.

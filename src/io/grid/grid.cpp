@@ -1,5 +1,6 @@
 #include "io/grid/grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -42,36 +43,57 @@ PointCloud part_of_grid(const Vector& origin, const Vector& cell, const std::arr
   return cloud;
 }
 
-// The part of the box's surface that cell `at` of so many along each axis has.
-void set_surface(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell, CellShape& shape) {
+// Whether the face of a cell around X at X[axis] ± half of an edge is on one of the planes.
+bool is_on(const std::vector<Mirror>& planes, const Vector& X, int axis, double half) {
+  const Vector middle = X + half * Vector::Unit(axis);
+  return std::ranges::any_of(planes, [&](const Mirror& plane) {
+    return std::abs(std::abs(plane.normal[axis]) - 1) < 1e-9 && plane.holds(middle, std::abs(half));
+  });
+}
+
+// The part of the box's surface that cell `at` of so many along each axis, around X, has.
+void set_surface(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell, const Vector& X,
+                 const std::vector<Mirror>& planes, CellShape& shape) {
   for (int axis = 0; axis < 3; ++axis) {
-    const int upper = at[axis] == points[axis] - 1 ? 1 : 0, lower = at[axis] == 0 ? 1 : 0;
+    const auto at_end = [&](int last, double half) {
+      return at[axis] == last && !is_on(planes, X, axis, half) ? 1 : 0;
+    };
+    const int upper = at_end(points[axis] - 1, 0.5 * cell[axis]), lower = at_end(0, -0.5 * cell[axis]);
     shape.surface[axis] = (upper - lower) * cell.prod() / cell[axis];
     shape.surface_moments(axis, axis) = (upper + lower) * cell.prod() / 2;
   }
 }
 
-// The corners of a cell, numbered x fastest.
-std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::array<int, 3>& points) {
+// The corners of a cell, numbered x fastest, with the bits of the planes that they lie on (PointCloud::joints).
+std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell,
+                                     const Vector& origin, const std::vector<Mirror>& planes) {
   std::vector<std::int64_t> corners;
   for (const std::int64_t z : {at[2], at[2] + 1}) {
     for (const std::int64_t y : {at[1], at[1] + 1}) {
       for (const std::int64_t x : {at[0], at[0] + 1}) {
-        corners.push_back((z * (points[1] + 1) + y) * (points[0] + 1) + x);
+        std::int64_t joint = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
+        const Vector X = origin + cell.cwiseProduct(Vector(x, y, z));
+        for (const Mirror& plane : planes) {
+          if (plane.holds(X, cell.minCoeff())) joint |= std::int64_t{1} << (first_plane_bit + plane.bit);
+        }
+        corners.push_back(joint);
       }
     }
   }
+  std::sort(corners.begin(), corners.end());
   return corners;
 }
 
-void add_cells(const Vector& cell, const std::array<int, 3>& points, PointCloud& cloud) {
+void add_cells(const Vector& cell, const Vector& origin, const std::array<int, 3>& points,
+               const std::vector<Mirror>& planes, PointCloud& cloud) {
   const Vector squares = cell.cwiseAbs2() / 12;
-  for (const std::int64_t id : cloud.ids) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const std::int64_t id = cloud.ids[i];
     const std::array<int, 3> at = place_of(id, points);
     CellShape& shape = cloud.shapes.emplace_back();
     shape.moments.head<3>() = squares;
-    set_surface(at, points, cell, shape);
-    cloud.joints.push_back(corners_of(at, points));
+    set_surface(at, points, cell, cloud.positions[i], planes, shape);
+    cloud.joints.push_back(corners_of(at, points, cell, origin, planes));
   }
   cloud.joined = true;
 }
@@ -79,13 +101,13 @@ void add_cells(const Vector& cell, const std::array<int, 3>& points, PointCloud&
 }  // namespace
 
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
-                     const Communicator& communicator, bool with_cells) {
+                     const Communicator& communicator, bool with_cells, const std::vector<Mirror>& planes) {
   check_count(points);
   const Vector cell = length.cwiseQuotient(Vector(points[0], points[1], points[2]));
   const std::int64_t total = std::int64_t{points[0]} * points[1] * points[2];
   PointCloud cloud = part_of_grid(origin, cell, points, slice_begin(total, communicator.size(), communicator.rank()),
                                   slice_begin(total, communicator.size(), communicator.rank() + 1));
-  if (with_cells) add_cells(cell, points, cloud);
+  if (with_cells) add_cells(cell, origin, points, planes, cloud);
   return cloud;
 }
 

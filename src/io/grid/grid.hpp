@@ -4,6 +4,7 @@
 #include <array>
 
 #include "points/cloud.hpp"
+#include "points/mirror.hpp"
 
 namespace strut {
 class Communicator;
@@ -12,8 +13,8 @@ class Communicator;
 namespace strut::io {
 
 // Collective. `points` cells along x, y, z, x fastest, in the block "block_1"; each rank receives a contiguous slice.
-// `with_cells`: also shapes and joints, which are the corners of the cells.
+// `with_cells`: also shapes and joints, which are the corners of the cells; faces on symmetry `planes` are no surface.
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
-                     const Communicator& communicator, bool with_cells = false);
+                     const Communicator& communicator, bool with_cells = false, const std::vector<Mirror>& planes = {});
 
 }  // namespace strut::io

@@ -6,6 +6,7 @@
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/kernels/over_family.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
+#include "mechanics/reflected.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -29,8 +30,6 @@ constexpr double least_for_stress = 0.02;
 // operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularization.
 constexpr double regularization = 0.5, inner_diagonal = 23;
 constexpr int iterations = 16;
-
-constexpr int state_width = sizeof(QuadraticState) / sizeof(double);
 
 CellShape cube_of(double volume) {
   CellShape cube;
@@ -93,10 +92,11 @@ FamilySums sums_of_family(double h, double volume, const Over& over) {
   return sums;
 }
 
-// (M + penalty)⁻¹.
+// (M + penalty)⁻¹. The penalty is on |H|², in which xy counts as yx does, too: alike in all directions.
 Matrix9 inverse_with(const FamilySums& sums, double penalty) {
   Matrix9 M = sums.moments;
-  M.diagonal().tail<6>().array() += penalty * sums.weight;
+  M.diagonal().segment<3>(3).array() += penalty * sums.weight;
+  M.diagonal().tail<3>().array() += 2 * penalty * sums.weight;
   return M.ldlt().solve(Matrix9::Identity());
 }
 
@@ -241,7 +241,9 @@ class ConsistencyCorrection {
   int count() const { return static_cast<int>(points_.size()); }
   bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
   Halo& halo() const { return body_.domain.halo; }
-  void exchange_multipliers() { halo().exchange(reinterpret_cast<double*>(fits_.multipliers_.data()), 4, 3); }
+  void exchange_multipliers() {
+    halo().exchange(reinterpret_cast<double*>(fits_.multipliers_.data()), 4, 3, reflect_direction);
+  }
 
   void set_missing();
   void set_operator();
@@ -252,8 +254,12 @@ class ConsistencyCorrection {
   // A linear fit as others need it: c, C, and V² of the point; nothing of points that carry no stress.
   struct Share {
     double c[3], C[9], weight;
+
+    friend void reflect(const Reflection& by, Share& share) {
+      reflect_direction(by, share.c);
+      reflect_rows(by, share.C);  // columns do as well
+    }
   };
-  static constexpr int share_width = sizeof(Share) / sizeof(double);
 
   Body& body_;
   QuadraticFits& fits_;
@@ -275,7 +281,7 @@ void ConsistencyCorrection::set_missing() {
     states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
     states[i].failed = 1;  // a mark, here of points by quadratic correspondence
   }
-  halo().exchange(reinterpret_cast<double*>(states.data()), state_width, state_width);
+  halo().exchange_records(states);
   missing_.assign(body_.owned(), Vector::Zero());
   bonds::with_influence(body_.influence, [&](auto weight) {
     for_each_point(0, count(), [&, weight](int p) {
@@ -302,7 +308,7 @@ void ConsistencyCorrection::set_operator() {
     moments_[i] = inverse_moments(body_, i);
     shares_[i].weight = volume * volume;
   }
-  halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
+  halo().exchange_records(shares_);
   for (const int i : points_) {
     const double volume = body_.domain.volume(i);
     double sum = shares_[i].weight;
@@ -322,7 +328,7 @@ void ConsistencyCorrection::apply_operator() {
     Eigen::Map<Vector>{shares_[i].c} = fit.c;
     Eigen::Map<Tensor>{shares_[i].C} = fit.C;
   });
-  halo().exchange(reinterpret_cast<double*>(shares_.data()), share_width, share_width);
+  halo().exchange_records(shares_);
   for_each_point(0, count(), [&](int p) {
     const int i = points_[p];
     const Vector mu = fits_.multipliers_[i].head<3>().matrix();

@@ -14,6 +14,7 @@
 #include "mechanics/fracture/strain_jump.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
+#include "mechanics/reflected.hpp"
 #include "points/parallel_for.hpp"
 
 namespace strut {
@@ -510,12 +511,8 @@ namespace {
 void exchange_states(Body& body) {
   ForceStates& states = body.force_states;
   const Domain& domain = body.domain;
-  constexpr int width = sizeof(ScalarState) / sizeof(double);
-  if (!states.scalars.empty()) domain.halo.exchange(&states.scalars[0].a, width, width);
-  constexpr int of_gradients = sizeof(GradientState) / sizeof(double);
-  if (!states.gradients.empty()) {
-    domain.halo.exchange(states.gradients[0].column[0].data(), of_gradients, of_gradients);
-  }
+  if (!states.scalars.empty()) domain.halo.exchange_records(states.scalars);
+  if (!states.gradients.empty()) domain.halo.exchange_records(states.gradients);
   std::vector<double> failed(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) failed[i] = has_failed(states, i);
   domain.halo.exchange(failed.data(), 1, 1);

@@ -57,6 +57,10 @@ bool Travel::advance(const Body& body, std::span<const Vector> velocities, doubl
   set_boxes(body.domain.families.lists, velocities, due);
   Eigen::AlignedBox3d all;
   for (const Region& region : regions_) all.extend(region.box);
+  if (!body.domain.mirrors.empty() && !all.isEmpty()) {  // images go other ways, as fast
+    const double speed = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).norm();
+    all.extend(Vector::Constant(speed)), all.extend(Vector::Constant(-speed));
+  }
   double passed = -never, at_ghosts = -never;  // by how much one is due; without what is added where ghosts are
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     Region& region = regions_[r];

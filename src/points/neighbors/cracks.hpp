@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/math/tensors.hpp"
+#include "points/mirror.hpp"
 
 namespace strut {
 
@@ -33,6 +34,17 @@ struct DiskCrack {
 };
 
 using Crack = std::variant<RectangularCrack, DiskCrack>;
+
+// As a rotation keeps it: the side of a rectangle is `along` × `normal`, which a reflection turns round.
+inline Crack image_of(const Crack& crack, const Reflection& by) {
+  if (const auto* one = std::get_if<RectangularCrack>(&crack)) {
+    const double sign = by.turn.determinant() < 0 ? -1 : 1;
+    return RectangularCrack{by(one->corner), sign * (by.turn * one->normal), by.turn * one->along, one->length,
+                            one->width};
+  }
+  const DiskCrack& disk = std::get<DiskCrack>(crack);
+  return DiskCrack{by(disk.center), by.turn * disk.normal, disk.radius};
+}
 
 // Where the segment from a to b meets the plane through `on`, if it does, its ends included.
 inline std::optional<Vector> crossing(const Vector& a, const Vector& b, const Vector& on, const Vector& normal) {

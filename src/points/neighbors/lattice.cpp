@@ -60,11 +60,7 @@ double smallest_step(const std::vector<Vector>& positions, int axis, double hori
 
 // Whether all points are at cells of the frame.
 bool fits(const LatticeFrame& frame, const std::vector<Vector>& positions) {
-  for (const Vector& X : positions) {
-    const Eigen::Array3d cell = (X - frame.origin).array() / frame.spacing.array();
-    if (!((cell - cell.round()).abs() <= tolerance).all()) return false;
-  }
-  return true;
+  return std::all_of(positions.begin(), positions.end(), [&](const Vector& X) { return frame.has(X); });
 }
 
 // Whether a grid over the body takes less than lists would: 64 bytes a point are 16 neighbors.
@@ -100,6 +96,18 @@ std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const C
 }
 
 }  // namespace
+
+bool LatticeFrame::has(const Vector& X) const {
+  const Eigen::Array3d cell = (X - origin).array() / spacing.array();
+  return ((cell - cell.round()).abs() <= tolerance).all();
+}
+
+void LatticeFrame::make_room() {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int pencils = cells_within(*this, axis) / LatticeFamilies::width + 1;
+    origin[axis] -= pencils * LatticeFamilies::width * spacing[axis];
+  }
+}
 
 Eigen::Array3i LatticeFrame::cell_of(const Vector& X) const {
   return ((X - origin).array() / spacing.array()).round().cast<int>();

@@ -29,6 +29,8 @@ struct LatticeFrame {
   bool loses_bonds = false;         // there are lists of its points, too
 
   Eigen::Array3i cell_of(const Vector& X) const;
+  bool has(const Vector& X) const;  // it is at a cell
+  void make_room();                 // for images of points before the origin, within the horizon
 };
 
 // Collective. The bodies that sit on a lattice. Not on one: coordinates off by more than 1e-9 spacings, horizons that

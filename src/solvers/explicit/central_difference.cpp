@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "mechanics/fracture/fracture.hpp"
+#include "mechanics/mirror_forces.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "mechanics/serialize.hpp"
 #include "points/parallel_for.hpp"
@@ -48,6 +49,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   StepReport report = advance_stress(body_, 0, true);
   reassign_levels(report);
   sum_forces(body_, true);
+  mirror_forces_ = mirror_forces(body_);
   contact_.add_forces(kinematics(), 0, body_.force_density);
   check(report);
   estimate_step();
@@ -175,6 +177,7 @@ void CentralDifference::apply_conditions(double impulse_time) {
   PointTimeSteps steps = point_steps();
   steps.impulse = impulse_time / dt_;
   change_velocities(conditions_, time_, steps, body_, impulse_work_, impulses);
+  add_mirror_impulses(mirror_forces_, impulse_time, impulses);
   take_reactions(impulses, impulse_time);
   const double part = impulse_time / static_cast<double>(load_times_.size());
   for (const double t : load_times_) add_work_of_forces(conditions_, t, part, body_, impulse_work_);
@@ -209,6 +212,14 @@ void CentralDifference::add_work_of_friction(double impulse_time) {
 void CentralDifference::gather_reactions(int conditions) {
   reaction_forces_.assign(conditions, Vector::Zero());
   substep_impulses_ = ReactionImpulses(conditions);
+}
+
+// The images of points act on the body as bonds do, without work.
+void CentralDifference::add_mirror_impulses(const std::vector<Vector>& forces, double impulse_time,
+                                            ReactionImpulses& impulses) const {
+  for (std::size_t m = 0; m < forces.size(); ++m) {
+    impulses.add(body_.domain.mirrors[m].number, impulse_time * forces[m]);
+  }
 }
 
 // What a substep gives belongs to the step before this impulse.
@@ -255,6 +266,7 @@ StepReport CentralDifference::substep(int level, double t) {
   const double impulse_time = std::ldexp(dt_, -level);
   const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
   for_each_point(0, count, [&](int n) { apply_force(moved[n], impulse_time); });
+  add_mirror_impulses(mirror_forces(body_, level, &moved), impulse_time, substep_impulses_);
   ImpulseWork work;
   change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, substep_impulses_);
   work_ = work_ + work.before + work.after;
@@ -274,6 +286,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   take_worse(between.failure, report.failure);
   if (levels_due_) reassign_levels(report);
   sum_forces(body_, with_diagnostics);
+  mirror_forces_ = mirror_forces(body_);
   contact_.add_forces(kinematics(), dt_, body_.force_density);
   check(report);
 }
@@ -371,6 +384,8 @@ void CentralDifference::serialize_work(Archive& archive) {
   serialize("_before", impulse_work_.before);
   serialize("_after", impulse_work_.after);
   substep_impulses_.serialize(archive);
+  mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
+  serialize_mirror_forces(archive, mirror_forces_);
 }
 
 namespace {

@@ -99,6 +99,7 @@ class CentralDifference {
   Severity severity(const StepReport& report) const;
   void check(const StepReport& report);
   double put_in(const Ledger& now) const;
+  void add_mirror_impulses(const std::vector<Vector>& forces, double impulse_time, ReactionImpulses& impulses) const;
 
   Body& body_;
   Conditions conditions_;
@@ -113,6 +114,7 @@ class CentralDifference {
   std::vector<Vector> reaction_forces_;  // N, on this rank's points at time(), by condition; empty: not asked for
   StepImpulses impulses_;
   ReactionImpulses substep_impulses_;  // of the substeps since the last whole step
+  std::vector<Vector> mirror_forces_;  // N, at time(), of domain.mirrors on this rank's points
   double time_, next_time_ = 0, dt_ = 0, previous_dt_ = 0;
   double least_chosen_ = std::numeric_limits<double>::infinity();  // s, since the last estimate
   double bound_of_step_ = 0,

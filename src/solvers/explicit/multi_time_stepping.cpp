@@ -227,8 +227,7 @@ void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
 
 template <class State>
 void exchange_states(Halo& halo, std::vector<State>& states) {
-  constexpr int width = sizeof(State) / sizeof(double);
-  if (!states.empty()) halo.exchange(reinterpret_cast<double*>(states.data()), width, width);
+  if (!states.empty()) halo.exchange_records(states);
 }
 
 // What the far ends of the bonds of a cluster give to the forces on its points.
@@ -244,14 +243,6 @@ small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster,
   }
   if (!states.quadratics.empty()) add(quadratic_far_forces(body, cluster, states, weight));
   return sum;
-}
-
-// Global ids of owned points and ghosts.
-std::vector<double> all_ids(Body& body) {
-  std::vector<double> ids(body.domain.cloud.ids.begin(), body.domain.cloud.ids.end());
-  ids.resize(body.domain.sites.size());
-  body.domain.halo.exchange(ids.data(), 1, 1);
-  return ids;
 }
 
 }  // namespace
@@ -294,8 +285,7 @@ void MultiTimeStepping::make_levels(Body& body) {
   motion_levels_ = motion_levels_of(body, body.time_levels);
   std::vector<std::uint8_t> everywhere = motion_levels_;
   exchange(body, body.domain.halo, everywhere);
-  const std::vector<double> ids = all_ids(body);
-  for (int m = 1; m <= count; ++m) levels_.push_back(make_level(body, everywhere, ids, m));
+  for (int m = 1; m <= count; ++m) levels_.push_back(make_level(body, everywhere, m));
   double updates[] = {0, static_cast<double>(body.owned())};
   for (int i = 0; i < body.owned(); ++i) updates[0] += 1 << body.time_levels[i];
   body.domain.communicator.sum(updates);
@@ -318,11 +308,11 @@ void MultiTimeStepping::serialize(Archive& archive, Body& body) {
 }
 
 MultiTimeStepping::Level MultiTimeStepping::make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels,
-                                                       const std::vector<double>& ids, int level) const {
+                                                       int level) const {
   std::vector<std::uint8_t> wanted(motion_levels.size());
   for (std::size_t i = 0; i < motion_levels.size(); ++i) wanted[i] = motion_levels[i] >= level;
   Level result{.halo = body.domain.halo.restricted_to(body.domain.communicator, wanted)};
-  const auto by_id = [&](int j) { return ids[j]; };
+  const auto by_id = [&](int j) { return body.domain.id(j); };
   const auto family = [&](int i, const auto& visit) { body.domain.families.for_each(i, visit); };
   for (const MaterialBlock& block : body.blocks) {
     SelectedPoints& stressed = result.stressed.emplace_back();
@@ -364,7 +354,7 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
 StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
   Level& now = levels_[level - 1];
   StepReport report;
-  now.halo.exchange(places(body.domain.sites), site_stride, 3);
+  now.halo.exchange(places(body.domain.sites), site_stride, 3, reflect_place);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
     if (block.in_rigid_motion || now.stressed[b].places.empty()) continue;

@@ -66,8 +66,7 @@ class MultiTimeStepping {
   void add_residuals(std::size_t kind, Body& body, Level& now, int level) const;
   void make_levels(Body& body);
   static void set_moment_errors(const Body& body, Level& level);
-  Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, const std::vector<double>& ids,
-                   int level) const;
+  Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, int level) const;
 
   std::vector<Level> levels_;
   std::vector<std::uint8_t> motion_levels_;

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "mechanics/mirror_forces.hpp"
 #include "mechanics/serialize.hpp"
 
 namespace strut {
@@ -86,6 +87,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   const StepReport report = advance_by_any_step(body_, dt_, with_diagnostics);
   failure_ = report.failure;
   residual_ = body_.force_density;
+  mirror_forces_ = mirror_forces(body_);
   add_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
   add_contact();
@@ -171,7 +173,9 @@ void Equilibrium::commit() {
   contact_.commit();
   tools_.commit();
   outer_before_ = outer_;
+  mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
+  mirror_forces_before_ = mirror_forces_;
 }
 
 std::vector<Tensor> Equilibrium::contact_springs() {
@@ -187,6 +191,7 @@ void Equilibrium::go_back() {
   add_contact();  // for its energy
   forces_ = forces_before_;
   outer_ = outer_before_;
+  mirror_forces_ = mirror_forces_before_;
   tools_.go_back();
 }
 
@@ -199,6 +204,8 @@ void Equilibrium::serialize(Archive& archive) {
   forces_.resize(body_.owned(), Vector::Zero());
   serialize_field("forces", forces_);
   serialize_field("outer_forces", outer_);
+  mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
+  serialize_mirror_forces(archive, mirror_forces_);
   archive.number("step_begin", t_);
   archive.number("step_length", dt_);
   archive.number("largest_scale", largest_scale_);
@@ -226,6 +233,9 @@ Reactions Equilibrium::reactions(int conditions) const {
   if (conditions == 0 || !constraints_) return all;
   constraints_->add_reactions(forces_, all.forces);
   tools_.add_reactions(all.forces);
+  for (std::size_t m = 0; m < mirror_forces_.size(); ++m) {
+    all.forces[body_.domain.mirrors[m].number] += mirror_forces_[m];
+  }
   body_.domain.communicator.sum(std::span(all.forces.data()->data(), 3 * all.forces.size()));
   return all;
 }

@@ -87,6 +87,7 @@ class Equilibrium {
   Field forces_, residual_;        // N: all; those that nothing holds
   Field forces_before_;            // N, of the committed state
   Field outer_, outer_before_;     // loads and reactions, N
+  Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors on this rank's points
   std::vector<Vector> looked_at_;  // places that contact has last been asked about
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;

@@ -93,7 +93,7 @@ void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& ex
   if (wants_factors_ && !factor_) factor_.emplace(body);
   is_factorized_ =
       wants_factors_ && factor_->is_worthwhile() &&
-      factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix, krylov_.first());
+      factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix);
   if (is_factorized_) {
     return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
   }

@@ -27,7 +27,10 @@ struct End {
   double spacing;    // m
   Tensor free_projection;
 };
-constexpr int end_width = sizeof(End) / sizeof(double);
+
+void reflect(const Reflection& by, End& end) {
+  end.free_projection = (by.turn * end.free_projection * by.turn.transpose()).eval();
+}
 
 bool near(const End& a, const End& b, const Vector& xi) { return xi.norm() <= 0.5 * reach * (a.spacing + b.spacing); }
 
@@ -56,7 +59,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
     ends[i] = {static_cast<double>(first + i), 0, body.domain.cloud.spacings[i], held.free_projection(i)};
   }
   Halo& halo = body.domain.halo;
-  halo.exchange(reinterpret_cast<double*>(ends.data()), end_width, end_width);
+  halo.exchange_records(ends);
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
@@ -65,8 +68,19 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
       ends[i].stiffness = 15 * std::max(now, smallest_share * elastic) / std::max(spread(body, ends, i), 1e-300);
     }
   }
-  halo.exchange(reinterpret_cast<double*>(ends.data()), end_width, end_width);
+  halo.exchange_records(ends);
   return ends;
+}
+
+// Adds the block at (row, column) to the row that is the last one; several images of a point have one column.
+void add(std::int64_t column, const Tensor& block, BlockRows& rows) {
+  const auto begin = rows.columns.begin() + static_cast<std::ptrdiff_t>(rows.start.back());
+  const auto same = std::find(begin, rows.columns.end(), column);
+  if (same != rows.columns.end()) {
+    rows.blocks[same - rows.columns.begin()] += block;
+  } else {
+    rows.columns.push_back(column), rows.blocks.push_back(block);
+  }
 }
 
 }  // namespace
@@ -74,12 +88,15 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
 BlockRows preconditioner_matrix(Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
                                 const std::vector<Tensor>& extra, std::int64_t first) {
   const std::vector<End> ends = ends_of(body, tangents, held, first);
+  std::vector<const Reflection*> reflections(body.domain.sites.size());  // of images
+  for (const ImagePoint& image : body.domain.halo.images()) reflections[image.ghost] = &image.by;
   BlockRows rows;
   for (int i = 0; i < body.owned(); ++i) {
     Tensor diagonal = Tensor::Zero();
     if (!extra.empty()) diagonal = 0.5 * (extra[i] + extra[i].transpose());  // Chebyshev's smoother asks for symmetry
     const std::size_t at = rows.columns.size();
-    rows.columns.push_back(first + i), rows.blocks.emplace_back();
+    rows.columns.push_back(first + i), rows.blocks.emplace_back(Tensor::Zero());
+    rows.elsewhere.emplace_back(Tensor::Zero());
     body.domain.families.for_each(i, [&](int j) {
       const Vector xi = body.domain.reference(j) - body.domain.reference(i);
       if (!near(ends[i], ends[j], xi)) return;
@@ -88,13 +105,15 @@ BlockRows preconditioner_matrix(Body& body, const std::vector<PointTangent>& tan
       const double k = body.domain.volume(i) * body.domain.volume(j) * (ends[i].stiffness + ends[j].stiffness);
       const Tensor spring = k * ((1 - across) * e * e.transpose() + across * Tensor::Identity());
       diagonal += spring;
-      rows.columns.push_back(static_cast<std::int64_t>(ends[j].number));
-      rows.blocks.push_back(-(held.free_projection(i) * spring * ends[j].free_projection));
+      const auto column = static_cast<std::int64_t>(ends[j].number);
+      if (column < first || column >= first + body.owned()) rows.elsewhere.back() += spring;
+      const Tensor coupling = -(held.free_projection(i) * spring * ends[j].free_projection);
+      add(column, reflections[j] ? Tensor(coupling * reflections[j]->turn) : coupling, rows);
     });
     diagonal *= 1 + to_ground;
     const Tensor& free_projection = held.free_projection(i);
     const double scale = diagonal.trace() > 0 ? diagonal.trace() / 3 : 1;
-    rows.blocks[at] = free_projection * diagonal * free_projection + scale * (Tensor::Identity() - free_projection);
+    rows.blocks[at] += free_projection * diagonal * free_projection + scale * (Tensor::Identity() - free_projection);
     rows.start.push_back(rows.columns.size());
   }
   return rows;

@@ -26,14 +26,36 @@ constexpr double to_ground = 1e-5;
 // Pairs of coupled points on a rank: what has more is not ordered (some gigabytes, and as many as ten seconds).
 constexpr std::size_t most_coupled = 10'000'000;
 
+// Owned points in the place of their images.
+class Originals {
+ public:
+  struct Original {
+    int point;  // −1: another rank's
+    Tensor turn;
+  };
+
+  explicit Originals(const Body& body) : owned_(body.owned()) {
+    of_ghosts_.resize(body.domain.sites.size() - owned_, {-1, Tensor::Identity()});
+    for (const ImagePoint& image : body.domain.halo.images()) {
+      of_ghosts_[image.ghost - owned_] = {image.original, image.by.turn};
+    }
+  }
+  Original of(int i) const { return i < owned_ ? Original{i, Tensor::Identity()} : of_ghosts_[i - owned_]; }
+
+ private:
+  int owned_;
+  std::vector<Original> of_ghosts_;
+};
+
 // Which owned points share a family, each point itself first. Nothing where they are too many.
-std::vector<std::vector<int>> coupled_points(const Body& body) {
+std::vector<std::vector<int>> coupled_points(const Body& body, const Originals& originals) {
   std::vector<std::vector<int>> coupled(body.owned());
   std::vector<int> seen_by(body.owned(), -1);
   std::size_t pairs = 0;
   for (int i = 0; i < body.owned(); ++i) {
-    const auto take = [&](int j) {
-      if (j < body.owned() && seen_by[j] != i) seen_by[j] = i, coupled[i].push_back(j);
+    const auto take = [&](int near) {
+      const int j = originals.of(near).point;
+      if (j >= 0 && seen_by[j] != i) seen_by[j] = i, coupled[i].push_back(j);
     };
     take(i);
     body.domain.families.for_each(i, take);
@@ -61,10 +83,11 @@ Sparse pattern_of(const std::vector<std::vector<int>>& coupled) {
 
 // Point i is number place[i].
 struct TangentFactor::Matrix {
+  Originals originals;
   std::vector<int> place;
   std::optional<BlockFactors> factors;
 
-  explicit Matrix(const Sparse& pattern) : place(pattern.rows()) {
+  Matrix(const Sparse& pattern, Originals all) : originals(std::move(all)), place(pattern.rows()) {
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
     Eigen::AMDOrdering<int>()(pattern, order);
     for (int n = 0; n < pattern.rows(); ++n) place[order.indices()[n]] = n;
@@ -78,23 +101,19 @@ struct TangentFactor::Matrix {
   void add(const PointStiffness& stiffness, const Constraints& held) {
     for (std::size_t a = 0; a < stiffness.points.size(); ++a) {
       for (std::size_t b = 0; b < stiffness.points.size(); ++b) {
-        const int i = stiffness.points[a], j = stiffness.points[b];
-        if (std::max<std::size_t>(i, j) >= place.size()) continue;
-        add(i, j, held.free_projection(i) * stiffness.matrix.block<3, 3>(3 * a, 3 * b) * held.free_projection(j));
+        const auto [i, of_i] = originals.of(stiffness.points[a]);
+        const auto [j, of_j] = originals.of(stiffness.points[b]);
+        if (i < 0 || j < 0) continue;
+        const Tensor block = of_i.transpose() * stiffness.matrix.block<3, 3>(3 * a, 3 * b) * of_j;
+        add(i, j, held.free_projection(i) * block * held.free_projection(j));
       }
     }
   }
 
   // What holds point i besides: `extra`, bonds to other ranks, the ground, and along held directions a spring.
-  void add_supports(int i, const Tensor& extra, const Constraints& held, const BlockRows& resembling,
-                    std::int64_t first) {
-    const std::size_t own = resembling.start[i];
-    const double spring = resembling.blocks[own].trace() / 3;
-    Tensor diagonal = extra + to_ground * spring * Tensor::Identity();
-    for (std::size_t e = own + 1; e < resembling.start[i + 1]; ++e) {
-      const std::int64_t column = resembling.columns[e] - first;
-      if (column < 0 || column >= static_cast<std::int64_t>(place.size())) diagonal -= resembling.blocks[e];
-    }
+  void add_supports(int i, const Tensor& extra, const Constraints& held, const BlockRows& resembling) {
+    const double spring = resembling.blocks[resembling.start[i]].trace() / 3;
+    const Tensor diagonal = extra + to_ground * spring * Tensor::Identity() + resembling.elsewhere[i];
     const Tensor& free = held.free_projection(i);
     add(i, i, free * diagonal * free + spring * (Tensor::Identity() - free));
   }
@@ -102,8 +121,9 @@ struct TangentFactor::Matrix {
 
 TangentFactor::TangentFactor(const Body& body) {
   if (!have_point_stiffness(body)) return;
-  const std::vector<std::vector<int>> coupled = coupled_points(body);
-  if (!coupled.empty()) matrix_ = std::make_unique<Matrix>(pattern_of(coupled));
+  Originals originals(body);
+  const std::vector<std::vector<int>> coupled = coupled_points(body, originals);
+  if (!coupled.empty()) matrix_ = std::make_unique<Matrix>(pattern_of(coupled), std::move(originals));
   const double too_many = 2 * most_operations;
   const double of_a_point = matrix_ ? matrix_->factors->operations() / body.owned() : body.owned() > 0 ? too_many : 0;
   const double most = body.domain.communicator.max(of_a_point);
@@ -117,7 +137,7 @@ double TangentFactor::bytes() const { return matrix_ ? matrix_->factors->bytes()
 TangentFactor::~TangentFactor() = default;
 
 bool TangentFactor::factorize(const Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
-                              const std::vector<Tensor>& extra, const BlockRows& resembling, std::int64_t first) {
+                              const std::vector<Tensor>& extra, const BlockRows& resembling) {
   bool found = true;
   if (matrix_) {
     matrix_->factors->clear();
@@ -128,7 +148,7 @@ bool TangentFactor::factorize(const Body& body, const std::vector<PointTangent>&
         matrix_->add(stiffness, held);
       }
     }
-    for (int i = 0; i < body.owned(); ++i) matrix_->add_supports(i, extra[i], held, resembling, first);
+    for (int i = 0; i < body.owned(); ++i) matrix_->add_supports(i, extra[i], held, resembling);
     found = matrix_->factors->factorize();
   }
   return body.domain.communicator.max(found ? 0.0 : 1.0) == 0;

@@ -27,7 +27,7 @@ class TangentFactor {
   // Collective. The sum of the points' stiffnesses and `extra` stiffness of each point, N/m; `resembling`: rows that
   // resemble it, which are taken for bonds to other ranks. False where a rank finds no factors.
   bool factorize(const Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
-                 const std::vector<Tensor>& extra, const BlockRows& resembling, std::int64_t first);
+                 const std::vector<Tensor>& extra, const BlockRows& resembling);
   void solve(const Field& right, Field& x) const;
 
  private:

@@ -54,7 +54,9 @@ TEST_P(HeldBody, WeighsWhatItWeighs) {
   EXPECT_NEAR(impulse(force, time, time.size() - 1) / 100e-6, weight, 0.05 * weight);
   EXPECT_EQ(force[0], 0);  // nothing could have acted yet
   const std::vector<double>& instant = table.at("Instant_Reaction_Z(hold)");
-  EXPECT_NEAR(instant[0], weight / 6, 1e-9 * weight);  // at first of the held points alone, a layer of six
+  // At first of the held points alone, a layer of six; the mirror image of a body holds it once it is strained.
+  const bool is_mirror = GetParam().find("Symmetry Plane") != std::string::npos;
+  EXPECT_NEAR(instant[0], is_mirror ? 0 : weight / 6, 1e-9 * weight);
   // With steps of one length, and impulses in their middles, a mean is that of both ends.
   for (std::size_t n = 1; n < time.size(); ++n) {
     ASSERT_NEAR(force[n], 0.5 * (instant[n - 1] + instant[n]), 1e-9 * weight) << n;
@@ -145,13 +147,14 @@ TEST(Reaction, IsAMeanSinceTheRowBefore) {
 
 // Points of the crushed foot are subcycled, and the step shrinks with the deformation by some percent at a time. The
 // sum is that of 2000 steps of an impulse of 0.15 N s, some of which cancel.
-TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
+class StoppedBar : public testing::TestWithParam<std::string> {};
+
+TEST_P(StoppedBar, HasTheImpulsesOfSubstepsInItsReaction) {
   Lattice lattice;
   lattice.nz = 60;
   Parts parts;
   parts.materials = copper(key("Yield Stress", "100e6"));
-  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-227") +
-                     plane("wall", "Rigid Plane", "all", "0 0 -0.2e-3", "0 0 1");
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-227") + GetParam();
   parts.times = key("Final Time", "20e-6");
   for (const int frequency : {1, 20}) {
     const Table table = history_of(parts, {"Reaction_Z(wall)"}, lattice, frequency);
@@ -161,6 +164,10 @@ TEST(Reaction, HoldsTheImpulsesOfSubsteps) {
     EXPECT_NEAR(impulse(table.at("Reaction_Z(wall)"), table.at("Time"), momentum.size() - 1), stopped, 1e-10 * stopped);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(By, StoppedBar,
+                         testing::Values(plane("wall", "Rigid Plane", "all", "0 0 -0.2e-3", "0 0 1"),
+                                         plane("wall", "Symmetry Plane", "foot", "0 0 0", "0 0 1")));
 
 }  // namespace
 }  // namespace strut::regression

@@ -160,9 +160,9 @@ class Generations : public Resumed {
   // The value that is restored, and the note.
   std::pair<double, std::string> read() const {
     Snapshot found = snapshot(0);
-    auto [deck, note] = read_checkpoint(file, world, found);
+    std::string note = read_checkpoint(file, world, found);
     world.broadcast(note);
-    EXPECT_EQ(deck, "the deck");
+    EXPECT_EQ(facts_of_checkpoint(file, world).deck, "the deck");
     EXPECT_EQ(found.groups[0].columns[0].values, snapshot(found.numbers["time"]).groups[0].columns[0].values);
     return {found.numbers["time"], note};
   }

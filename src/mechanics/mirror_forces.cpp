@@ -1,0 +1,184 @@
+#include "mechanics/mirror_forces.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+
+#include "mechanics/force_sum.hpp"
+
+namespace strut {
+
+namespace {
+
+// The images in the family of a point that a predicate picks.
+template <class Picks>
+struct OfImages {
+  using Scalar = double;
+  const Families& families;
+  int i;
+  const Picks& picks;
+
+  template <int count, class Of>
+  std::array<double, count> own(Of of) const {
+    return bonds::OfPoint{families, i}.own<count>(of);
+  }
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    families.for_each(i, [&](int j) {
+      if (picks(j)) visit(j, 1.0);
+    });
+  }
+};
+
+Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
+
+// The force density that some bonds of a point give to it, by all formulations; `own`: whether its own state acts, too.
+template <class Family, class Weight>
+Vector force_of(const Body& body, const Family& family, bool own, Weight weight) {
+  const Site* sites = body.domain.sites.data();
+  const ForceStates& states = body.force_states;
+  const int i = family.i;
+  Vector force = Vector::Zero();
+  if (!states.tensors.empty()) {
+    force += to_vector(bonds::far_force<true>(family, sites, states.tensors.data(), weight));
+    Vector moment = Vector::Zero(), pull = Vector::Zero();
+    bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
+      moment += w * to_vector(xi);
+      pull += w * (body.current(j) - body.current(i));
+    });
+    if (own) force += bonds::tensor_of(states.tensors[i]) * moment + states.tensors[i].stiffness() * pull;
+  }
+  if (own && !states.gradients.empty()) {
+    for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) {
+      if (body.block_of(i).material.stabilization.index() != kind) return;
+      force += to_vector(bonds::residual<S>(kind, family, sites, states.gradients.data(), weight).force);
+    });
+  }
+  if (!states.scalars.empty()) {
+    force +=
+        to_vector(bonds::ordinary_force(family, sites, states.scalars.data(), weight, bonds::OfPlaces<Family>(family)));
+  }
+  if (!states.quadratics.empty()) {
+    const Eigen::Array4d* multipliers = body.fits->multipliers();
+    force += to_vector(bonds::quadratic_far_force(family, sites, multipliers, states.quadratics.data(), weight));
+    if (own && body.block_of(i).is_quadratic()) {
+      QuadraticFit fit;
+      bonds::over(family, sites, weight, [&](int j, double w, const auto& xi, double) {
+        const auto q = bonds::squares(xi);
+        fit.sums[0] += w;
+        for (int c = 0; c < 3; ++c) fit.sums[1 + c] += w * xi.c[c], fit.sums[10 + c] += w * multipliers[j][c];
+        for (int k = 0; k < 6; ++k) fit.sums[4 + k] += w * q[k];
+      });
+      force += bonds::quadratic_own_force(states.quadratics[i], fit);
+    }
+  }
+  return force;
+}
+
+class MirrorForces {
+ public:
+  MirrorForces(const Body& body, int level, const std::vector<int>* moved)
+      : body_(body), mirrors_(body.domain.mirrors), level_(level), moved_(moved) {}
+
+  std::vector<Vector> all() const {
+    std::vector<Vector> forces(mirrors_.size(), Vector::Zero());
+    for (std::size_t m = 0; m < mirrors_.size(); ++m) {
+      if (m == 0 || mirrors_[m - 1].body != mirrors_[m].body) add(mirrors_[m].body, forces);  // sorted by bodies
+    }
+    return forces;
+  }
+
+ private:
+  // Bonds within a body give nothing to the sum of the forces on it: it is what the planes give, along their normals.
+  // Of two that are parallel each is asked what lies behind it.
+  void add(int body, std::vector<Vector>& forces) const {
+    Vector rest = Vector::Zero();
+    over_points(body, [&](int i) { rest += body_.domain.volume(i) * body_.force_density[i]; });
+    std::vector<std::size_t> others;
+    for (std::size_t m = 0; m < mirrors_.size(); ++m) {
+      if (mirrors_[m].body != body) continue;
+      if (has_parallel(m)) {
+        forces[m] = across(m);
+        rest -= forces[m];
+      } else {
+        others.push_back(m);
+      }
+    }
+    Eigen::Matrix3Xd normals(3, others.size());
+    for (std::size_t n = 0; n < others.size(); ++n) {
+      normals.col(static_cast<Eigen::Index>(n)) = mirrors_[others[n]].normal;
+    }
+    if (others.empty()) return;
+    const Eigen::VectorXd along = normals.completeOrthogonalDecomposition().solve(rest);
+    for (std::size_t n = 0; n < others.size(); ++n) {
+      forces[others[n]] = along[static_cast<Eigen::Index>(n)] * mirrors_[others[n]].normal;
+    }
+  }
+
+  bool has_parallel(std::size_t m) const {
+    for (std::size_t other = 0; other < mirrors_.size(); ++other) {
+      if (other == m || mirrors_[other].body != mirrors_[m].body) continue;
+      if (mirrors_[other].normal.cross(mirrors_[m].normal).norm() < 1e-9) return true;
+    }
+    return false;
+  }
+
+  // The force of the images behind one of the planes, along its normal.
+  Vector across(std::size_t m) const {
+    const std::vector<char> behind = images_behind(mirrors_[m]);
+    const auto picks = [&](int j) { return behind[j] && is_due(j); };
+    Vector sum = Vector::Zero();
+    bonds::with_influence(body_.influence, [&](auto weight) {
+      over_points(mirrors_[m].body, [&](int i) {
+        const OfImages<decltype(picks)> family{body_.domain.families, i, picks};
+        sum += body_.domain.volume(i) * force_of(body_, family, is_due(i), weight);
+      });
+    });
+    const Vector& normal = mirrors_[m].normal;
+    return normal.dot(sum) * normal;
+  }
+
+  // Of owned points and ghosts. Of a point on the plane a place beside it tells where its image belongs.
+  std::vector<char> images_behind(const Mirror& mirror) const {
+    std::vector<char> behind(body_.domain.sites.size(), 0);
+    for (const ImagePoint& image : body_.domain.halo.images()) {
+      const Vector original = image.by.turn.transpose() * (body_.domain.reference(image.ghost) - image.by.shift);
+      const Vector inside = original + 1e-3 * body_.domain.horizon(image.ghost) * mirror.normal;
+      behind[image.ghost] = mirror.distance(image.by(inside)) < 0;
+    }
+    return behind;
+  }
+
+  bool is_due(int i) const { return body_.time_levels.empty() || body_.time_levels[i] >= level_; }
+
+  template <class Visit>
+  void over_points(int body, const Visit& visit) const {
+    const auto look_at = [&](int i) {
+      if (body_.domain.blocks[body_.domain.cloud.blocks[i]].body == body && !body_.block_of(i).in_rigid_motion)
+        visit(i);
+    };
+    if (moved_) {
+      std::for_each(moved_->begin(), moved_->end(), look_at);
+    } else {
+      for (int i = 0; i < body_.owned(); ++i) look_at(i);
+    }
+  }
+
+  const Body& body_;
+  const std::vector<Mirror>& mirrors_;
+  int level_;
+  const std::vector<int>* moved_;
+};
+
+}  // namespace
+
+std::vector<Vector> mirror_forces(const Body& body, int level, const std::vector<int>* moved) {
+  return MirrorForces(body, level, moved).all();
+}
+
+void serialize_mirror_forces(Archive& archive, std::vector<Vector>& forces) {
+  for (std::size_t m = 0; m < forces.size(); ++m) {
+    for (int c = 0; c < 3; ++c) archive.share("mirror_force_" + std::to_string(m) + "xyz"[c], forces[m][c]);
+  }
+}
+
+}  // namespace strut

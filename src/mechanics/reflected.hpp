@@ -1,0 +1,38 @@
+// Inside mechanics and solvers: what bonds read of an image of a point by symmetry planes (points/mirror.hpp), from
+// what its original has. Numbers stay, vectors turn, tensors turn on both sides.
+#pragma once
+
+#include "mechanics/body.hpp"
+
+namespace strut {
+
+inline void reflect(const Reflection& by, TensorRecord& record) {
+  Tensor tensor;
+  for (int c = 0; c < 3; ++c) tensor.col(c) = record.column[c].head<3>().matrix();
+  tensor = (by.turn * tensor * by.turn.transpose()).eval();
+  for (int c = 0; c < 3; ++c) record.column[c].head<3>() = tensor.col(c).array();
+}
+
+inline void reflect(const Reflection&, ScalarState&) {}
+
+// A tensor whose rows stand one after the other.
+inline void reflect_rows(const Reflection& by, double* rows) {
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> tensor(rows);
+  tensor = (by.turn * tensor * by.turn.transpose()).eval();
+}
+
+// Of the second force state each row is a symmetric tensor M by its numbers xx, yy, zz, xy, yz, zx: ½ ξ·M ξ = B q.
+inline void reflect(const Reflection& by, QuadraticState& state) {
+  reflect_rows(by, state.first);
+  reflect_rows(by, state.correction);
+  reflect_direction(by, state.offset);
+  Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>> second(state.second);
+  Eigen::Matrix<double, 3, 6> turned;
+  for (int r = 0; r < 3; ++r) {
+    const Symmetric M = second.row(r).transpose();
+    turned.row(r) = symmetric_part(by.turn * to_tensor(M) * by.turn.transpose()).transpose();
+  }
+  second = by.turn * turned;
+}
+
+}  // namespace strut

@@ -1,0 +1,64 @@
+// Symmetry planes: bodies that are half of what they stand for. The other half is there as images of the points, ghosts
+// whose values are the reflected ones of their originals.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/math/tensors.hpp"
+
+namespace strut {
+
+// A plane by which a body goes on as its mirror image.
+struct Mirror {
+  Vector on = Vector::Zero(), normal = Vector::UnitX();  // m; of unit length
+  int body = 0;                                          // BlockBonds::body
+  int number = 0;                                        // the place in the deck of the condition that it is
+  int bit = 0;                                           // of joints that lie on it (cloud.hpp)
+
+  double distance(const Vector& X) const { return normal.dot(X - on); }  // m, negative behind the normal
+  // Whether a point is on it, to round-off; `size`: its horizon or spacing, m.
+  bool holds(const Vector& X, double size) const { return std::abs(distance(X)) < 1e-6 * size; }
+};
+
+// What takes a point to its image: a product of reflections, X → turn X + shift.
+struct Reflection {
+  Tensor turn = Tensor::Identity();
+  Vector shift = Vector::Zero();  // m
+
+  static Reflection by(const Mirror& mirror) {
+    const Vector& n = mirror.normal;
+    return {Tensor::Identity() - 2 * n * n.transpose(), 2 * n.dot(mirror.on) * n};
+  }
+  Vector operator()(const Vector& X) const { return turn * X + shift; }
+  Reflection after(const Reflection& first) const { return {turn * first.turn, turn * first.shift + shift}; }
+};
+
+// The images of bodies. Image 0 is the body itself.
+class Images {
+ public:
+  Images() = default;
+  // Those that come within `reach` (m) of their body, which lies in boxes[b] if it is the body of mirrors[b]. Throws
+  // Error where the mirrors of a body make too many: they do not meet at 180°/n.
+  Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::AlignedBox3d>& boxes, double reach);
+
+  // Numbers of the images of a body, ascending, without the body itself.
+  const std::vector<int>& of_body(int body) const;
+  const Reflection& operator[](int image) const { return all_[image]; }
+  int count() const { return static_cast<int>(all_.size()); }
+
+  // Ids of images follow upon those of all points.
+  static constexpr int bits = 40;
+  static std::int64_t id(std::int64_t original, int image) {
+    return original + (static_cast<std::int64_t>(image) << bits);
+  }
+  static std::int64_t original(std::int64_t id) { return id & ((std::int64_t{1} << bits) - 1); }
+  static int image(std::int64_t id) { return static_cast<int>(id >> bits); }
+
+ private:
+  std::vector<Reflection> all_{{}};
+  std::vector<std::vector<int>> of_body_;
+};
+
+}  // namespace strut

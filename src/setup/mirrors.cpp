@@ -1,0 +1,224 @@
+#include "setup/mirrors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "conditions/symmetry_plane.hpp"
+#include "points/cell_reach.hpp"
+#include "setup/blocks.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of a cell at the plane, how far its point is from it, by how far the cell reaches beyond the point in the direction
+// of the normal: a hexahedron 1, a tetrahedron 0.75 with a face on the plane, 2.2 with a corner; one layer behind 3.
+constexpr double nearest = 0.5, farthest_of_nearest = 1.5, farthest = 2.6;
+
+// What the points of a body say of a plane.
+struct Place {
+  double points = 0, in_set = 0;                  // how many
+  double before = 0, behind = 0;                  // how many are off the plane, on the sides of the normal
+  double distances = 0;                           // of those in the set, their sum; of cells in their reach
+  double least = HUGE_VAL, most = 0, most_m = 0;  // of those in the set; in m
+  double off = 0;                                 // of those in the set, off the plane
+  double cut = 0;                                 // cells of their own that count the plane as surface
+  double free = 0;                                // at the plane, but not in the set
+};
+
+bool is_in(const PointCloud& cloud, const std::string& set, std::size_t i) {
+  const auto name = std::find(cloud.set_names.begin(), cloud.set_names.end(), set);
+  if (name == cloud.set_names.end()) return false;
+  return (cloud.sets[i] >> (name - cloud.set_names.begin()) & 1) != 0;
+}
+
+class Search {
+ public:
+  Search(const PointCloud& cloud, const Mirror& plane, const std::string& set, const std::vector<BlockBonds>& bonds,
+         const Communicator& communicator)
+      : cloud_(cloud), plane_(plane), set_(set), bonds_(bonds), communicator_(communicator) {}
+
+  Place place() const {
+    Place found;
+    over_body([&](std::size_t i) { look_at(i, found); });
+    double sums[] = {found.points, found.in_set, found.before, found.behind, found.distances, found.off, found.cut};
+    double most[] = {-found.least, found.most, found.most_m};
+    communicator_.sum(sums), communicator_.max(most);
+    found = {sums[0], sums[1], sums[2], sums[3], sums[4], -most[0], most[1], most[2], sums[5], sums[6]};
+    const double mean = found.in_set > 0 ? found.distances / found.in_set : 0;
+    double free = 0;
+    over_body([&](std::size_t i) { free += !is_in(cloud_, set_, i) && distance(i) <= mean + 1e-6 ? 1 : 0; });
+    found.free = communicator_.sum(free);
+    return found;
+  }
+
+ private:
+  template <class Visit>
+  void over_body(const Visit& visit) const {
+    for (std::size_t i = 0; i < cloud_.size(); ++i) {
+      if (bonds_[cloud_.blocks[i]].body == plane_.body) visit(i);
+    }
+  }
+  // Of a node in spacings.
+  double distance(std::size_t i) const {
+    const double in_m = std::abs(plane_.distance(cloud_.positions[i]));
+    if (cloud_.at == PointsAt::nodes) return in_m / cloud_.spacings[i];
+    return in_m / reach_of_cell(cloud_, cloud_.volumes[i], static_cast<int>(i), plane_.normal);
+  }
+  void look_at(std::size_t i, Place& found) const {
+    const double signed_distance = plane_.distance(cloud_.positions[i]);
+    ++found.points;
+    const bool is_off = !plane_.holds(cloud_.positions[i], cloud_.spacings[i]);
+    if (is_off) ++(signed_distance > 0 ? found.before : found.behind);
+    if (!is_in(cloud_, set_, i)) return;
+    found.off += is_off ? 1 : 0;
+    const double here = distance(i);
+    ++found.in_set;
+    found.distances += here;
+    found.least = std::min(found.least, here), found.most = std::max(found.most, here);
+    found.most_m = std::max(found.most_m, std::abs(signed_distance));
+    if (cloud_.shapes.empty() || cloud_.at == PointsAt::nodes) return;
+    const Vector outward = signed_distance > 0 ? Vector(-plane_.normal) : plane_.normal;
+    found.cut += outward.dot(cloud_.shapes[i].surface) > 0.1 * std::pow(cloud_.spacings[i], 2) ? 1 : 0;
+  }
+
+  const PointCloud& cloud_;
+  const Mirror& plane_;
+  const std::string& set_;
+  const std::vector<BlockBonds>& bonds_;
+  const Communicator& communicator_;
+};
+
+// Whether the points are on the plane, in the middle of a body that is whole: they stay there, and nothing is missing.
+bool holds_the_middle(const Place& place) { return place.before > 0 && place.behind > 0 && place.off == 0; }
+
+// Why the plane is none by which the body goes on; empty: it is one. `whole_cells`: whether its formulation asks for
+// whole cells, of which nodes on the plane have a half.
+std::string objection(const Place& place, PointsAt at, bool whole_cells) {
+  std::ostringstream text;
+  text.precision(3);
+  const bool at_nodes = at == PointsAt::nodes;
+  if (place.in_set == place.points) {
+    text << "all points of a body are in the set (plane strain)";
+  } else if (place.before > 0 && place.behind > 0) {
+    text << "the body of its points lies on both sides of the plane";
+  } else if (at_nodes ? place.most > 1e-6 : place.most > farthest || place.least > farthest_of_nearest) {
+    text << "points of the set are up to " << place.most_m << " m away from the plane; expected "
+         << (at_nodes ? "nodes on it" : "elements with a face, edge or corner on it");
+  } else if (!at_nodes && place.least < nearest) {
+    text << "the plane runs through elements of the set; expected faces of elements on it";
+  } else if (place.free > 0) {
+    text << place.free << " points at the plane are not in the set";
+  } else if (at_nodes && whole_cells) {
+    text << "quadratic correspondence has no mirror images of points at nodes; expected Points \"Elements\"";
+  }
+  return text.str();
+}
+
+std::string path_of(const deck::Deck& deck, const Mirror& plane) {
+  return "Boundary Conditions > " + deck.conditions[plane.number].name;
+}
+
+std::string warning_of_cells(const deck::Deck& deck, const Mirror& plane, double cells) {
+  std::ostringstream text;
+  text << "WARNING: " << path_of(deck, plane) << ": " << cells
+       << " partly filled elements at the plane bring surfaces that face it; if these are its cut, and not the body's "
+          "surface before it, quadratic correspondence is less accurate in them\n";
+  return text.str();
+}
+
+// Planes of one body that are not parallel meet at 180°/n, or the images of the body would overlap.
+void check_angles(const deck::Deck& deck, const std::vector<Mirror>& planes) {
+  for (std::size_t a = 0; a < planes.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (planes[a].body != planes[b].body) continue;
+      const double sine = planes[a].normal.cross(planes[b].normal).norm();
+      const double angle = std::atan2(sine, std::abs(planes[a].normal.dot(planes[b].normal)));
+      const double parts = std::numbers::pi / angle;
+      if (sine < 1e-9 || std::abs(parts - std::round(parts)) < 1e-6) continue;
+      std::ostringstream text;
+      text << path_of(deck, planes[b]) << " and " << path_of(deck, planes[a]) << ": symmetry planes of one body at "
+           << angle * 180 / std::numbers::pi << "°; expected 180°/n (90, 60, 45 …), or the mirror images overlap";
+      throw Error(text.str());
+    }
+  }
+}
+
+// Whether a block of the body is by quadratic correspondence.
+bool is_quadratic_body(const deck::Deck& deck, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
+                       int body) {
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const int material = section_of(deck, cloud.block_names[b])->material;
+    if (bonds[b].body == body && is_quadratic(deck.materials[material])) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Mirror> symmetry_planes(const deck::Deck& deck) {
+  std::vector<Mirror> planes;
+  for (int c = 0; c < static_cast<int>(deck.conditions.size()); ++c) {
+    const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
+    if (!plane || deck.conditions[c].node_set == "all") continue;
+    planes.push_back(
+        {.on = plane->point, .normal = plane->normal, .number = c, .bit = static_cast<int>(planes.size())});
+  }
+  if (planes.size() > static_cast<std::size_t>(most_planes)) {
+    throw Error("Boundary Conditions: " + std::to_string(planes.size()) + " symmetry planes of node sets; expected " +
+                std::to_string(most_planes) + " at most");
+  }
+  return planes;
+}
+
+Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator) {
+  Mirrors found;
+  const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
+  std::vector<int> bodies;
+  for (const BlockBonds& block : bonds) bodies.push_back(block.body);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  for (Mirror plane : symmetry_planes(deck)) {
+    for (const int body : bodies) {
+      plane.body = body;
+      const std::string& set = deck.conditions[plane.number].node_set;
+      const Place place = Search(cloud, plane, set, bonds, communicator).place();
+      if (place.in_set == 0 || holds_the_middle(place)) continue;
+      const bool is_quadratic = is_quadratic_body(deck, cloud, bonds, body);
+      const std::string text = objection(place, cloud.at, is_quadratic);
+      if (text.empty()) {
+        Mirror inward = plane;
+        if (place.behind > 0) inward.normal *= -1;
+        found.planes.push_back(inward);
+        if (is_quadratic && place.cut > 0) found.warnings += warning_of_cells(deck, plane, place.cut);
+      } else {
+        found.warnings += "WARNING: " + path_of(deck, plane) + ": " + text +
+                          "; so these points only keep their distance to it, with an error of the first order in the "
+                          "spacing, and the body does not go on as its mirror image\n";
+      }
+    }
+  }
+  check_angles(deck, found.planes);
+  return found;
+}
+
+std::string contact_at_mirrors(const deck::Deck& deck, const Domain& domain,
+                               const std::vector<contact::Interaction>& interactions) {
+  std::string text;
+  for (const Mirror& mirror : domain.mirrors) {
+    const auto concerns = [&](const contact::Interaction& one) {
+      return domain.blocks[one.first].body == mirror.body || domain.blocks[one.second].body == mirror.body;
+    };
+    if (std::none_of(interactions.begin(), interactions.end(), concerns)) continue;
+    text += "WARNING: " + path_of(deck, mirror) +
+            ": contact does not see mirror images: bodies that come to the plane from one side go through it, and "
+            "contact within a contact radius of it is that of an edge\n";
+  }
+  return text;
+}
+
+}  // namespace strut
