@@ -185,13 +185,13 @@ TEST_F(Mistake, PointsGivenTwice) {
     expect_error(deck,
                  {"Discretization > Input Mesh File: element 97 of block 'plate' is where element 1 of block 'bar' is",
                   "16 points are where others are; expected each once"});
-    // Of points at nodes those of one body: the faces of two bodies may touch.
-    const std::string at_nodes =
-        changed(deck, key("Input Mesh File", "twice.g"), key("Input Mesh File", "twice.g") + key("Points", "Nodes"));
-    expect_error(at_nodes, {"node 176 of block 'plate' is where node 1 of block 'bar' is"});
+    const std::string file = key("Input Mesh File", "twice.g");
+    expect_error(changed(deck, file, file + key("Points", "Nodes")),
+                 {"twice.g: element 97 of block 'plate' is where element 1 of block 'bar' is"});
   }
 }
 
+// Of nodes at one place, those of one body are found, between which bonds would be; the faces of two bodies may touch.
 TEST_F(Mistake, BodiesThatTouchMayHaveNodesAtOnePlace) {
   Lattice lattice;
   io::Mesh mesh = lattice.mesh();
@@ -203,6 +203,9 @@ TEST_F(Mistake, BodiesThatTouchMayHaveNodesAtOnePlace) {
   run_on_root(world, [&] { io::write_mesh(folder / "bar.g", mesh); });
   Parts parts = right_parts();
   parts.points = "Nodes";
+  expect_error(parts.text(),
+               {"Discretization > Input Mesh File: node 176 of block 'plate' is where node 151 of block 'bar' is",
+                "25 points are where others are"});
   parts.blocks.clear();
   for (const std::string name : {"bar", "plate"})
     parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
