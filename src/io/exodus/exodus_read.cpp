@@ -7,6 +7,7 @@
 #include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
+#include "points/coincident.hpp"
 
 namespace strut::io {
 
@@ -65,6 +66,13 @@ void check_elements_have_nodes(const MeshLayout& layout, const std::string& file
   }
 }
 
+// Collective. Points at nodes do not show an element that is there twice: its nodes have twice their volume.
+void check_given_once(const MeshSlice& slice, const NodeRange& own, const std::string& file,
+                      const Communicator& communicator) {
+  const std::string twins = coincident_points(elements_of(slice, own), communicator, [](int, int) { return false; });
+  if (!twins.empty()) throw Error(file + ": " + twins);
+}
+
 // Collective. A block all of whose nodes belong to blocks before it would be gone without a word.
 void check_blocks_have_points(const PointCloud& cloud, const std::string& file, const Communicator& communicator) {
   std::vector<double> found(cloud.block_names.size(), 0);
@@ -85,9 +93,10 @@ PointCloud at_nodes(const std::optional<MeshFile>& file, const MeshLayout& layou
   const MeshSlice slice = elements_around_slice(file ? &*file : nullptr, layout, communicator);
   const auto numbers = numbers_of(file, ExodusFile::On::nodes, layout.nodes, communicator);
   const std::int64_t begin = slice_begin(layout.nodes, communicator.size(), communicator.rank());
-  PointCloud cloud = on_all_ranks(communicator, [&] {
-    return points_at_nodes(slice, {begin, begin + std::ssize(numbers)}, numbers, name, with_cells, planes);
-  });
+  const NodeRange own{begin, begin + std::ssize(numbers)};
+  PointCloud cloud =
+      on_all_ranks(communicator, [&] { return points_at_nodes(slice, own, numbers, name, with_cells, planes); });
+  check_given_once(slice, own, name, communicator);
   check_blocks_have_points(cloud, name, communicator);
   return cloud;
 }

@@ -26,6 +26,9 @@ struct NodeRange {
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
                            const std::string& file, bool with_cells, const std::vector<Mirror>& planes);
 
+// The elements whose first node is of `own`, as points at their centroids: of all ranks each once.
+PointCloud elements_of(const MeshSlice& slice, const NodeRange& own);
+
 // The nodes of an element of `size` nodes.
 template <std::size_t size>
 std::array<Vector, size> corners(const Mesh& mesh, const Mesh::Block& block, std::size_t element) {

@@ -1,9 +1,7 @@
 // The nodes of a mesh become material points, with the parts of the elements around them.
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <utility>
 
 #include "base/errors.hpp"
 #include "io/exodus/elements.hpp"
@@ -131,39 +129,31 @@ void check_parts(double volume, std::int64_t number, const std::string& file) {
   throw Error(text.str());
 }
 
-// Points at nodes do not show an element that is there twice: its nodes have twice their volume. All elements around a
-// node are on its rank.
-void check_given_once(const MeshSlice& slice, const std::string& file) {
-  std::vector<std::pair<std::array<int, 8>, std::size_t>> by_nodes;  // ascending; -1 where an element has fewer
-  std::vector<const Mesh::Block*> block_of;
-  for (const Mesh::Block& block : slice.mesh.blocks) {
-    for (std::size_t e = 0; e < block.elements(); ++e) {
-      const int size = nodes_per_element(block.type);
-      auto& [nodes, place] = by_nodes.emplace_back();
-      nodes.fill(-1);
-      std::copy_n(&block.nodes[e * static_cast<std::size_t>(size)], size, nodes.begin());
-      std::sort(nodes.begin(), nodes.end());
-      place = block_of.size();
-      block_of.push_back(&block);
+}  // namespace
+
+PointCloud elements_of(const MeshSlice& slice, const NodeRange& own) {
+  PointCloud cloud;
+  std::size_t element = 0;
+  for (std::size_t b = 0; b < slice.mesh.blocks.size(); ++b) {
+    const Mesh::Block& block = slice.mesh.blocks[b];
+    cloud.block_names.push_back(block.name);
+    for (std::size_t e = 0; e < block.elements(); ++e, ++element) {
+      const auto size = static_cast<std::size_t>(nodes_per_element(block.type));
+      const std::int64_t first = slice.nodes[block.nodes[e * size]];
+      if (first < own.begin || first >= own.end) continue;
+      const ElementPoint point = block.type == "HEX8" ? hexahedron(corners<8>(slice.mesh, block, e))
+                                                      : tetrahedron(corners<4>(slice.mesh, block, e));
+      cloud.ids.push_back(slice.elements[element]), cloud.element_ids.push_back(slice.elements[element] + 1);
+      cloud.positions.push_back(point.centroid), cloud.volumes.push_back(point.volume);
+      cloud.blocks.push_back(static_cast<int>(b));
     }
   }
-  std::sort(by_nodes.begin(), by_nodes.end());
-  const auto twin = std::adjacent_find(by_nodes.begin(), by_nodes.end(),
-                                       [](const auto& a, const auto& b) { return a.first == b.first; });
-  if (twin == by_nodes.end()) return;
-  const auto told = [&](std::size_t e) {
-    return "element " + std::to_string(slice.elements[e] + 1) + " of block '" + block_of[e]->name + "'";
-  };
-  throw Error(file + ": " + told(twin->second) + " and " + told((twin + 1)->second) +
-              " have the same nodes; expected each element once");
+  return cloud;
 }
-
-}  // namespace
 
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
                            const std::string& file, bool with_cells, const std::vector<Mirror>& planes) {
   check_corners(slice, file);
-  check_given_once(slice, file);
   const std::vector<Share> shares = Shares(slice, file).collect();
   std::optional<Cells> cells;
   if (with_cells) cells.emplace(slice, planes);

@@ -48,12 +48,12 @@ class Mistake : public testing::Test {
   }
 
   // What this rank throws; nothing where it does not throw.
-  std::optional<std::string> outcome(const std::string& text) const {
+  std::optional<std::string> outcome(const std::string& text, Start start = Start::anew) const {
     const fs::path deck = write_deck(text);
     testing::internal::CaptureStdout();
     std::optional<std::string> error;
     try {
-      run(deck, world);
+      run(deck, world, start);
     } catch (const Error& thrown) {
       error = thrown.what();
     }
@@ -185,13 +185,13 @@ TEST_F(Mistake, PointsGivenTwice) {
     expect_error(deck,
                  {"Discretization > Input Mesh File: element 97 of block 'plate' is where element 1 of block 'bar' is",
                   "16 points are where others are; expected each once"});
-    // Of points at nodes those of one body: the faces of two bodies may touch.
-    const std::string at_nodes =
-        changed(deck, key("Input Mesh File", "twice.g"), key("Input Mesh File", "twice.g") + key("Points", "Nodes"));
-    expect_error(at_nodes, {"node 176 of block 'plate' is where node 1 of block 'bar' is"});
+    const std::string file = key("Input Mesh File", "twice.g");
+    expect_error(changed(deck, file, file + key("Points", "Nodes")),
+                 {"twice.g: element 97 of block 'plate' is where element 1 of block 'bar' is"});
   }
 }
 
+// Of nodes at one place, those of one body are found, between which bonds would be; the faces of two bodies may touch.
 TEST_F(Mistake, BodiesThatTouchMayHaveNodesAtOnePlace) {
   Lattice lattice;
   io::Mesh mesh = lattice.mesh();
@@ -203,6 +203,9 @@ TEST_F(Mistake, BodiesThatTouchMayHaveNodesAtOnePlace) {
   run_on_root(world, [&] { io::write_mesh(folder / "bar.g", mesh); });
   Parts parts = right_parts();
   parts.points = "Nodes";
+  expect_error(parts.text(),
+               {"Discretization > Input Mesh File: node 176 of block 'plate' is where node 151 of block 'bar' is",
+                "25 points are where others are"});
   parts.blocks.clear();
   for (const std::string name : {"bar", "plate"})
     parts.blocks += section(name, key("Block Names", name) + key("Material", "copper") + key("Horizon", "2.01e-3") +
@@ -278,6 +281,27 @@ TEST_F(Mistake, ADeckThatGoesOnFromACheckpointThatIsNotThere) {
                 "Time), but there is none",
                 "'strut --continue'"});
   EXPECT_EQ(outcome(changed(with("0"), "1.5e-2", "1e-7")).value_or("no error"), "no error");
+}
+
+// Places and volumes are those of the checkpoint; what conditions hold is not.
+TEST_F(Mistake, AMeshWithOtherNodeSetsIsNotThatOfTheCheckpoint) {
+  const std::string deck =
+      changed(right_parts().text(), "<ParameterList name=\"Solver\">",
+              section("Restart", key("Filename", "@/kept.restart")) + "<ParameterList name=\"Solver\">");
+  const std::string longer = changed(deck, "\"5e-6\"", "\"6e-6\"");
+  EXPECT_EQ(outcome(deck).value_or("no error"), "no error");
+  const auto with_foot_at = [&](const std::string& set) {
+    Lattice lattice;
+    lattice.plate_layers = 2;
+    io::Mesh mesh = lattice.mesh();
+    if (set == "top") mesh.node_sets[0].nodes = mesh.node_sets[1].nodes;
+    run_on_root(world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+  };
+  with_foot_at("top");
+  EXPECT_NE(outcome(longer, Start::continued).value_or("no error").find("points are in other node sets"),
+            std::string::npos);
+  with_foot_at("foot");
+  EXPECT_EQ(outcome(longer, Start::continued).value_or("no error"), "no error");
 }
 
 // A slip in a section does not hide those that only the mesh shows.

@@ -213,13 +213,17 @@ TEST_F(BrokenFile, HexahedraFoldedAtACorner) {
   EXPECT_EQ(error_of([&] { read_exodus(file, world); }), "");
 }
 
+// By the same nodes, or by others at the same places.
 TEST_F(BrokenFile, AnElementGivenTwiceDoesNotDoubleTheVolumesOfItsNodes) {
-  Mesh mesh = row_of_cubes(3);
-  mesh.blocks.push_back({"again", "HEX8", {mesh.blocks[0].nodes.begin() + 8, mesh.blocks[0].nodes.begin() + 16}, {}});
-  const fs::path file = mesh_file(mesh);
-  const std::string text = error_of([&] { read_exodus(file, world, PointsAt::nodes); });
-  EXPECT_NE(text.find("element 2 of block 'row' and element 4 of block 'again' have the same nodes"), std::string::npos)
-      << text;
+  for (const bool same_nodes : {true, false}) {
+    Mesh mesh = row_of_cubes(3);
+    mesh.blocks.push_back({"again", "HEX8", {mesh.blocks[0].nodes.begin() + 8, mesh.blocks[0].nodes.begin() + 16}, {}});
+    for (int& node : mesh.blocks[1].nodes) node += same_nodes ? 0 : 16;
+    for (int n = 0; n < 16; ++n) mesh.nodes.push_back(mesh.nodes[n] + Vector::Constant(1e-6));
+    const fs::path file = mesh_file(mesh);
+    const std::string text = error_of([&] { read_exodus(file, world, PointsAt::nodes); });
+    EXPECT_NE(text.find("element 4 of block 'again' is where element 2 of block 'row' is"), std::string::npos) << text;
+  }
 }
 
 // Of small elements, too: not "-0.000000".
