@@ -29,6 +29,13 @@ fs::path destination(fs::path name) {
   return name;
 }
 
+// From the root on, also through folders that are not there yet; nothing where the system cannot say.
+fs::path whole_name(const fs::path& name) {
+  std::error_code failure;
+  const fs::path absolute = fs::absolute(name, failure);
+  return failure ? fs::path() : fs::weakly_canonical(absolute, failure);
+}
+
 std::string in_small_letters(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
@@ -100,8 +107,10 @@ std::string refusal_of_system(const fs::path& file) {
 }  // namespace
 
 bool same_file(const fs::path& one, const fs::path& other) {
+  if (one.empty() || other.empty()) return false;
   std::error_code failure;
   if (fs::equivalent(one, other, failure)) return true;
+  if (const fs::path place = whole_name(one); !place.empty() && place == whole_name(other)) return true;
   if (fs::exists(one, failure) || fs::exists(other, failure)) return false;
   const fs::path a = destination(one), b = destination(other);
   return in_small_letters(a.filename()) == in_small_letters(b.filename()) &&

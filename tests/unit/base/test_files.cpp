@@ -51,6 +51,11 @@ TEST_F(Files, OneFileThatIsNotThereYetHasManyNames) {
   for (const char* name : {"other.e", "sub/new.e", "nowhere/new.e", "loop"}) {
     EXPECT_FALSE(same_file("new.e", name)) << name;
   }
+  EXPECT_TRUE(same_file("new.e", "nowhere/../new.e"));
+  EXPECT_FALSE(same_file("", "new.e")) << "a deck that names no mesh";
+  EXPECT_FALSE(same_file("", ""));
+  fs::create_symlink("loop2", "loop2");
+  EXPECT_FALSE(same_file("loop", "loop2"));
   fs::current_path(before);
 }
 
