@@ -2,14 +2,11 @@
 
 #include "mechanics/force_sum.hpp"
 #include "mechanics/fracture/fracture.hpp"
+#include "mechanics/rigid_motion.hpp"
 
 namespace strut {
 
 namespace {
-
-bool all_move_rigidly(const Body& body) {
-  return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.in_rigid_motion; });
-}
 
 StepReport together(const PerThread<StepReport>& reports) {
   StepReport all;

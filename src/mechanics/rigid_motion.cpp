@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 
+#include "mechanics/passes.hpp"
+
 namespace strut {
 
 namespace {
@@ -50,6 +52,10 @@ bool is_in_place(const Body& body, const MaterialBlock& block) {
 
 }  // namespace
 
+bool all_move_rigidly(const Body& body) {
+  return std::all_of(body.blocks.begin(), body.blocks.end(), [](const MaterialBlock& b) { return b.in_rigid_motion; });
+}
+
 void find_rigid_motion(Body& body) {
   const std::vector<BlockHorizons>& blocks = body.domain.blocks;
   std::vector<double> moved(blocks.size(), 0);  // of the first block of a body
@@ -82,6 +88,7 @@ void update_rigid_motion(Body& body) {
     most.insert(most.end(), range.most.begin(), range.most.end());
   }
   body.domain.communicator.max(most);
+  const bool all_did = all_move_rigidly(body);
   for (std::size_t n = 0; n < bodies.size(); ++n) {
     VelocityRange range;
     std::copy_n(most.begin() + 6 * n, 6, range.most.begin());
@@ -90,6 +97,9 @@ void update_rigid_motion(Body& body) {
       if (body.domain.blocks[b].body == bodies[n]) body.blocks[b].in_rigid_motion = false;
     }
   }
+  // Where none was strained, ranks have not told each other where points are: bonds that break ask for the start of the
+  // step.
+  if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange(places(body.domain.sites), site_stride, 3);
 }
 
 }  // namespace strut

@@ -178,8 +178,8 @@ def passive(scene, base, written):
 def balance(scene, base, written):
     """Within a hundredth, or told. A thousandth is kept by smooth motions alone; `half the step` asks how the error falls."""
     worst = rows_after_start(base.history["Balance_Error"]).max()
-    # The work of load steps is that of the mean of both ends, right to second order in these: there are two to four.
-    if worst > (1e-2 if scene.explicit else 0.3 / len(base.history["Time"])**2) and not told(base, "balance") and not told(base, "energy"):
+    # The work of load steps is that of the mean of both ends, right to second order in these: there are two to four, and contact begins in one.
+    if worst > (1e-2 if scene.explicit else 1 / len(base.history["Time"])**2) and not told(base, "balance") and not told(base, "energy"):
         return f"balance: off by {worst:.2e}, and nothing is told"
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 import netCDF4
 import numpy as np
 
-LIMIT = 60  # s, of a run: a hang is a failure, slowness is not
+LIMIT = 300  # s, of a run: a hang is a failure, slowness is not
+PATIENCE = 10  # s, with an equilibrium that is hard to find
 VECTORS = ("Displacement", "Velocity", "Force")
 
 
@@ -55,13 +56,13 @@ class Server:
         environment = dict(os.environ, OMPI_MCA_mpi_yield_when_idle="1", OMP_WAIT_POLICY="passive")
         self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=environment, bufsize=0)
 
-    def ask(self, words):
+    def ask(self, words, limit=LIMIT):
         if self.process is None or self.process.poll() is not None:
             self.start()
         self.process.stdin.write((" ".join(map(str, words)) + "\n").encode())
         with selectors.DefaultSelector() as selector:
             selector.register(self.process.stdout, selectors.EVENT_READ)
-            if not selector.select(LIMIT):
+            if not selector.select(limit):
                 self.process.kill()
                 self.process.wait()
                 return "hang"
@@ -83,14 +84,14 @@ class Runner:
         self.servers = {1: Server(program), 3: Server(program, [*mpirun, "-n", "3"])}
         self.folder, self.count = Path(folder), 0
 
-    def run(self, written, *options, ranks=1, name="run", keep=False):
+    def run(self, written, *options, ranks=1, name="run", keep=False, limit=LIMIT):
         """Of a written scene, in a folder of its own; `keep` what is there, to go on with it."""
         folder = self.folder / name
         if not keep:
             shutil.rmtree(folder, ignore_errors=True)
         written.write(folder)
         self.count += 1
-        status = self.servers[ranks].ask([folder, *options, "deck.xml"])
+        status = self.servers[ranks].ask([folder, *options, "deck.xml"], limit)
         log = "".join(path.read_text(errors="replace") for path in sorted(folder.glob("log*")))
         return read(folder, status, log, written)
 

@@ -207,10 +207,11 @@ class Draft:
         low, self.boxes, self.block_of, meshes, number = np.array([0.0, 0.0, 0.0]), [], [], [], 1
         jitter = 0.0 if self.kind == "PdQuickGrid" or self.chance(0.6) else 0.08
         # A small stiff body beside a large one takes smaller steps than that: it is subcycled.
-        self.fast_body = count > 1 and self.chance(0.5)
+        self.fast_body = self.explicit and count > 1 and self.chance(0.5)
         for body in range(count):
             cell = 1e-3 * self.pick((1, 1, 1, 0.75)) * np.array([self.pick((1, 1, 1, 1.2)) for _ in range(3)])
-            counts = tuple(self.random.randint(2, 4 if count > 1 else 5) for _ in range(3))
+            # Equilibria take a hundred times as long.
+            counts = tuple(self.random.randint(2, (4 if count > 1 else 5) if self.explicit else 3) for _ in range(3))
             if self.long:
                 counts = (3, 3, 3)
             if self.fast_body:
@@ -265,7 +266,6 @@ class Draft:
     # ---- materials and blocks
 
     def materials(self):
-        self.explicit = self.chance(0.87)
         count = 2 if self.fast_body else self.pick((1, 1, 2))
         any_material = self.schema.at(f"Materials > {ANY}")
         self.of_material, self.waves = {}, {}
@@ -566,9 +566,9 @@ class Draft:
 
     def draw(self):
         self.long = self.chance(0.05)
+        self.explicit = self.long or self.chance(0.88)
         self.bodies()
         self.materials()
-        self.explicit |= self.long
         self.steps = self.random.randint(24, 80)
         self.load_steps = self.random.randint(2, 4)
         self.time = self.steps * 0.12 * self.h / self.fastest if self.explicit else 1e-3

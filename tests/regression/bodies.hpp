@@ -105,7 +105,7 @@ struct Parts {
   std::string contact, conditions;
   std::string times = key("Final Time", "5e-6");
   std::string verlet = key("Safety Factor", "0.8");
-  std::string output, history, watch;
+  std::string output, history, watch, damage;
 
   std::string text() const {
     const auto optional = [](const std::string& name, const std::string& content) {
@@ -121,7 +121,8 @@ struct Parts {
            optional("Node Sets", node_sets) + section("Materials", materials) + section("Blocks", blocks) +
            optional("Contact", contact) + optional("Boundary Conditions", conditions) +
            section("Solver", times + section("Verlet", verlet)) + optional("Output", output) +
-           optional("History", history) + optional("Watch", watch) + "</ParameterList>\n";
+           optional("History", history) + optional("Watch", watch) + optional("Damage Models", damage) +
+           "</ParameterList>\n";
   }
 };
 
