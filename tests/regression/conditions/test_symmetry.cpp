@@ -202,5 +202,33 @@ TEST(Symmetry, IsThatOfEquilibria) {
   EXPECT_LT(difference(parts, pressed, Tensor::Identity(), "QuasiStatic"), 1e-7);
 }
 
+// What is no end of a body has no mirror image; who may have meant one is told.
+TEST(Symmetry, IsToldWhereThereIsNone) {
+  const auto warnings = [](const std::string& sets, const std::string& plane_of_deck, const std::string& more = "") {
+    const RunFolder folder;
+    Parts parts;
+    parts.node_sets = sets;
+    parts.conditions = plane_of_deck;
+    if (!more.empty()) parts.contact = more;
+    Simulation run(folder, parts);
+    EXPECT_EQ(run.body().domain.mirrors.empty(), more.empty());
+    return run.scene.warnings;
+  };
+  const std::string path = "WARNING: Boundary Conditions > p: ";
+  const auto on = [](const std::string& set, const std::string& point) {
+    return plane("p", "Symmetry Plane", set, point, "0 0 1");
+  };
+  const std::string set = key("some", "z &lt; 1e-3 &amp;&amp; x &lt; 2e-3");
+  EXPECT_NE(warnings(set, on("some", "0 0 0")).find(path + "8 points at the plane are not in the set"),
+            std::string::npos);
+  EXPECT_NE(warnings(set, on("foot", "0 0 0.4e-3")).find(path + "the plane runs through elements"), std::string::npos);
+  EXPECT_NE(warnings(set, on("foot", "0 0 3e-3")).find(path + "the body of its points lies on both sides"),
+            std::string::npos);
+  EXPECT_EQ(warnings(set, on("all", "0 0 0")).find(path), std::string::npos);
+  const std::string self = contact_of({{"bar", "bar"}}, "1e-3", "1e12");
+  EXPECT_NE(warnings(set, on("foot", "0 0 0"), self).find(path + "contact does not see mirror images"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace strut::regression

@@ -122,6 +122,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Quadratic", quadratic, FamilyKind::lists, 1.75, Influence::one, 1e-6, 1e-6}),
     [](const auto& info) { return info.param.name; });
 
+// At 180°/n images of a wedge fill the space around its edge once; at other angles they overlap.
+TEST(Images, FillSpaceOnce) {
+  const auto images = [](double angle) {
+    const Mirror first{.normal = Vector::UnitY()}, second{.normal = Vector(std::sin(angle), -std::cos(angle), 0)};
+    const Eigen::AlignedBox3d box(Vector(0.1, 0, 0), Vector(1, 1, 1));
+    return Images({first, second}, {box, box}, 10).count();
+  };
+  for (const int n : {2, 3, 4, 6}) EXPECT_EQ(images(std::numbers::pi / n), 2 * n) << n;
+  EXPECT_THROW(images(1), Error);
+}
+
 // Of parallel planes each has the bonds across it: where a body between two is strained at one of them only, this is
 // the sum of the internal forces, as bonds within the body give nothing to it.
 TEST(MirrorForces, OfParallelPlanesAreThoseOfTheBondsAcross) {
