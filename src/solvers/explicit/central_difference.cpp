@@ -114,9 +114,9 @@ void CentralDifference::choose_step(double final_time) {
 
 // As a part of the critical time step. Where bonds break its bound goes up and down with the families of a few points.
 double CentralDifference::longest_stay() const {
-  constexpr double most = 0.95;
-  const double slack = body_.fracture ? most / 0.8 : 1.05, safety = control_.safety_factor;
-  return std::min(slack * safety, std::max(most, safety));
+  constexpr double most = 0.95, slack = 1.05;
+  const double safety = control_.safety_factor, limit = std::max(most, safety);
+  return body_.fracture ? limit : std::min(slack * safety, limit);
 }
 
 // Each change of the step takes or gives energy, in proportion to it, and changes that follow a vibration feed it: the
