@@ -14,7 +14,9 @@ SymmetryPlane SymmetryPlane::on(std::vector<int> all, int place, const Body& bod
       return mirror.number == place && mirror.body == of_point && !mirror.holds(domain.reference(i), domain.horizon(i));
     });
   });
-  return {std::move(all), normal, place, point};
+  SymmetryPlane plane = *this;
+  plane.points = std::move(all), plane.reaction_place = place;
+  return plane;
 }
 
 void SymmetryPlane::change_velocities(VelocityUpdate& update) const {
@@ -26,11 +28,13 @@ void SymmetryPlane::change_velocities(VelocityUpdate& update) const {
 }
 
 std::optional<SymmetryPlane> SymmetryPlane::in_substeps(const MovingPoints& moving) const {
-  return SymmetryPlane{moving.among(points), normal, reaction_place, push};
+  SymmetryPlane part = *this;
+  part.points = moving.among(points);
+  return part;
 }
 
 void SymmetryPlane::predict_velocities(double, double, const Body&, std::vector<Vector>& velocities) const {
-  for (const int i : points) velocities[i] -= normal.dot(velocities[i]) * normal;
+  for (const int i : points) velocities[i] -= normal.dot(velocities[i]) * push.value_or(normal);
 }
 
 std::vector<HeldDirection> SymmetryPlane::held_directions(const Body& body, double, double) const {

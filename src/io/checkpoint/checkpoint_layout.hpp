@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/archive.hpp"
+#include "io/check_sum.hpp"
 
 namespace strut::io::checkpoint_layout {
 
@@ -18,6 +19,14 @@ inline std::string name_of_share(const std::string& name) { return "share_" + na
 inline std::string name_of_number(const std::string& name) { return "number_" + name; }
 // Of check sums: that of the numbers and the deck, then one for each list, in the order of the snapshot.
 constexpr const char* name_of_sums = "sums";
+// The deck has one of its own: it is read before there is a snapshot to compare with.
+constexpr const char* name_of_deck_sum = "deck_sum";
+
+inline double sum_of_deck(const std::string& deck) {
+  CheckSum sum;
+  sum.add(deck);
+  return sum.value();
+}
 
 inline std::size_t number_of_lists(const Snapshot& snapshot) {
   std::size_t lists = snapshot.shares.size();

@@ -210,6 +210,8 @@ CheckpointFacts facts_of_checkpoint(const fs::path& path, const Communicator& co
     const auto read = [&] {
       const NetcdfLists file = opened(either);
       facts = {file.text("deck"), file.number(name_of_number("time"))};
+      if (file.number(name_of_deck_sum) == sum_of_deck(facts.deck)) return;
+      throw Error(either.string() + ": is damaged: the check sum of its deck is not that of its contents");
     };
     open_either(path, either, read, unused);
   });

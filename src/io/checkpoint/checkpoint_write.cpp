@@ -50,6 +50,7 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
   file.put(checkpoint_mark, double{version});
   file.put("written_by", build_facts());
   file.put("deck", deck);
+  file.put(name_of_deck_sum, sum_of_deck(deck));
   for (const auto& [name, value] : snapshot.numbers) file.put(name_of_number(name), value);
   for (const auto& [name, value] : snapshot.shares) file.define(name_of_share(name), NetcdfLists::Of::reals, ranks);
   for (std::size_t g = 0; g < snapshot.groups.size(); ++g) {
