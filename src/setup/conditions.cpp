@@ -52,21 +52,25 @@ void put(const ActsOnce auto& prototype, const std::string&, const std::vector<i
 // A plane whose points other conditions hold in directions that are not across its normal pushes them in the directions
 // that these leave free: a part for each.
 void put(const SymmetryPlane& prototype, std::vector<int> points, int place, const SharedPoints& shared, Scene& scene) {
+  SymmetryPlane whole = prototype.on(std::move(points), place, scene.body);
   std::vector<SymmetryPlane> parts;
   const auto add_to_part = [&](int i, const Vector& push) {
     const auto same = [&](const SymmetryPlane& one) { return *one.push == push; };
     auto part = std::find_if(parts.begin(), parts.end(), same);
-    if (part == parts.end()) part = parts.insert(part, {{}, prototype.normal, place, push});
+    if (part == parts.end()) {
+      part = parts.insert(part, whole);
+      part->points.clear(), part->push = push;
+    }
     part->points.push_back(i);
   };
-  std::erase_if(points, [&](int i) {
+  std::erase_if(whole.points, [&](int i) {
     const auto found = shared.find(i);
     if (found == shared.end()) return false;
     const Vector push = push_of_plane(found->second, place);
     if (!push.isZero(0)) add_to_part(i, push);
     return true;
   });
-  scene.conditions.add(prototype.on(std::move(points), place, scene.body));
+  scene.conditions.add(std::move(whole));
   for (SymmetryPlane& part : parts) scene.conditions.add(std::move(part));
 }
 
@@ -113,7 +117,12 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   deck::Problems problems;
   if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
   PointsOfConditions points;
-  for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
+  for (const deck::Condition& one : deck.conditions) {
+    std::vector<int>& of_one = points.emplace_back(points_of(scene.body.domain.cloud, one.node_set));
+    // A body that goes on behind a plane as its mirror image is not held by it, but for points on the plane.
+    const auto* plane = std::get_if<SymmetryPlane>(&one.kind);
+    if (plane) of_one = plane->on(std::move(of_one), static_cast<int>(points.size()) - 1, scene.body).points;
+  }
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
