@@ -141,16 +141,23 @@ void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) 
   numbers.assign(values.begin(), values.end());
 }
 
-// Points near those of level h are of level h − 1 at least.
+// Points near those of level h are of level h − 1 at least. Few points are of level 2 and more: where no ghost is, each
+// of them raises its neighbors, and other families are not looked at.
 void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
+  const int owned = body.owned();
   for (int n = 0; n < families_between_levels; ++n) {
     const std::vector<std::uint8_t> before = levels;
-    over_points(body, [&](int i, bool) {
-      body.domain.families.for_each(i, [&](int j) {
-        if (before[j] > levels[i] + 1) levels[i] = before[j] - 1;
-      });
-    });
-    levels.resize(body.owned());
+    const auto is_high = [&before](int i) { return before[i] >= 2; };
+    const auto raise = [&](int i, int j) {
+      if (i < owned && before[j] > levels[i] + 1) levels[i] = before[j] - 1;
+    };
+    bool high_ghosts = false;
+    for (int j = owned; j < static_cast<int>(before.size()); ++j) high_ghosts = high_ghosts || is_high(j);
+    for (int i = 0; i < owned; ++i) {
+      if (high_ghosts) body.domain.families.for_each(i, [&](int j) { raise(i, j); });
+      if (!high_ghosts && is_high(i)) body.domain.families.for_each(i, [&](int j) { raise(j, i); });
+    }
+    levels.resize(owned);
     exchange(body, body.domain.halo, levels);
   }
 }
