@@ -15,14 +15,17 @@ double coefficient_in(const std::string& text) {
   return coefficient_of(block_materials(deck, cloud)[0].stabilization);
 }
 
+// The deck with bonds that break.
+std::string breaking(const std::string& text, const std::string& limit) {
+  const std::string blocks = "<ParameterList name=\"Blocks\">", horizon = key("Horizon", "2.01e-3");
+  const std::string models =
+      section("Damage Models", section("cracks", key("Damage Model", "Critical Stretch") + limit));
+  return changed(changed(text, horizon, horizon + key("Damage Model", "cracks")), blocks, models + blocks);
+}
+
 TEST(Blocks, ThatBreakByStretchHaveStifferSprings) {
   const std::string whole = Parts().text();
-  const std::string broken =
-      changed(changed(whole, key("Horizon", "2.01e-3"), key("Horizon", "2.01e-3") + key("Damage Model", "cracks")),
-              "<ParameterList name=\"Blocks\">",
-              section("Damage Models",
-                      section("cracks", key("Damage Model", "Critical Stretch") + key("Fracture Energy", "100"))) +
-                  "<ParameterList name=\"Blocks\">");
+  const std::string broken = breaking(whole, key("Fracture Energy", "100"));
   const auto with_own = [](const std::string& text) {
     return changed(text, key("Density", "8930"), key("Density", "8930") + key("Stabilization Coefficient", "0.07"));
   };
@@ -40,12 +43,7 @@ std::string warnings_of(const std::string& text) {
 TEST(Blocks, WhoseCracksAreNoiseAreToldOf) {
   const std::string whole = changed(Parts().text(), key("Density", "8930"),
                                     key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
-  const std::string breaks =
-      changed(changed(whole, key("Horizon", "2.01e-3"), key("Horizon", "2.01e-3") + key("Damage Model", "cracks")),
-              "<ParameterList name=\"Blocks\">",
-              section("Damage Models",
-                      section("cracks", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.01"))) +
-                  "<ParameterList name=\"Blocks\">");
+  const std::string breaks = breaking(whole, key("Critical Stretch", "0.01"));
   EXPECT_EQ(warnings_of(whole).find("cracks"), std::string::npos);
   EXPECT_NE(warnings_of(breaks).find("WARNING: block 'bar' breaks bonds by Formulation"), std::string::npos);
 }
