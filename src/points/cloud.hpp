@@ -62,6 +62,9 @@ struct PointCloud {
   bool joined = false;  // every point has joints
   std::vector<std::string> block_names;
   std::vector<std::string> set_names;  // at most 64
+  // Of points at nodes as they are read, block by block: m³ of the elements of the second block that points of the
+  // first have. Else empty.
+  std::vector<double> taken_volumes;
 
   std::size_t size() const { return ids.size(); }
 };

@@ -130,6 +130,26 @@ double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
 
 }  // namespace
 
+std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken) {
+  constexpr double worth_telling = 0.01;
+  const std::size_t blocks = body.blocks.size();
+  double more = 0;  // kg
+  for (std::size_t of_point = 0; of_point < blocks && !taken.empty(); ++of_point) {
+    for (std::size_t of_element = 0; of_element < blocks; ++of_element) {
+      more += taken[of_point * blocks + of_element] *
+              (body.blocks[of_point].material.density - body.blocks[of_element].material.density);
+    }
+  }
+  const double mass = mass_of(body);
+  if (std::abs(more) <= worth_telling * (mass - more)) return "";
+  std::ostringstream text;
+  text.precision(4);
+  text << "WARNING: the mass is " << mass << " kg, that of the elements " << mass - more
+       << " kg: a node that blocks of two densities share has the density of the block that stands first in the mesh; "
+          "Points \"Elements\" or a finer mesh keep the mass\n";
+  return text.str();
+}
+
 std::string improbable_temperatures(const Body& body) {
   constexpr double room = materials::room_temperature;
   constexpr double cold = 150;            // K: few tests are colder, and what is in °C is below

@@ -17,6 +17,10 @@ std::string outline(const Scene& scene, const std::vector<Trajectory>& trajector
 // units.
 std::string improbable_materials(const Body& body);
 
+// Collective. A warning where the mass of points at nodes is not that of the mesh: a node that blocks of two densities
+// share has the density of the first of them. `taken`: PointCloud::taken_volumes.
+std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken);
+
 // A warning for each block of a metal that begins molten, or so cold that its temperature may be in °C.
 std::string improbable_temperatures(const Body& body);
 

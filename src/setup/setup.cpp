@@ -104,7 +104,7 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
 }
 
 Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator) {
-  const std::vector<double> spacing = mean_spacings(cloud, communicator);
+  const std::vector<double> spacing = mean_spacings(cloud, communicator), taken = std::move(cloud.taken_volumes);
   Cuts by;
   {
     const Timed timed(phase("Partition"));
@@ -122,6 +122,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.outline = outline(scene, ways, start, duration);
   scene.warnings += improbable_materials(scene.body);
   scene.warnings += improbable_temperatures(scene.body);
+  scene.warnings += mass_of_shared_nodes(scene.body, taken);
   scene.warnings += improbable_scales(scene, ways, start, duration);
   scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
   scene.warnings += filled_tools(scene, start);

@@ -97,6 +97,7 @@ PointCloud at_nodes(const std::optional<MeshFile>& file, const MeshLayout& layou
   PointCloud cloud =
       on_all_ranks(communicator, [&] { return points_at_nodes(slice, own, numbers, name, with_cells, planes); });
   check_given_once(slice, own, name, communicator);
+  communicator.sum(cloud.taken_volumes);
   check_blocks_have_points(cloud, name, communicator);
   return cloud;
 }

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "base/errors.hpp"
 #include "io/exodus/elements.hpp"
@@ -17,7 +19,8 @@ struct Share {
   double volume = 0;  // m³, the node's parts
   double around = 0;  // m³, of the whole elements
   int elements = 0;
-  int block = -1;  // of the first of them
+  int block = -1;                             // of the first of them
+  std::vector<std::pair<int, double>> taken;  // m³, of elements of other blocks
 };
 
 class Shares {
@@ -51,6 +54,7 @@ class Shares {
         share.around += cells * volume;
         ++share.elements;
         if (share.block < 0) share.block = index;
+        if (share.block != index) share.taken.emplace_back(index, parts[n]);
       }
     }
   }
@@ -161,6 +165,7 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
   cloud.at = PointsAt::nodes;
   for (const MeshLayout::Block& block : slice.layout.blocks) cloud.block_names.push_back(block.name);
   for (const MeshLayout::NodeSet& set : slice.layout.node_sets) cloud.set_names.push_back(set.name);
+  cloud.taken_volumes.assign(cloud.block_names.size() * cloud.block_names.size(), 0);
   for (std::size_t n = 0; n < shares.size(); ++n) {
     if (slice.nodes[n] < own.begin || slice.nodes[n] >= own.end) continue;
     const Share& share = shares[n];
@@ -169,6 +174,9 @@ PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const s
     if (with_cells) {
       check_parts(cells->volume(n), number, file);
       cells->give(n, cloud);
+    }
+    for (const auto& [block, volume] : share.taken) {
+      cloud.taken_volumes[share.block * cloud.block_names.size() + block] += volume;
     }
     cloud.ids.push_back(slice.nodes[n]);
     cloud.element_ids.push_back(number);

@@ -119,5 +119,27 @@ TEST(Nodes, ExtremesAreThoseOfTheNodes) {
   EXPECT_EQ(value("Min_Coordinate_Y(bar)"), 0);
 }
 
+// Bar and plate share the 5 × 5 nodes between them, which belong to the bar: half a layer of 16 mm² by 1 mm more of its
+// density than the mesh has, of 4 layers of it and 2 of the plate's.
+TEST(Nodes, ThatBlocksOfTwoDensitiesShareAreToldOf) {
+  const RunFolder folder(Lattice{.nz = 6, .plate_layers = 2});
+  const auto warnings = [&folder](const std::string& density) {
+    Parts parts;
+    parts.points = "Nodes";
+    parts.materials += changed(changed(copper(), "copper", "light"), "8930", density);
+    parts.blocks.clear();
+    for (const auto& [block, material] : {std::pair("bar", "copper"), {"plate", "light"}}) {
+      parts.blocks +=
+          section(block, key("Block Names", block) + key("Material", material) + key("Horizon Factor", "1.8"));
+    }
+    return set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  EXPECT_EQ(warnings("8930").find("the mass is"), std::string::npos);
+  // 16e-9 m³ (4 · 8930 + 2 · 2700) kg/m³, and 8e-9 (8930 − 2700) kg more.
+  EXPECT_NE(warnings("2700").find("WARNING: the mass is 0.0007078 kg, that of the elements 0.0006579 kg"),
+            std::string::npos)
+      << warnings("2700");
+}
+
 }  // namespace
 }  // namespace strut::regression
