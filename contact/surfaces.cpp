@@ -300,14 +300,16 @@ Rubbing rubbing_of(const Patch& patch, const Vector& force) {
 
 }  // namespace
 
-// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, where the point is, less its own.
+// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, less its own: where the point is if
+// the patch `turns` with its points, else the mean of theirs.
 template <class MotionOf>
-Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const MotionOf& motion) const {
+Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, bool turns,
+                         const MotionOf& motion) const {
   Vector mean = Vector::Zero(), turning = Vector::Zero();
   over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
     const Vector part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2) * motion(partner);
     mean += part;
-    turning += (eta - patch.middle).cross(part);
+    if (turns) turning += (eta - patch.middle).cross(part);
   });
   return mean / patch.weight + patch.middle.cross(patch.per_couple * turning) - motion(static_cast<int>(k));
 }
@@ -335,7 +337,8 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
     if (!facing_[k].touches()) continue;
     const Patch patch = felt_patch(pairs, k);
     const Vector normal = gradient_[k].stableNormalized();
-    slip = slips_before_[places_[k]] + slip_of(pairs, k, patch, [&](int site) { return ways[site]; });
+    slip =
+        slips_before_[places_[k]] + slip_of(pairs, k, patch, !sliding.is_trial, [&](int site) { return ways[site]; });
     slip -= slip.dot(normal) * normal;
     slip = bearable(patch, Vector::Zero(), slip);
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
@@ -403,7 +406,7 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
     changes[k].tension = facing_[k].stiffness * share;
     if (grips_.empty()) continue;
     const Grip& grip = grips_[k];
-    Vector slip = slip_of(pairs, k, grip.patch, [&](int site) { return changes[site].of_place; });
+    Vector slip = slip_of(pairs, k, grip.patch, false, [&](int site) { return changes[site].of_place; });
     slip -= slip.dot(grip.normal) * grip.normal;
     slip = bearable(grip.patch, Vector::Zero(), slip);
     if (grip.slides) slip -= slip.dot(grip.along) * grip.along;

@@ -6,7 +6,8 @@
 //
 // Friction is a spring from each such point to the patch that it feels, which takes the reaction where the point is: in
 // the same shares, and as a couple (patch.hpp). It yields at μ times the normal force (Coulomb): what sticks does not
-// creep.
+// creep. In equilibria it follows the mean of the points instead of the patch as it turns: pressed and dragged surfaces
+// turn between their points, which as slip would be a compliance of its own.
 #pragma once
 
 #include <functional>
@@ -97,7 +98,7 @@ class Surfaces {
   void over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   Patch felt_patch(const Pairs& pairs, std::size_t k) const;
   template <class MotionOf>
-  Vector slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const MotionOf& motion) const;
+  Vector slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, bool turns, const MotionOf& motion) const;
   void set_smallest_reaches(const Pairs& pairs);
   void take_broken(const Domain& domain, const Pairs& pairs);
   void note_touching();

@@ -89,6 +89,17 @@ std::string cerruti(int component, const std::string& force) {
   return force + "*" + factor + "(1/" + r + " + " + number(1 - 2 * poisson) + "/" + below + " + " + of_plane + ")";
 }
 
+// What pressing does to the surface of the half-space along it, m (Johnson 1985, 4.2): inwards by
+// (1 − 2ν)/(1 − ν) 2a³/(3π R r) (1 − (1 − r²/a²)^(3/2)), the last power 0 where r > a.
+std::string drawn_in(const Indentation& spec, int component) {
+  const double a = spec.contact_radius * spacing, most = (1 - 2 * poisson) / (1 - poisson) * 2 * std::pow(a, 3) /
+                                                         (3 * std::numbers::pi * spec.sphere * spacing);
+  const std::string r2 = "(x*x + y*y)", left = "(1 - " + r2 + "/(" + number(a * a) + "*(" + pressed + " + 1e-9)))",
+                    inside = "(0.5*(" + left + " + fabs" + left + "))";
+  return number(-most) + "*pow(" + pressed + ", 1.5)*" + (component == 0 ? "x" : "y") + "/" + r2 + "*(1 - pow(" +
+         inside + ", 1.5))";
+}
+
 // Q/(μP) after this part of the way that makes all slide (Mindlin 1949).
 double mindlin(double drag) { return 1 - std::pow(1 - drag, 1.5); }
 
@@ -110,7 +121,7 @@ struct Indented {
         number(spec.friction * force) + "*(1 - pow(1 - " + number(spec.drag) + "*" + dragged + ", 1.5))";
     const std::string way[] = {number(spec.drag * all_slides) + "*" + dragged, "0", number(-approach) + "*" + pressed};
     for (int axis = 0; axis < 3; ++axis) {
-      move(sphere, axis, way[axis]);
+      move(sphere, axis, axis < 2 && spec.friction > 0 ? way[axis] + " + " + drawn_in(spec, axis) : way[axis]);
       move(far, axis, boussinesq(axis, load) + " + " + cerruti(axis, drag));
     }
     contact = contact::Contact({{0, 1, {surface_law(), spec.friction}}}, body.domain);
@@ -156,8 +167,8 @@ TEST(Hertz, DISABLED_ForceWithTenPointsInTheContactRadius) {
 }
 
 // What sticks is the circle of c/a = (1 − Q/μP)^⅓, of which the way of the sphere tells that it is √(1 − drag). They
-// leave out what pressing does along the surface, which is nothing for equal bodies only. Measured: 1.4 % more of c/a;
-// with eight points in the contact radius 3.1 %, and 8.5 % with a drag of 0.8.
+// leave out what pressing does along the surface, which is nothing for equal bodies: the sphere is drawn in as the
+// half-space is. Measured: 2.7 % less of c/a. 5.8 % more where friction follows the turning of the surface.
 TEST(Mindlin, StickingCircleUnderADrag) {
   const Indentation spec{.friction = 0.3, .drag = 0.6};
   const auto [along, down] = forces_of(spec);
