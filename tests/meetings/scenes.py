@@ -274,7 +274,7 @@ class Draft:
         count = 2 if self.fast_body else self.pick((1, 1, 2))
         any_material = self.schema.at(f"Materials > {ANY}")
         self.of_material, self.waves = {}, {}
-        self.fastest = self.stiffest = 0.0
+        self.fastest, self.stiffest, self.softest = 0.0, 0.0, np.inf
         for n in range(count):
             stiff = n == 1 and (self.fast_body or self.chance(0.5))
             self.E, self.rho = 1e9 * self.uniform(0.5, 2) * (20 if stiff else 1), 1000 * self.uniform(0.5, 3)
@@ -286,7 +286,7 @@ class Draft:
             modulus = self.E * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu)) * 1.5
             self.waves[f"m{n + 1}"] = (modulus / self.rho) ** 0.5
             self.fastest = max(self.waves.values())
-            self.stiffest = max(self.stiffest, modulus)
+            self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, modulus)
 
     def reconciled(self, material):
         """What one key forbids another (the deck's reader refuses it)."""
@@ -597,7 +597,7 @@ class Draft:
         deck["Solver"] = self.solver()
         used = {section["Material"] for section in deck["Blocks"].values()}
         deck["Materials"] = {name: m for name, m in deck["Materials"].items() if name in used}
-        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "askew": self.askew})
+        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "askew": self.askew, "softest": self.softest})
 
 
     def free_vibration(self):
@@ -615,7 +615,7 @@ class Draft:
         deck["Solver"] = {"Initial Time": Num(0.0, "s"), "Final Time": Num(self.time, "s")}
         used = {section["Material"] for section in deck["Blocks"].values()}
         deck["Materials"] = {name: m for name, m in deck["Materials"].items() if name in used}
-        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "askew": self.askew, "long": True})
+        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "askew": self.askew, "softest": self.softest, "long": True})
 
 
 def drawn(schema, seed):
