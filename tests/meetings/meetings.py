@@ -34,6 +34,7 @@ except ImportError as missing:
     print(f"left out: {missing} (Debian: python3-netcdf4, python3-numpy)")
     sys.exit(77)
 
+from known import known
 from laws import LAWS, NotHere
 from relations import RELATIONS, Case
 from runs import Runner
@@ -85,7 +86,7 @@ class Worker:
 
     def scene(self, seed):
         case, refusals = self.case(seed)
-        report = {"seed": seed, "refusals": refusals, "asked": [], "left out": [], "failures": [], "seen": choices_of(case.scene), "error": case.base.error, "about": case.scene.summary()}
+        report = {"seed": seed, "refusals": refusals, "asked": [], "left out": [], "known": [], "failures": [], "seen": choices_of(case.scene), "error": case.base.error, "about": case.scene.summary()}
         if case.base.status in ("crash", "hang"):
             report["failures"].append((case.base.status, case.base.log[-300:], None))
             return report
@@ -98,7 +99,9 @@ class Worker:
         for name in names:
             problem, reason = failure_of(case, name)
             (report["asked"] if reason is None else report["left out"]).append((name, reason))
-            if problem:
+            if problem and known(case, name, problem):
+                report["known"].append(known(case, name, problem))
+            elif problem:
                 report["failures"].append((name, problem, self.kept(case, name, problem)))
         return report
 
@@ -184,13 +187,14 @@ def main():
         parser.error(f"--only {','.join(unknown)}: expected some of {', '.join([*LAWS, *RELATIONS])}")
     schema = schema_of(options.strut)
     problems = [f"values.py has no range for {key}" for key in without_a_range(schema)]
-    began, seen, asked, left, refusals, failures, errors = time.monotonic(), set(), collections.Counter(), collections.Counter(), collections.Counter(), [], 0
+    began, seen, asked, left, refusals, faults, failures, errors = time.monotonic(), set(), *(collections.Counter() for _ in range(4)), [], 0
     for report in reports_of(options):
         seen |= report["seen"]
         asked.update(name for name, _ in report["asked"])
         left.update(report["left out"])
         refusals.update(text[:110] for text in report["refusals"])
         errors += bool(report["error"])
+        faults.update(report["known"])
         for name, problem, folder in report["failures"]:
             failures.append(name)
             print(f"FAILED: seed {report['seed']}, {name}: {problem} [{report['about']}]" + (f" ({folder})" if folder else ""), flush=True)
@@ -201,6 +205,8 @@ def main():
     print(f"{options.scenes} scenes, {time.monotonic() - began:.0f} s; {errors} of them ended with an error; {sum(refusals.values())} more were refused")
     for name in [*LAWS, *RELATIONS]:
         print(f"  {name}: asked of {asked[name]}, {failures.count(name)} failed")
+    for sentence, count in faults.most_common():
+        print(f"  known: {count}: {sentence}")
     if os.environ.get("MEETINGS_VERBOSE"):
         for (name, reason), count in left.most_common():
             print(f"  left out {count}: {name}: {reason}")

@@ -63,6 +63,10 @@ class Scene:
     def is_long(self):
         return self.about.get("long", False)
 
+    @property
+    def is_quadratic(self):
+        return any(m.get("Formulation", "").startswith("Quadratic") for m in self.deck["Materials"].values())
+
     def summary(self):
         """In some words, for whoever reads of a failure."""
         materials = {f"{m['Material Model'].removesuffix(' Correspondence')}{' quadratic' if m.get('Formulation', '').startswith('Quadratic') else ''}"
@@ -228,6 +232,7 @@ class Draft:
             gap = self.pick((0.05 if self.at_nodes else 0.0, 0.05, 0.1, 0.2)) * 1e-3
             low = np.array([self.pick((0.0, 0.0, 0.4e-3)), self.pick((0.0, 0.0, -0.3e-3)), box.high[2] + gap])
         self.mesh = mesh.joined(meshes)
+        self.askew = self.kind == "Exodus" and jitter > 0  # cells, that is
         self.h = min(box.cell.min() for box in self.boxes)
 
     def discretization(self):
@@ -269,7 +274,7 @@ class Draft:
         count = 2 if self.fast_body else self.pick((1, 1, 2))
         any_material = self.schema.at(f"Materials > {ANY}")
         self.of_material, self.waves = {}, {}
-        self.fastest = self.stiffest = 0.0
+        self.fastest, self.stiffest, self.softest = 0.0, 0.0, np.inf
         for n in range(count):
             stiff = n == 1 and (self.fast_body or self.chance(0.5))
             self.E, self.rho = 1e9 * self.uniform(0.5, 2) * (20 if stiff else 1), 1000 * self.uniform(0.5, 3)
@@ -281,7 +286,7 @@ class Draft:
             modulus = self.E * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu)) * 1.5
             self.waves[f"m{n + 1}"] = (modulus / self.rho) ** 0.5
             self.fastest = max(self.waves.values())
-            self.stiffest = max(self.stiffest, modulus)
+            self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, modulus)
 
     def reconciled(self, material):
         """What one key forbids another (the deck's reader refuses it)."""
@@ -592,7 +597,7 @@ class Draft:
         deck["Solver"] = self.solver()
         used = {section["Material"] for section in deck["Blocks"].values()}
         deck["Materials"] = {name: m for name, m in deck["Materials"].items() if name in used}
-        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed})
+        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "askew": self.askew, "softest": self.softest})
 
 
     def free_vibration(self):
@@ -610,7 +615,7 @@ class Draft:
         deck["Solver"] = {"Initial Time": Num(0.0, "s"), "Final Time": Num(self.time, "s")}
         used = {section["Material"] for section in deck["Blocks"].values()}
         deck["Materials"] = {name: m for name, m in deck["Materials"].items() if name in used}
-        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "long": True})
+        return Scene(deck, self.mesh, self.h, self.stiffest, self.fastest, self.boxes, {"seed": self.seed, "askew": self.askew, "softest": self.softest, "long": True})
 
 
 def drawn(schema, seed):

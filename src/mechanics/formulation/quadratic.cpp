@@ -80,6 +80,7 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
+      for (auto& row : P.c) row[0] *= carries, row[1] *= carries, row[2] *= carries;  // some laws have a stress at rest
       for (int l = 0; l < group.count; ++l) {
         // A failed place of a metal beside others bears its share of their pressure, as their strains have it.
         if (now.J[l] > 0 && stiffest[l] > 0) {

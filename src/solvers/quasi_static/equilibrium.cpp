@@ -120,6 +120,13 @@ std::vector<Vector> Equilibrium::step_way() const {
 
 double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
 
+// Σ f·u ≤ ‖f‖ ‖u‖.
+double Equilibrium::work_of_round_off() const {
+  double sum = 0;
+  for (const Vector& way : step_way()) sum += way.squaredNorm();
+  return round_off_ * std::sqrt(body_.domain.communicator.sum(sum));
+}
+
 // The reactions are what balances the forces in held directions.
 Imbalance Equilibrium::measure(bool failed) {
   Field of_tools(body_.owned(), Vector::Zero());

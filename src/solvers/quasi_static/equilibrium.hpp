@@ -66,7 +66,8 @@ class Equilibrium {
   // on this rank.
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
-  double friction_work() const;  // between bodies
+  double friction_work() const;      // between bodies
+  double work_of_round_off() const;  // collective; J, at most, of the forces that round-off leaves in this load step
   // Collective. Of the last trial, for so many conditions of the deck.
   Reactions reactions(int conditions) const;
 
@@ -84,11 +85,11 @@ class Equilibrium {
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
-  Field forces_, residual_;        // N: all; those that nothing holds
-  Field forces_before_;            // N, of the committed state
-  Field outer_, outer_before_;     // loads and reactions, N
+  Field forces_, residual_;                     // N: all; those that nothing holds
+  Field forces_before_;                         // N, of the committed state
+  Field outer_, outer_before_;                  // loads and reactions, N
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors on this rank's points
-  std::vector<Vector> looked_at_;  // places that contact has last been asked about
+  std::vector<Vector> looked_at_;               // places that contact has last been asked about
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;
 };

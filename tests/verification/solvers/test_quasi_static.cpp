@@ -337,6 +337,17 @@ TEST(QuasiStatic, BeyondTheLimitLoadThereIsAnErrorAndTheLastEquilibrium) {
   EXPECT_EQ(largest_over(body, [&](int i) { return (body.displacement(i) - before[i]).norm(); }), 0);
 }
 
+// All work that is done on a body that follows its foot is that of round-off: no part of it is an error that a user is
+// told of, from 1 % on.
+TEST(QuasiStatic, ABodyThatIsCarriedAlongHasABalancedLedger) {
+  Loaded loaded(lattice_of({3, 3, 4}, elastic(young, poisson)));
+  const std::vector<int> foot = layer(loaded.body, loaded.spec, 2, false);
+  loaded.move(foot, 0, ramp(0.3 * spacing));
+  for (const int component : {1, 2}) loaded.move(foot, component, "0");
+  QuasiStatic solver = loaded.solver({.load_steps = 3});
+  EXPECT_LT(load(solver).balance_error, 0.01);
+}
+
 TEST(QuasiStatic, IsLeftAtItsLastEquilibrium) {
   Bar bar(lattice_of({3, 3, 6}, elastic(young, poisson)), 0.01);
   bool stop = false;
