@@ -117,12 +117,7 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   deck::Problems problems;
   if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
   PointsOfConditions points;
-  for (const deck::Condition& one : deck.conditions) {
-    std::vector<int>& of_one = points.emplace_back(points_of(scene.body.domain.cloud, one.node_set));
-    // A body that goes on behind a plane as its mirror image is not held by it, but for points on the plane.
-    const auto* plane = std::get_if<SymmetryPlane>(&one.kind);
-    if (plane) of_one = plane->on(std::move(of_one), static_cast<int>(points.size()) - 1, scene.body).points;
-  }
+  for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
