@@ -122,6 +122,11 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   check_contradictions(deck, points, scene.body, problems);
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   scene.warnings += sudden_motions(deck, points, scene.body);
+  // Who is held: a body that goes on behind a plane as its mirror image is so at points on the plane alone.
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
+    if (plane) points[c] = plane->on(std::move(points[c]), static_cast<int>(c), scene.body).points;
+  }
   const SharedPoints shared = shared_points(deck, points);
   for (int place = 0; place < static_cast<int>(deck.conditions.size()); ++place) {
     try {
