@@ -16,7 +16,6 @@ namespace strut {
 
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator);  // collective: a run has left one
 
-
 // Collective, of a checkpoint that exists: says how the deck differs from the one it was written with. Throws Error on
 // all ranks for changes that a run cannot go on with, each by its key, and for a final time that has passed.
 void check_changes(const deck::Deck& deck, const Communicator& communicator);

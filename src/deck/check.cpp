@@ -88,8 +88,8 @@ class Checker {
   // Who refers to it has no blanks around the name.
   void check_given_name(const std::string& name) {
     if (!name.empty() && trimmed(name) == name) return;
-    problems_.add(path_to(path_, "'" + name + "'"), name.empty() ? "a section without a name; expected one"
-                                                                 : "blanks around a name; expected none");
+    problems_.add(path_to(path_, "'" + name + "'"),
+                  name.empty() ? "a section without a name; expected one" : "blanks around a name; expected none");
   }
 
   void read_sections(const Section& parent) {

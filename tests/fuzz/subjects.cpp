@@ -196,7 +196,8 @@ Subject arrays() {
     mesh::read_arrays(stream, "arrays");
   };
   const auto change = [](const std::string& sample, const std::string& other, Random& random) {
-    const bool noisy = sample.find(" grey\n") != std::string::npos && sample.starts_with("strut-mesh arrays 1\nnodes 0");
+    const bool noisy =
+        sample.find(" grey\n") != std::string::npos && sample.starts_with("strut-mesh arrays 1\nnodes 0");
     return noisy && random.chance(0.7) ? change_fills(sample, random) : change_text(sample, other, random);
   };
   const std::vector<std::string> samples = {arrays_sample(), cells_sample(), noisy_sample(1), noisy_sample(2)};

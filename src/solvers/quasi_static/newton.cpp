@@ -91,9 +91,8 @@ bool Newton::damping_has_changed() const {
 void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   Body& body = equilibrium_.body();
   if (wants_factors_ && !factor_) factor_.emplace(body);
-  is_factorized_ =
-      wants_factors_ && factor_->is_worthwhile() &&
-      factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix);
+  is_factorized_ = wants_factors_ && factor_->is_worthwhile() &&
+                   factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix);
   if (is_factorized_) {
     return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
   }

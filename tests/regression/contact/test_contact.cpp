@@ -162,8 +162,8 @@ TEST(Contact, BlockSlidesToRestOnARigidFloor) {
 
 // A block thrown along a plate of points, by the friction of contact. While it slides, the momentum that friction takes
 // is μ times the one that the plate gives upwards, whatever the history of the load. Measured: within 1 %; a plate of
-// points is not quite plane. (It has half the block's spacing: two equal lattices would interlock. The block is long, for
-// friction at its face presses its front down, whose edge then plows: four spacings long, it takes 6 % more.)
+// points is not quite plane. (It has half the block's spacing: two equal lattices would interlock. The block is long,
+// for friction at its face presses its front down, whose edge then plows: four spacings long, it takes 6 % more.)
 TEST(Contact, FrictionTakesItsShareOfTheLoadOfAPlate) {
   const RunFolder folder;
   Parts parts = parts_with(

@@ -178,9 +178,9 @@ TEST(SurfaceContact, LegsOfAHairpinDoNotPassThroughEachOther) {
       if (run.in_set(i, "upper")) high = std::min(high, z);
     }
   });
-  // They touch a spacing apart, overlap by half of one at most, and a step may go a little beyond. They meet at 800 m/s,
-  // and the balance is off by 1.2 %, with a step half as long by 1.5 % and no more with shorter ones: that is contact
-  // between surfaces that turn by 10 % of a radian while they press each other (0.3 % without contact).
+  // They touch a spacing apart, overlap by half of one at most, and a step may go a little beyond. They meet at 800
+  // m/s, and the balance is off by 1.2 %, with a step half as long by 1.5 % and no more with shorter ones: that is
+  // contact between surfaces that turn by 10 % of a radian while they press each other (0.3 % without contact).
   EXPECT_GT(run.world().min(high) - run.world().max(low), 0.4 * h);
   EXPECT_LT(worst, 0.02);
 }

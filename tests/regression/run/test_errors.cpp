@@ -489,7 +489,8 @@ TEST_F(Mistake, UnknownReactions) {
   expect_error(with("Reaction_Z(flight)"),
                {"'flight' is no section of Boundary Conditions that has a reaction force", "there are wall, floor"});
   EXPECT_EQ(outcome(with("Instant_Reaction_Z(wall)")).value_or("no error"), "no error");
-  for (const std::string name : {"Instant_Reaction_W(wall)", "Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
+  for (const std::string name :
+       {"Instant_Reaction_W(wall)", "Reaction_W(wall)", "Reacton_Z(wall)", "Reaction_Z", "Reaction(wall)"}) {
     expect_error(with(name), {"History > Variables > " + name + ": expected one of Reaction_X, Reaction_Y, Reaction_Z",
                               "in brackets the name of a section of Boundary Conditions"});
   }
