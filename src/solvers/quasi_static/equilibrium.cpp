@@ -182,7 +182,6 @@ void Equilibrium::commit() {
   outer_before_ = outer_;
   mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
-  mirror_forces_before_ = mirror_forces_;
 }
 
 std::vector<Tensor> Equilibrium::contact_springs() {

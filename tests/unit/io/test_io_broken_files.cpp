@@ -13,6 +13,7 @@
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"
 #include "io/netcdf/trial_read.hpp"
+#include "unit/io/bytes_and_errors.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace strut::io {
@@ -21,22 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_bytes(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
-
-std::string read_bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// The text of the Error, "" where there is none. Collective; the same on all ranks.
-template <class Action>
-std::string error_of(Action&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 void expect_error(const Communicator& world, const fs::path& file, const std::string& part) {
   const std::string text = error_of([&] { read_exodus(file, world); });
@@ -104,17 +89,17 @@ TEST_F(BrokenFile, TruncatedAnywhere) {
   const auto size = static_cast<std::size_t>(fs::file_size(file));
   world.barrier();
   for (std::size_t length = 4; length < size; length += 4 + size / 50) {
-    run_on_root(world, [&] { write_bytes(folder / "cut.g", read_bytes(file).substr(0, length)); });
+    run_on_root(world, [&] { write_bytes(folder / "cut.g", bytes_of(file).substr(0, length)); });
     expect_error(world, folder / "cut.g", "truncated");
   }
-  run_on_root(world, [&] { write_bytes(folder / "cut.g", read_bytes(file).substr(0, size - 8)); });
+  run_on_root(world, [&] { write_bytes(folder / "cut.g", bytes_of(file).substr(0, size - 8)); });
   expect_error(world, folder / "cut.g", "truncated");
 }
 
 TEST_F(BrokenFile, DamagedBytesNeverCrash) {
   const fs::path file = mesh_file(row_of_cubes(3));
   std::mt19937 random(3);
-  const std::string bytes = read_bytes(file);
+  const std::string bytes = bytes_of(file);
   for (int trial = 0; trial < 400; ++trial) {
     std::string damaged = bytes;
     for (int k = 0; k < 3; ++k) damaged[random() % bytes.size()] = static_cast<char>(random());
@@ -126,7 +111,7 @@ TEST_F(BrokenFile, DamagedBytesNeverCrash) {
 // A count in the header, of nodes as of anything else, is compared with the file's size before memory is taken.
 TEST_F(BrokenFile, SmallFilesThatClaimToBeLarge) {
   const fs::path file = mesh_file(row_of_cubes(3));
-  const std::string bytes = read_bytes(file), nodes = std::string("num_nodes") + std::string(3, '\0');
+  const std::string bytes = bytes_of(file), nodes = std::string("num_nodes") + std::string(3, '\0');
   const std::size_t at = bytes.find(nodes);
   ASSERT_NE(at, std::string::npos);
   for (const char* const count : {"\x7f\xff\xff\xff", "\x10\x00\x00\x00", "\xff\xff\xff\xff"}) {
@@ -180,7 +165,7 @@ TEST_F(BrokenFile, BlocksAndNodeSetsOfOneNumberOrName) {
   EXPECT_EQ(error_of([&] { read_exodus(file, world); }), "");
   const auto with_one_number = [&](const std::string& kind, char first, char second) {
     const std::string both{0, 0, 0, first, 0, 0, 0, second}, one{0, 0, 0, first, 0, 0, 0, first};
-    std::string bytes = read_bytes(file);
+    std::string bytes = bytes_of(file);
     const std::size_t at = bytes.find(both);
     ASSERT_NE(at, std::string::npos);
     bytes.replace(at, both.size(), one);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 
 #include "base/archive.hpp"
 #include "base/errors.hpp"
@@ -13,28 +12,13 @@
 #include "io/exodus/exodus_file.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/text/history.hpp"
+#include "unit/io/bytes_and_errors.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace strut::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-// The text of the Error, "" where there is none. Collective; the same on all ranks.
-template <class Action>
-std::string error_of(Action&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 class Resumed : public testing::Test {
  protected:
