@@ -16,7 +16,7 @@ class Couples {
   void take(const Domain& domain, const std::vector<int>& points);
   bool any() const { return any_; }
 
-  // Of the neighborhood of a point: `middle` as seen from it; how fast it turns, 1/s.
+  // The neighborhood of a point: its middle as seen from the point; how fast it turns, 1/s.
   struct Neighborhood {
     Patch patch;
     Vector spin = Vector::Zero();

@@ -72,7 +72,7 @@ struct Slider {
   double turning = 0;            // the same beside it, by turning its neighborhood, over arm², 1/(kg m²)
   double turns = 0;              // 1: its neighborhood can take up couples
 
-  // Of the body at a place so far from the point, m.
+  // The velocity of the body, m/s, at a place so far from the point, m.
   Vector velocity_at(const Vector& arm) const { return velocity + spin.cross(arm); }
   double mobility_at(const Vector& arm) const { return mobility + turning * arm.squaredNorm(); }
 };
@@ -134,7 +134,7 @@ ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>&
   return result;
 }
 
-// Of friction on pairs.owned[k]: force, N, and couple about the point, N m.
+// Friction on pairs.owned[k]: its force, N, and its couple about the point, N m.
 struct Friction {
   std::vector<Vector> forces, couples;
 };

@@ -20,7 +20,7 @@ struct Patch {
   Vector row = Vector::Zero();  // of unit length along the row; zero where the patch turns, or is as good as one point
 };
 
-// What its points add up to; places are seen from one near them, m.
+// The sums over the points of a patch; places are seen from one near them, m.
 class PatchSums {
  public:
   void add(double weight, const Vector& place) {
@@ -60,7 +60,7 @@ class PatchSums {
   Tensor second_ = Tensor::Zero();
 };
 
-// Of a force at `place` the part whose couple a patch takes up.
+// The part of a force at `place` whose couple a patch takes up.
 inline Vector bearable(const Patch& patch, const Vector& place, const Vector& force) {
   if (patch.turns) return force;
   const Vector arm = place - patch.middle;

@@ -283,7 +283,7 @@ void Surfaces::for_each_normal_force(const Pairs& pairs, const std::function<voi
 
 namespace {
 
-// What the partners of a point must know of the friction on it.
+// The friction on a point, as its partners need it.
 struct Rubbing {
   Vector drag = Vector::Zero();    // over its ρ, N
   Vector twist = Vector::Zero();   // θ of their patch, N/m
