@@ -49,6 +49,11 @@ std::string head_of(const fs::path& file) {
   return head;
 }
 
+// Empty, or zeros to its end, as the library for netCDF begins a file.
+bool holds_nothing(const std::string& head) {
+  return head.size() < longest_head && head.find_first_not_of('\0') == std::string::npos;
+}
+
 bool is_classic_netcdf(const std::string& head) {
   return head.starts_with(std::string("CDF\1", 4)) || head.starts_with(std::string("CDF\2", 4)) ||
          head.starts_with(std::string("CDF\5", 4));
@@ -119,7 +124,7 @@ bool same_file(const fs::path& one, const fs::path& other) {
 
 bool is_of_kind(const fs::path& file, FileKind kind) {
   const std::string head = head_of(file);
-  return head.empty() || known(kind).is_one(head);
+  return holds_nothing(head) || known(kind).is_one(head);
 }
 
 std::string obstacle(const fs::path& file, FileKind kind) {

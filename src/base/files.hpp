@@ -15,7 +15,7 @@ bool same_file(const std::filesystem::path& one, const std::filesystem::path& ot
 // What our programs write. A lock is an empty file; the others are known by how they begin. Of what is unchecked, who
 // replaces it looks at it first.
 enum class FileKind { result, history, checkpoint, lock, log, mesh, unchecked };
-bool is_of_kind(const std::filesystem::path& file, FileKind kind);  // also one that is empty
+bool is_of_kind(const std::filesystem::path& file, FileKind kind);  // also one that holds nothing
 
 // Each log begins so, each history with the second.
 inline constexpr const char* log_mark = "# log of strut ";

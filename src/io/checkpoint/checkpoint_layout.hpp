@@ -17,8 +17,9 @@ inline std::string name_of(std::size_t group, const std::string& column) {
 }
 inline std::string name_of_share(const std::string& name) { return "share_" + name; }
 inline std::string name_of_number(const std::string& name) { return "number_" + name; }
-// Of check sums: that of the numbers and the deck, then one for each list, in the order of the snapshot.
-constexpr const char* name_of_sums = "sums";
+// The check sums: that of the numbers and the deck, then one for each list, in the order of the snapshot. The list is
+// defined first: its name begins with checkpoint_mark, by which a file that a killed run had only begun is known.
+constexpr const char* name_of_sums = "strut_restart_sums";
 // The deck has one of its own: it is read before there is a snapshot to compare with.
 constexpr const char* name_of_deck_sum = "deck_sum";
 

@@ -47,6 +47,7 @@ void replace(const fs::path& path, const fs::path& part) {
 // The layout, on rank 0: of the groups, how many points all ranks have of each.
 void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
             const std::string& deck) {
+  file.define(name_of_sums, NetcdfLists::Of::reals, 1 + number_of_lists(snapshot));
   file.put(checkpoint_mark, double{version});
   file.put("written_by", build_facts());
   file.put("deck", deck);
@@ -59,7 +60,6 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
       file.define(name_of(g, column.name), NetcdfLists::Of::reals, sizes[g] * static_cast<std::size_t>(column.width));
     }
   }
-  file.define(name_of_sums, NetcdfLists::Of::reals, 1 + number_of_lists(snapshot));
   file.end_definitions();
 }
 

@@ -1,8 +1,12 @@
 #include "io/netcdf/wide_netcdf.hpp"
 
 #include <netcdf.h>
+#include <netcdf_mem.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +23,7 @@ class Handle {
  public:
   explicit Handle(const fs::path& path) : path_(path) {}
   ~Handle() {
-    if (open_) nc_close(number);
+    if (open_) nc_abort(number);
   }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -30,7 +34,11 @@ class Handle {
     throw Error(path_.string() + ": cannot give it 64-bit sizes: " + why);
   }
   void opened(int code) { check(code), open_ = true; }
-  void close() { open_ = false, check(nc_close(number)); }
+  NC_memio close_in_memory() {
+    NC_memio content{};
+    open_ = false, check(nc_close_memio(number, &content));
+    return content;
+  }
 
   int number = -1;
 
@@ -70,20 +78,20 @@ void copy_header(const Handle& from, const Handle& to) {
 
 }  // namespace
 
-// The file stays the one that it is: the run has locked it.
+// The file stays the one that it is: the run has locked it. The wide header is made in memory, so that no second file
+// is left behind by a run that is killed here.
 void widen(const fs::path& path) {
-  const fs::path wide = path.string() + ".wide";
-  {
-    Handle from(path), to(wide);
-    from.opened(nc_open(path.c_str(), NC_NOWRITE, &from.number));
-    to.opened(nc_create(wide.c_str(), NC_64BIT_DATA | NC_NOCLOBBER, &to.number));
-    copy_header(from, to);
-    to.close();
-  }
-  std::error_code failure;
-  fs::copy_file(wide, path, fs::copy_options::overwrite_existing, failure);
-  fs::remove(wide);
-  if (failure) throw Error(path.string() + ": cannot give it 64-bit sizes: " + failure.message());
+  Handle from(path), to(path);
+  from.opened(nc_open(path.c_str(), NC_NOWRITE, &from.number));
+  to.opened(nc_create_mem(path.c_str(), NC_64BIT_DATA, 0, &to.number));
+  copy_header(from, to);
+  to.check(nc_enddef(to.number));
+  const NC_memio wide = to.close_in_memory();
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(static_cast<const char*>(wide.memory), static_cast<std::streamsize>(wide.size));
+  file.close();
+  std::free(wide.memory);
+  if (!file) throw Error(path.string() + ": cannot give it 64-bit sizes: " + std::strerror(errno));
 }
 
 }  // namespace strut::io

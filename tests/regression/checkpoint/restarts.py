@@ -328,6 +328,9 @@ class Test:
             alive += process.poll() is None
             process.kill()
             process.wait()
+        for begun in (bytes(48), Path(whole, "deck.restart").read_bytes()[:8192]):  # as the library for netCDF writes it
+            (folder / "deck.restart.part").write_bytes(begun)
+            self.run(folder, "--check")
         self.run(folder, "--continue")
         self.same(whole, folder, scene)
         print(f"{scene}: {alive} of {kills} kills before the end")

@@ -80,6 +80,10 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
           << content << " and " << static_cast<int>(other);
     }
   }
+  for (const auto& [kind, unused] : kinds) {
+    EXPECT_EQ(obstacle(write("file", std::string(48, '\0')), kind), "") << "killed before it had a header";
+    EXPECT_NE(obstacle(write("file", std::string(2'000'000, '\0')), kind), "") << "voxels, say";
+  }
   EXPECT_EQ(obstacle(write("file", std::string("CDF\2") + "api_version"), FileKind::result), "") << "as it is begun";
   for (const std::string content : {"shape = box\n", "\x89HDF\r\n", "<ParameterList/>", "CDF", "Time,x\n0,1\n"}) {
     const fs::path file = write("file", content);
