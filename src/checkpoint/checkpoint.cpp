@@ -49,7 +49,11 @@ Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator,
       serialize_(std::move(serialize)),
       schedule_(deck.restart.enabled, deck.restart.frequency, deck.restart.interval, deck.solver.initial_time) {
   schedule_.done(deck.solver.initial_time);
-  if (settings_.enabled) run_on_root(communicator_, [this] { lock_.emplace(lock_of(settings_.file)); });
+  if (!settings_.enabled) return;
+  run_on_root(communicator_, [this] {
+    lock_.emplace(lock_of(settings_.file));
+    std::filesystem::remove(part_of(settings_.file));  // of a run that was killed as it wrote
+  });
 }
 
 Checkpoint::~Checkpoint() {
