@@ -58,6 +58,14 @@ struct alignas(16) ScalarState {
 // consistency correction, and 1 if all places of the end have failed.
 struct alignas(64) QuadraticState {
   double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, failed = 0;
+
+  // Half of this one and half of the other, but for the mark.
+  void take_half_of(const QuadraticState& other) {
+    for (int n = 0; n < 9; ++n) first[n] = 0.5 * (first[n] + other.first[n]);
+    for (int n = 0; n < 18; ++n) second[n] = 0.5 * (second[n] + other.second[n]);
+    for (int n = 0; n < 9; ++n) correction[n] = 0.5 * (correction[n] + other.correction[n]);
+    for (int n = 0; n < 3; ++n) offset[n] = 0.5 * (offset[n] + other.offset[n]);
+  }
 };
 
 // One entry a point, ghosts too, in every formulation that the scene has: zero where the point is of another, so that a
@@ -123,7 +131,7 @@ struct MaterialBlock {
   int interior = 0;                     // so many of them need no ghost
   std::vector<double> state;            // state[column * law_points() + place] of a law point
   std::vector<MaterialPoint> cells;     // law points of quadratic correspondence; of others body.points are these
-  std::vector<std::uint8_t> flowed;     // of cells, whether their metal had flowed when the last step began
+  std::vector<std::uint8_t> flowed;     // of cells, whether their metal has flowed (flow.hpp)
   std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
   std::vector<ViscousPoint> viscous;    // of law points; empty without viscosity
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.

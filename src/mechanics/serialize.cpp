@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "mechanics/formulation/flow.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/passes.hpp"
 
@@ -129,6 +130,7 @@ void serialize(Archive& archive, Body& body) {
     body.domain.halo.exchange(places(body.domain.sites), site_stride, 3, reflect_place);
   }
   if (body.fracture) body.fracture->serialize(archive, body);
+  if (archive.loading()) refit_flowed(body);
 }
 
 }  // namespace strut

@@ -44,7 +44,7 @@ void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneG
   }
   for (int q = 0; q < 4; ++q) cells.add_stress(q, dP[q]);
   const Lanes share = small::lanes_of([&](int l) { return body.share(group.i[l]) * body.share(group.i[l]); });
-  cells.store(group, share, result);
+  cells.store(group, share, [&](int l) -> QuadraticState& { return result[group.i[l]]; });
 }
 
 // δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.

@@ -16,7 +16,7 @@ constexpr int furthest = 10, steps = 20;
 void print_curve(const Scheme& scheme, PointsAt at, int across) {
   std::printf("| %s | %ss | %d ", scheme.name, word(at), across);
   try {
-    bend_to_limit(scheme, at, across, furthest, steps, [shown = 0](double deflection, double force) mutable {
+    bend_to_limit(scheme, at, across, furthest, steps, [shown = 0](double deflection, double force, double) mutable {
       if (deflection < shown + 1 - 1e-9) return;
       ++shown;
       std::printf("| %.3f ", force);

@@ -21,9 +21,26 @@ materials::AnyLaw ideally_plastic() {
   return materials::J2{moduli.bulk, moduli.shear, {sigma_y, materials::NoHardening{}, {}}};
 }
 
-// Points at elements stand half a spacing inside of the ends: one element more brings the layers apart by the length.
+// Leaves the inner half of the cell of a point in the middle of an element at an end.
+void halve(PointCloud& cloud, std::size_t i, double h) {
+  CellShape& shape = cloud.shapes[i];
+  cloud.volumes[i] /= 2;
+  shape.offset[2] = cloud.positions[i][2] > 0 ? -h / 4 : h / 4;
+  shape.moments[2] = h * h / 48;
+  shape.surface.head<2>() /= 2;
+  shape.surface_moments.topLeftCorner<2, 2>() /= 2;
+  shape.surface_moments.col(2) << shape.surface.head<2>() * shape.offset[2], 0;  // the end goes through the point
+}
+
+// From one held layer to the other. Points at elements stand half a spacing inside of the ends: one element more brings
+// the layers apart by the length, and of the cells of these what is between the layers is kept.
 PointCloud strut_points(int across, PointsAt at) {
-  return square_prism(across, length * across + (at == PointsAt::elements ? 1 : 0), at);
+  if (at == PointsAt::nodes) return square_prism(across, length * across, at);
+  PointCloud cloud = square_prism(across, length * across + 1, at);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (std::abs(cloud.positions[i][2]) > 0.5 * length - 1e-6) halve(cloud, i, 1.0 / across);
+  }
+  return cloud;
 }
 
 std::vector<int> end_layer(const Body& body, double end) {
@@ -46,14 +63,14 @@ Conditions clamped_and_guided(const Body& body, double deflection) {
 }  // namespace
 
 void bend_to_limit(const Scheme& scheme, PointsAt points, int across, double furthest, int steps,
-                   const std::function<void(double, double)>& at) {
+                   const std::function<void(double, double, double)>& at) {
   const Communicator world;
   Body body = body_by(scheme, strut_points(across, points), ideally_plastic(), world);
   const Conditions conditions = clamped_and_guided(body, furthest * elastic_limit);
   QuasiStatic solver(body, conditions, {}, {.load_steps = steps}, 0, 1, nobody());
   while (solver.time() < 1) {
     solver.advance();
-    at(furthest * solver.time(), solver.reactions(6).forces[0][0] / limit);
+    at(furthest * solver.time(), solver.reactions(6).forces[0][0] / limit, solver.ledger().balance_error);
   }
 }
 

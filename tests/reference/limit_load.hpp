@@ -9,9 +9,10 @@
 
 namespace strut::reference {
 
-// Calls at(d, F) as the deflection d grows to `furthest`, in `steps` equal load steps; d over that at which an elastic
-// beam would carry the limit load, σ_y L²/(2 E a), F over 2 M_p/L. Throws Error where no equilibrium is found.
+// Calls at(d, F, balance error) as the deflection d grows to `furthest`, in `steps` equal load steps; d over that at
+// which an elastic beam would carry the limit load, σ_y L²/(2 E a), F over 2 M_p/L. Throws Error where no equilibrium
+// is found.
 void bend_to_limit(const Scheme& scheme, PointsAt points, int across, double furthest, int steps,
-                   const std::function<void(double, double)>& at);
+                   const std::function<void(double, double, double)>& at);
 
 }  // namespace strut::reference

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "mechanics/formulation/flow.hpp"
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
 #include "mechanics/formulation/stress_update.hpp"
@@ -39,17 +40,10 @@ struct Update {
     return g;
   }
 
-  // 1 for cells whose metal has flowed, 0 for others.
-  Lanes flowed(const std::array<LawPoints, 4>& points) const {
-    if constexpr (materials::tells_flow<L>) {
-      const auto has_flowed = [&](int place) { return law.law.has_flowed(block().template state_of<L>(place)); };
-      for (int l = 0; l < points[0].group.count; ++l) {
-        std::uint8_t& known = block().flowed[points[0].group.k[l]];
-        for (int q = 0; q < 4 && !known; ++q) known = has_flowed(points[q].places[l]);
-      }
-      return lanes_of([&](int l) { return block().flowed[points[0].group.k[l]] ? 1.0 : 0.0; });
-    }
-    return Lanes::Zero();
+  // 1 for cells whose metal had flowed when the step began, 0 for others.
+  Lanes flowed(const LaneGroup& group) const {
+    if constexpr (!materials::tells_flow<L>) return Lanes::Zero();
+    return lanes_of([&](int l) { return block().flowed[group.k[l]] ? 1.0 : 0.0; });
   }
 
   // The largest frequency bound² of the points of a group.
@@ -63,7 +57,7 @@ struct Update {
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
     const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
     const std::array<LawPoints, 4> points{places(group, 0), places(group, 1), places(group, 2), places(group, 3)};
-    const Lanes has_flowed = flowed(points);
+    const Lanes has_flowed = flowed(group);
     std::array<Deformed, 4> at;
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
@@ -93,17 +87,48 @@ struct Update {
       cells.add_stress(q, P);
       modulus = modulus.max(steepened_modulus(now));
     }
-    cells.store(group, share, body().force_states.quadratics);
+    const auto state_of = [&](int l) -> QuadraticState& { return body().force_states.quadratics[group.i[l]]; };
+    cells.store(group, share, state_of);
+    for (int l = 0; l < group.count; ++l) state_of(l).failed = stiffest[l] > 0 ? 0 : 1;
+    if (law.pass.dt > 0 && !law.pass.of_any_size) {
+      begin_flow_of(group, points, at, share, (determinant > 0 && stiffest > 0).select(Lanes::Ones(), Lanes::Zero()));
+    }
     for (int l = 0; l < group.count; ++l) {
       const int i = group.i[l];
-      body().force_states.quadratics[i].failed = stiffest[l] > 0 ? 0 : 1;
-      body().force_density[i] = bonds::quadratic_own_force(body().force_states.quadratics[i], (*body().fits)[i]);
+      body().force_density[i] = bonds::quadratic_own_force(state_of(l), (*body().fits)[i]);
     }
     const Lanes density = lanes_of([&](int l) { return body().density[group.i[l]]; });
     return report(group, determinant, softest, share * share * cells.volume() / density * cells.steepness() * modulus);
   }
 
  private:
+  // Of cells that begin to flow (where `may` is 1) the forces are half those with which the step ends, by their old
+  // fit, and half those with which the next one begins, by the new: so the work over both is that of their stress, to
+  // the second order in the step.
+  void begin_flow_of(const LaneGroup& group, const std::array<LawPoints, 4>& points, const std::array<Deformed, 4>& at,
+                     const Lanes& share, const Lanes& may) const {
+    Lanes begun = Lanes::Zero();
+    for (int l = 0; l < group.count; ++l) begun[l] = may[l] > 0 && begin_flow(body(), block(), group.k[l]) ? 1 : 0;
+    if (!(begun > 0).any()) return;
+    std::array<LaneTensor, 4> F, R;
+    std::array<Lanes, 4> J;
+    std::array<LaneSymmetric, 4> stress{at[0].stress, at[1].stress, at[2].stress, at[3].stress};
+    for (int q = 0; q < 4; ++q) {
+      F[q] = deformation_gradients(points[q]), R[q] = rotations(points[q]), J[q] = small::determinant(F[q]);
+    }
+    share_traces(J, {&stress[0], &stress[1], &stress[2], &stress[3]}, begun);
+    QuadraticCells cells(group, *body().fits, body().domain.sites);
+    for (int q = 0; q < 4; ++q) {
+      const LaneSymmetric stretch = small::symmetric_part(small::transposed_product(R[q], F[q]));
+      cells.add_stress(q, piola_kirchhoff(stress[q], {R[q], stretch}, small::inverse(stretch), J[q]));
+    }
+    std::array<QuadraticState, LaneGroup::width> next;
+    cells.store(group, share, [&](int l) -> QuadraticState& { return next[l]; });
+    for (int l = 0; l < group.count; ++l) {
+      if (begun[l] > 0) body().force_states.quadratics[group.i[l]].take_half_of(next[l]);
+    }
+  }
+
   // Reports points that are turned inside out at a place, and returns the largest frequency bound² of the others. One
   // that has lost bonds, or failed at a place, may be crushed between others: it only carries no stress meanwhile.
   double report(const LaneGroup& group, const Lanes& determinant, const Lanes& softest, const Lanes& bound2) const {

@@ -63,8 +63,9 @@ class QuadraticCells {
     }
   }
 
-  // Writes the states of the bonds of the points, times the share of the step.
-  void store(const LaneGroup& group, const Lanes& share, std::vector<QuadraticState>& states) const {
+  // Writes the states of the bonds of the points, times the share of the step, to state_of(lane).
+  template <class StateOf>
+  void store(const LaneGroup& group, const Lanes& share, const StateOf& state_of) const {
     Lanes first[9], second_state[18], correction[9], offset[3];
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {
@@ -81,7 +82,7 @@ class QuadraticCells {
       offset[r] = correction[3 * r] * center(0) + correction[3 * r + 1] * center(1) + correction[3 * r + 2] * center(2);
     }
     for (int l = 0; l < group.count; ++l) {
-      QuadraticState& state = states[group.i[l]];
+      QuadraticState& state = state_of(l);
       for (int n = 0; n < 9; ++n) state.first[n] = first[n][l], state.correction[n] = correction[n][l];
       for (int n = 0; n < 18; ++n) state.second[n] = second_state[n][l];
       for (int n = 0; n < 3; ++n) state.offset[n] = offset[n][l];

@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <limits>
 
 #include "mechanics/formulation/lattice_cell.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
@@ -21,6 +22,9 @@ using Basis = Eigen::Matrix<double, 9, 1>;
 // the step; so each point has the smallest of these with which it does not ask for more than the bound: of
 // V h² κ, h spacing and κ the steepness, where 1.2 to 3 are usual inside of a body.
 constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 8;
+
+// The least one of a cell whose metal has flowed (quadratic.md, flow).
+constexpr double least_penalty_in_flow = 0.03;
 
 // The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
 // carries no stress.
@@ -118,12 +122,13 @@ double steepness_with(const FamilySums& sums, const Matrix9& inverse, double vol
   return volume * sum / 4;
 }
 
-// P, B, Q of a point, whose cell is set. False where its neighbors do not span space.
-bool fit_motion(const FamilySums& sums, double h, double volume, QuadraticFit& fit) {
+// P, B, Q of a point, whose cell is set, by the least penalty or a larger one. False where its neighbors do not span
+// space.
+bool fit_motion(const FamilySums& sums, double h, double volume, double least, QuadraticFit& fit) {
   if (!(sums.weight > 0) || least_square(sums.moments.topLeftCorner<3, 3>() / sums.weight) < least_for_stress) {
     return false;
   }
-  double penalty = least_penalty;
+  double penalty = least;
   Matrix9 inverse = inverse_with(sums, penalty);
   while (penalty < largest_penalty && steepness_with(sums, inverse, volume, fit, h) > steepness_bound) {
     penalty *= 2;
@@ -140,12 +145,12 @@ bool fit_motion(const FamilySums& sums, double h, double volume, QuadraticFit& f
   return true;
 }
 
-bool fit_motion(const Body& body, int i, QuadraticFit& fit) {
+bool fit_motion(const Body& body, int i, double least, QuadraticFit& fit) {
   const double h = body.domain.cloud.spacings[i], volume = body.domain.volume(i);
   const auto over = [&](const auto& visit) {
     over_family(body, i, [&](int j, double w, const Vector& xi) { visit(w, body.domain.volume(j), xi); });
   };
-  return fit_motion(sums_of_family(h, volume, over), h, volume, fit);
+  return fit_motion(sums_of_family(h, volume, over), h, volume, least, fit);
 }
 
 // The state of a point under a stress that gives V (mean : ∂F + moments : ∂H) to the energy's change.
@@ -424,7 +429,7 @@ CellWeights lattice_cell(double spacing, const std::vector<FitBond>& family) {
     for (const FitBond& bond : family) visit(bond.weight, volume, bond.xi);
   };
   CellWeights weights;
-  if (!fit_motion(sums_of_family(spacing, volume, over), spacing, volume, fit)) return weights;
+  if (!fit_motion(sums_of_family(spacing, volume, over), spacing, volume, least_penalty, fit)) return weights;
   std::array<Vector, 4> own;
   own.fill(Vector::Zero());
   for (const FitBond& bond : family) {
@@ -452,7 +457,7 @@ QuadraticFits::QuadraticFits(Body& body)
       number_[i] = static_cast<int>(fits_.size());
       QuadraticFit& fit = fits_.emplace_back();
       set_cell(shape_of(body, i), fit);
-      if (fit_motion(body, i, fit)) {
+      if (fit_motion(body, i, least_penalty, fit)) {
         fit.steepness = 1;
       } else {
         fit = QuadraticFit{};  // carries no stress, and moves with the others
@@ -476,10 +481,10 @@ QuadraticFits::QuadraticFits(Body& body)
   });
 }
 
-bool QuadraticFits::refit(const Body& body, int i, double most) {
+bool QuadraticFits::refit(const Body& body, int i, bool flows, double most) {
   QuadraticFit fresh;
   set_cell(shape_of(body, i), fresh);
-  bool spans = fit_motion(body, i, fresh);
+  bool spans = fit_motion(body, i, flows ? least_penalty_in_flow : least_penalty, fresh);
   if (spans) {
     add_correction(linear_fit(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
     set_sums(body, i, multipliers(), fresh);
@@ -488,6 +493,10 @@ bool QuadraticFits::refit(const Body& body, int i, double most) {
   }
   if (spans) fit(i) = fresh;
   return spans;
+}
+
+void QuadraticFits::refit_in_flow(const Body& body, int i) {
+  refit(body, i, true, std::numeric_limits<double>::infinity());
 }
 
 void QuadraticFits::for_each_weight(const Body& body, int i, int q,

@@ -118,7 +118,8 @@ double steepness(const Body& body, int i) {
 
 bool refit(Body& body, MaterialBlock& block, int k, double most) {
   if (block.is_ordinary()) return true;
-  return block.is_quadratic() ? body.fits->refit(body, block.points[k], most) : refit_shape(body, block, k, most);
+  if (!block.is_quadratic()) return refit_shape(body, block, k, most);
+  return body.fits->refit(body, block.points[k], block.flowed[k] > 0, most);
 }
 
 bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "mechanics/formulation/flow.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/serialize.hpp"
 
@@ -56,7 +57,7 @@ Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact con
       committed_(body) {
   check_equilibria_possible(conditions_);
   residual_.assign(body.owned(), Vector::Zero());
-  outer_ = outer_before_ = forces_before_ = residual_;
+  inner_ = outer_ = outer_before_ = forces_before_ = residual_;
   directions_ = body.domain.sites;
   const double of_places = round_off_of_places(body);
   round_off_ = few * std::clamp(forces_at_rest(body), of_places, most_cancelled * of_places);
@@ -87,6 +88,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   const StepReport report = advance_by_any_step(body_, dt_, with_diagnostics);
   failure_ = report.failure;
   residual_ = body_.force_density;
+  for (int i = 0; i < body_.owned(); ++i) inner_[i] = body_.domain.volume(i) * residual_[i];
   mirror_forces_ = mirror_forces(body_);
   add_forces(conditions_, t_ + dt_, body_);
   for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
@@ -176,12 +178,27 @@ void Equilibrium::commit() {
     body_.velocity[i] = (body_.current(i) - committed_.place(i)) / dt_;
     body_.previous_velocity[i] = body_.velocity[i];
   }
-  committed_.take(body_);
   contact_.commit();
   tools_.commit();
   outer_before_ = outer_;
   mirror_forces_before_ = mirror_forces_;
   forces_before_ = forces_;
+  begin_flow_of_cells();
+}
+
+// Cells that begin to flow have other forces from here on. The difference, which would let the body jump to its next
+// equilibrium, is held at first and fades over the next step: its work is counted as that of loads.
+void Equilibrium::begin_flow_of_cells() {
+  const bool any = body_.domain.communicator.max(begin_flow(body_) ? 1.0 : 0.0) > 0;
+  committed_.take(body_);
+  if (!any) return;
+  const std::vector<Vector> kept = body_.force_density;
+  advance_by_any_step(body_, 0, false);
+  for (int i = 0; i < body_.owned(); ++i) {
+    outer_before_[i] += inner_[i] - body_.domain.volume(i) * body_.force_density[i];
+  }
+  body_.force_density = kept;
+  committed_.restore_materials(body_);
 }
 
 std::vector<Tensor> Equilibrium::contact_springs() {
@@ -209,7 +226,7 @@ void Equilibrium::serialize(Archive& archive) {
   };
   forces_.resize(body_.owned(), Vector::Zero());
   serialize_field("forces", forces_);
-  serialize_field("outer_forces", outer_);
+  serialize_field("outer_forces", outer_before_);
   mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
   serialize_mirror_forces(archive, mirror_forces_);
   archive.number("step_begin", t_);
@@ -220,7 +237,7 @@ void Equilibrium::serialize(Archive& archive) {
   tools_.serialize(archive, body_);
   if (!archive.loading()) return;
   forces_before_ = forces_;
-  outer_before_ = outer_;
+  outer_ = outer_before_;
   for (int i = 0; i < body_.owned(); ++i) looked_at_[i] = body_.current(i);
   committed_.take(body_);
   if (dt_ > 0) constraints_.emplace(held_directions(conditions_, body_, t_, dt_), body_);  // for reactions

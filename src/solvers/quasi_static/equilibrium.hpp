@@ -54,7 +54,7 @@ class Equilibrium {
   // Collective; after commit(). The body, and all else that the next step depends on.
   void serialize(Archive& archive);
 
-  void commit();   // the last trial is where the next step begins
+  void commit();   // collective; the last trial is where the next step begins
   void go_back();  // to the committed state
 
   Body& body() { return body_; }
@@ -76,6 +76,7 @@ class Equilibrium {
   void check_values();
   void add_contact();
   Imbalance measure(bool failed);
+  void begin_flow_of_cells();
 
   Body& body_;
   Conditions conditions_;
@@ -86,8 +87,9 @@ class Equilibrium {
   double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
   Field forces_, residual_;                     // N: all; those that nothing holds
+  Field inner_;                                 // N, of the body alone
   Field forces_before_;                         // N, of the committed state
-  Field outer_, outer_before_;                  // loads and reactions, N
+  Field outer_, outer_before_;                  // loads and reactions, N; at the begin of the step
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors on this rank's points
   std::vector<Vector> looked_at_;               // places that contact has last been asked about
   std::vector<PointTangent> tangents_;

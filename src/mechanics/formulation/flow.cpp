@@ -1,0 +1,53 @@
+#include "mechanics/formulation/flow.hpp"
+
+#include "mechanics/formulation/quadratic_fit.hpp"
+#include "points/parallel_for.hpp"
+
+namespace strut {
+
+namespace {
+
+bool has_flowed(const MaterialBlock& block, int k) {
+  const auto at_any_place = [&]<class L>(const L& law) {
+    bool any = false;
+    if constexpr (materials::tells_flow<L>) {
+      for (int q = 0; q < 4 && !any; ++q) any = law.has_flowed(block.state_of<L>(block.place(k, q)));
+    }
+    return any;
+  };
+  return std::visit(at_any_place, block.material.law);
+}
+
+}  // namespace
+
+bool begin_flow(Body& body, MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  if (block.flowed[k] || !(*body.fits)[i].carries_stress() || !has_flowed(block, k)) return false;
+  block.flowed[k] = 1;
+  body.fits->refit_in_flow(body, i);
+  for (int q = 0; q < 4; ++q) {
+    MaterialPoint& point = block.cells[block.place(k, q)];
+    point.deformation_gradient = body.fits->gradient_at(body, i, q, [&](int j) { return body.domain.current(j); });
+    point.rotation = Rotation(polar_rotation(point.deformation_gradient));
+  }
+  return true;
+}
+
+bool begin_flow(Body& body) {
+  bool any = false;
+  for (MaterialBlock& block : body.blocks) {
+    for (int k = 0; k < std::ssize(block.flowed); ++k) any = begin_flow(body, block, k) || any;
+  }
+  return any;
+}
+
+void refit_flowed(Body& body) {
+  for (const MaterialBlock& block : body.blocks) {
+    for_each_point(0, static_cast<int>(block.flowed.size()), [&](int k) {
+      const int i = block.points[k];
+      if (block.flowed[k] && (*body.fits)[i].carries_stress()) body.fits->refit_in_flow(body, i);
+    });
+  }
+}
+
+}  // namespace strut
