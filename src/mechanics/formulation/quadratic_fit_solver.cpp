@@ -24,7 +24,7 @@ using Basis = Eigen::Matrix<double, 9, 1>;
 constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 8;
 
 // The least one of a cell whose metal has flowed (quadratic.md, flow).
-constexpr double least_penalty_in_flow = 0.03;
+constexpr double least_penalty_in_flow = 0.025;
 
 // The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
 // carries no stress.
