@@ -257,6 +257,16 @@ TEST(Fracture, ALawOfTheStretchReachedDissipatesWhatOneOfTheRateDoes) {
               0.02 * one.last.fracture);  // each bond breaks a step sooner or later
 }
 
+// The stretch of the bonds that are left jumps, but nothing moves by that: viscosity takes nothing, and a break
+// dissipates what it does without.
+TEST(Fracture, ABreakIsNoMotionThatViscositySees) {
+  LatticeSpec plain = block_of(kinds[6], 5e-4), viscous = plain;
+  viscous.material.viscosity = {0.01, 10};
+  const Outcome one = tear(plain, 6), other = tear(viscous, 6);
+  EXPECT_GT(other.broken, 1000);
+  EXPECT_NEAR(other.last.fracture, one.last.fracture, 0.1 * one.last.fracture);
+}
+
 // Bonds are looked at where they may have come to break: the outcome is that of looking at all of them in every step,
 // as with a limit that changes in time.
 TEST(Fracture, IsTheSameHoweverOftenBondsAreLookedAt) {
