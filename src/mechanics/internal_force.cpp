@@ -30,7 +30,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
   };
   Fracture* fracture = pass.dt > 0 ? body.fracture.get() : nullptr;
   const auto over = [&](Part part) {
-    if (fracture) fracture->break_bonds(body, part, pass.time);
+    if (fracture) fracture->break_bonds(body, part, pass.time, pass.dt);
     const Timed timed(deforming);
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },

@@ -15,6 +15,11 @@ inline constexpr int site_stride = sizeof(Site) / sizeof(double);
 // The present places, for a halo: none on a rank without points.
 inline double* places(std::vector<Site>& sites) { return sites.empty() ? nullptr : sites[0].current.data(); }
 
+// The places of ghosts: those of their owners, or of images the reflected ones of their originals.
+inline void exchange_places(const Halo& halo, std::vector<Site>& sites) {
+  halo.exchange(places(sites), site_stride, 3, reflect_place);
+}
+
 // Runs `interior` while the halo of `data` is under way, then `boundary`.
 template <class Interior, class Boundary>
 void behind_exchange(Halo& halo, double* data, int stride, int width, Reflect reflect, Interior&& interior,

@@ -62,7 +62,8 @@ std::string balance_of(const Ledger& ledger) {
        << std::abs(ledger.gained) << " J "
        << (ledger.gained > 0 ? "out of nothing: the run is unstable, or" : "that nothing accounts for: the run")
        << " is too coarse in time (Watch > Balance Error). Likely causes: a Fixed dt above the critical time step, a "
-          "load too sudden, too few load steps; the last frame shows where points fly off";
+          "load too sudden, too few load steps, contact or a tool with a Mass that meets points with substeps "
+          "(Subcycling); the last frame shows where points fly off";
   return text.str();
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "base/math/rotation.hpp"
+#include "materials/moved_stress.hpp"
+#include "materials/tangent.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/fracture/strain_jump.hpp"
 #include "mechanics/kernels/bonds.hpp"
@@ -70,25 +72,40 @@ double part_to_least(const materials::Moduli& moduli, double falls, const Tensor
   return falls > 0 ? std::min(1.0, falls / curvature) : 0;
 }
 
-// The same of a jump ΔF, by P:ΔF.
-double part_that_releases(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& jump) {
-  const Tensor& F = point.deformation_gradient;
-  const Tensor R = point.rotation.tensor();
-  const Tensor P = F.determinant() * R * to_tensor(point.stress) * R.transpose() * F.inverse().transpose();
-  const Tensor strain = 0.5 * (R.transpose() * jump + jump.transpose() * R);
-  return part_to_least(moduli, -P.cwiseProduct(jump).sum(), strain);
+Tensor symmetric(const Tensor& t) { return 0.5 * (t + t.transpose()); }
+
+// Takes the stress of a law point along from one stretch to another, and leaves it there as the stretch jumps to a
+// third. No viscosity acts, as no point moves.
+void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& from, const Tensor& to,
+            const Tensor& jumped, double dt) {
+  const auto step = [&]<class L>(const L& law) {
+    typename L::State state = block.state_of<L>(place);
+    if (from != to) {
+      const auto along = materials::step_between(symmetric_part(from), symmetric_part(to), dt);
+      const auto [stress, converged] = law.step(along, point.stress, state);
+      if (converged) point.stress = stress;
+    }
+    materials::move_stress(law, to, jumped, state);
+    const auto columns = materials::to_columns<L>(state);
+    for (std::size_t c = 0; c < columns.size(); ++c) block.state_at(c, place) = columns[c];
+  };
+  std::visit(step, block.material.law);
 }
 
-// So that the step goes on from the gradient that the bonds left have at its start, less the part of the jump that
-// stress is to follow. False where that is another volume than before: such bonds do not hold a gradient.
-bool set_start(MaterialPoint& point, const materials::Moduli& moduli, const Tensor& refitted) {
+// So that the step goes on from the stretch that the bonds left have at its start, and from their rotation, with which
+// stress turns; it has followed its part of the jump. False where that is another volume than before: such bonds do not
+// hold a gradient.
+bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& refitted, double dt) {
   constexpr double most = 2;  // times as large or small
-  const Tensor jump = refitted - point.deformation_gradient;
-  const Tensor start = refitted - part_that_releases(point, moduli, jump) * jump;
-  const double before = point.deformation_gradient.determinant(), after = start.determinant();
+  const double before = point.deformation_gradient.determinant(), after = refitted.determinant();
   if (!(after > before / most && after < before * most)) return false;
-  point.deformation_gradient = start;
-  point.rotation = Rotation(polar_rotation(start));
+  const Tensor R = polar_rotation(refitted), stretch = symmetric(R.transpose() * refitted),
+               old = symmetric(point.rotation.tensor().transpose() * point.deformation_gradient), jump = stretch - old;
+  const Tensor strain = symmetric(2 * jump * (old + stretch).inverse());  // as stress_update.hpp has it
+  const double falls = -before * to_tensor(point.stress).cwiseProduct(strain).sum();
+  follow(block, place, point, old, old + part_to_least(block.moduli(place), falls, strain) * jump, stretch, dt);
+  point.deformation_gradient = refitted;
+  point.rotation = Rotation(R);
   return true;
 }
 
@@ -98,7 +115,7 @@ bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& s
     const std::size_t place = block.place(k, q);
     const auto place_of = [&start](int j) { return start.place(j); };
     const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
-    holds = holds && set_start(block.cells[place], block.moduli(place), F);
+    holds = holds && set_start(block, place, block.cells[place], F, start.dt);
   }
   return holds;
 }
@@ -127,7 +144,7 @@ bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const S
   if (block.is_ordinary()) return true;
   if (block.is_quadratic()) return set_start_of_cell(body, block, k, start);
   const int i = block.points[k];
-  return set_start(body.points[i], block.moduli(k), gradient_at_start(body, i, start));
+  return set_start(block, k, body.points[i], gradient_at_start(body, i, start), start.dt);
 }
 
 void release(Body& body, MaterialBlock& block, int k) {

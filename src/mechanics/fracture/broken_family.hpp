@@ -26,10 +26,10 @@ double steepness(const Body& body, int i);
 // than `most`: it is to be released.
 bool refit(Body& body, MaterialBlock& block, int k, double most);
 
-// The same as bonds break in a step; false also where the volume would jump by a factor of 2. The gradient of the bonds
-// that are left differs by ΔF from that of all. Stress follows this jump as long as its energy falls, in the direction
-// of ΔF; the rest of the jump leaves it alone: a break releases energy, and where it leaves bonds in compression only,
-// it must not make any.
+// The same as bonds break in a step; false also where the volume would jump by a factor of 2. The bonds that are left
+// have another stretch than all. Stress follows this jump as long as its energy falls in that direction; the rest of
+// the jump leaves it alone: a break releases energy, and where it leaves bonds in compression only, it must not make
+// any.
 bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start);
 
 // It carries no stress from now on, and goes on as a mass.

@@ -270,7 +270,7 @@ bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int clu
   return std::max(most, load.maxCoeff()) > 1 - round_off;
 }
 
-void Fracture::break_bonds(Body& body, Part part, double time) {
+void Fracture::break_bonds(Body& body, Part part, double time, double dt) {
   static Teuchos::Time& timer = phase("Fracture");
   const Timed timed(timer);
   if (!is_looked_at_) return;
@@ -289,7 +289,7 @@ void Fracture::break_bonds(Body& body, Part part, double time) {
   over_breakable(*this, body, part, [&](MaterialBlock& block, int first, int last) {
     const std::size_t before = affected_.size();
     for (int c = first; c < last; ++c) {
-      if (at_limit[c] && is_of(body, block, c)) cut(body, block, c);
+      if (at_limit[c] && is_of(body, block, c)) cut(body, block, c, dt);
     }
     if (block.lattice >= 0 && affected_.size() > before) set_off_stencil(body.domain, block);
   });
@@ -328,7 +328,7 @@ std::vector<std::vector<int>> families_of(const Cluster& cluster, unsigned membe
 
 }  // namespace
 
-void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
+void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double dt) {
   Domain& domain = body.domain;
   const Cluster cluster = domain.families.lists[cluster_number];
   std::vector<std::uint8_t> gone;
@@ -336,7 +336,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number) {
   if (members == 0) return;
   const auto at = std::lower_bound(block.points.begin(), block.points.end(), cluster.points[0]);
   const int first = static_cast<int>(at - block.points.begin());
-  const StepEnd start{body, start_, true};
+  const StepEnd start{body, start_, true, dt};
   affected_.push_back({static_cast<std::size_t>(&block - body.blocks.data()),
                        cluster_number,
                        first,

@@ -37,7 +37,7 @@ class Fracture {
   void start_step(const Body& body, std::span<const Vector> velocities, double dt);
   // In the stress update at the end of a step, for the points that need no ghost, and, once ghosts are current, for the
   // others: breaks bonds before their stress is updated, and counts afterwards what that has dissipated.
-  void break_bonds(Body& body, Part part, double time);
+  void break_bonds(Body& body, Part part, double time, double dt);
   void count_dissipation(Body& body, Part part);
   // Once the sum of forces has exchanged what they read: the same of points with springs on both ends' gradients.
   void count_springs(Body& body);
@@ -78,7 +78,7 @@ class Fracture {
   bool holds_energy(const Body& body, const MaterialBlock& block) const;
   unsigned bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
                         std::vector<std::uint8_t>& gone) const;
-  void cut(Body& body, MaterialBlock& block, int cluster);
+  void cut(Body& body, MaterialBlock& block, int cluster, double dt);
   void count(const Body& body, const Affected& one);
   void restore(Body& body, const std::vector<double>& bits, int words);
 

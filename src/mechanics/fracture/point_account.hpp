@@ -13,6 +13,7 @@ struct StepEnd {
   const Body& body;
   const std::vector<Vector>& start;  // places of owned points and ghosts at the start of the step, m
   bool at_start;
+  double dt = 0;  // length of the step, s
 
   Vector place(int j) const { return at_start ? start[j] : body.domain.current(j); }
 };

@@ -30,6 +30,14 @@ constexpr double round_off = 1e-6;  // of a step: times are sums of up to millio
 // would have done since the one before.
 constexpr double least_growth = 4.0 / 3;
 
+// What every point has that shrinks, the slowest, too: a step that took it only while one does would change as soon as
+// a body is struck, and each change costs energy.
+double linear_viscosity(const Body& body) {
+  double most = 0;
+  for (const MaterialBlock& block : body.blocks) most = std::max(most, block.material.viscosity.linear);
+  return most;
+}
+
 }  // namespace
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
@@ -320,7 +328,7 @@ void CentralDifference::check(const StepReport& report) {
   agreed_request_ = static_cast<Request>(agreed[1]);
   request_ = Request::none;
   frequency_bound_ = agreed[2];
-  damping_ = agreed[3];
+  damping_ = std::max(agreed[3], linear_viscosity(body_));
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
   const auto severity = static_cast<Severity>(agreed[0]);
   went_on_ = severity == passable;

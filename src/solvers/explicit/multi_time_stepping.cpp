@@ -361,7 +361,7 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
 StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
   Level& now = levels_[level - 1];
   StepReport report;
-  now.halo.exchange(places(body.domain.sites), site_stride, 3, reflect_place);
+  exchange_places(now.halo, body.domain.sites);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
     if (block.in_rigid_motion || now.stressed[b].places.empty()) continue;

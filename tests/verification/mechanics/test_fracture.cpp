@@ -245,6 +245,40 @@ TEST(Fracture, ConservesMomentumAndEnergy) {
   }
 }
 
+// A foam that does not yield is elastic by the stretch reached, Hooke's law by the rate of stretch: at strains of 5e-4
+// this is the same, and so is what bonds dissipate that break, although the stretch of the bonds that are left jumps.
+TEST(Fracture, ALawOfTheStretchReachedDissipatesWhatOneOfTheRateDoes) {
+  const auto moduli = std::get<materials::Elastic>(elastic(young, poisson)).moduli();
+  LatticeSpec by_rate = block_of(kinds[6], 5e-4), by_stretch = by_rate;
+  by_stretch.material.law = materials::PolymerFoam{.solid = moduli, .uniaxial_yield = 1e12, .hydrostatic_yield = 1e12};
+  const Outcome one = tear(by_rate, 6), other = tear(by_stretch, 6);
+  EXPECT_GT(other.broken, 1000);
+  EXPECT_NEAR(other.last.fracture, one.last.fracture,
+              0.02 * one.last.fracture);  // each bond breaks a step sooner or later
+}
+
+// Bonds of a body at rest break as their limit falls: the stretch of those that are left jumps, but nothing moves by
+// that, and viscosity takes nothing.
+TEST(Fracture, ABreakIsNoMotionThatViscositySees) {
+  const Communicator world;
+  LatticeSpec spec = block_of(kinds[6], 1);
+  spec.material.viscosity = {0.1, 1};
+  spec.material.damage->critical_stretch = Function::parse("5e-4 + (t < 1)");
+  Body body = lattice_body(spec, world);
+  advance_stress_and_force(body, 0, false);
+  deform(body, [](const Vector& X) -> Vector {  // anyhow, so that bonds break here and there
+    return X + 3e-7 * Vector(std::sin(9e3 * X[1]), std::sin(7e3 * X[2]), std::sin(8e3 * X[0] + 3e3 * X[2]));
+  });
+  advance_stress_and_force(body, 1, false);  // slowly
+  const double before = stored_energies(body).dissipated;
+  body.fracture->start_step(body, body.velocity, 0);
+  advance_stress(body, 1e-9, false, 2);
+  sum_forces(body, false);
+  EXPECT_GT(world.sum(body.fracture->broken()), 100);
+  const Energies after = stored_energies(body);
+  EXPECT_LE(after.dissipated - before, 1e-9 * after.elastic);  // round-off of stretches of 5e-4
+}
+
 // Bonds are looked at where they may have come to break: the outcome is that of looking at all of them in every step,
 // as with a limit that changes in time.
 TEST(Fracture, IsTheSameHoweverOftenBondsAreLookedAt) {

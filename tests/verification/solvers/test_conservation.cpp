@@ -49,6 +49,20 @@ TEST(Conservation, ElasticBlockAtItsOwnStep) {
   EXPECT_LT(outcome.balance_error, 1e-3);  // of the order of the strain: a hypoelastic law has no exact energy
 }
 
+// The critical time step of a body at rest is the one that it has as it is struck: √(1 + b₁²) − b₁ of that without
+// viscosity, where each change would cost energy.
+TEST(CriticalTimeStep, HasTheLinearViscosityFromTheStart) {
+  constexpr double linear = 0.1;
+  const Communicator world;
+  const auto step = [&world](double viscosity) {
+    BlockMaterial material = copper(false);
+    material.viscosity.linear = viscosity;
+    Body body = lattice_body({{4, 4, 4}, 1e-3, 1.75, 0, Influence::one, material}, world);
+    return CentralDifference(body, {}, {}, {0, 0.8}, 0).critical_time_step();
+  };
+  EXPECT_NEAR(step(linear) / step(0), std::sqrt(1 + linear * linear) - linear, 1e-12);  // round-off of a root
+}
+
 TEST(Conservation, PlasticBlock) {
   const Conservation coarse = run_free_block(copper(true), 50, {0, 0.8, false}, 3),
                      fine = run_free_block(copper(true), 50, {0, 0.4, false}, 3);
