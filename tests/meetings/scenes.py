@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 import mesh
-from frame import AXES, Frame
+from frame import AXES, Frame, dimension
 from schema import ANY
 from values import GROUPS, NOT_DRAWN, VALUES, Direction, Expr, Num, Place
 
@@ -132,6 +132,12 @@ def refers(key):
 # ---- drawing
 
 
+def default_with_a_unit(key):
+    """A default such as 1 1/s is written out: in other units it is another number. None of others."""
+    if key.kind == "real" and key.default not in (None, "0") and key.unit not in ("", "spacings") and dimension(key.unit).any():
+        return Num(float(key.default), key.unit)
+
+
 class Draft:
     """What has been drawn so far, and chance."""
 
@@ -178,9 +184,9 @@ class Draft:
         for count, names in groups:
             made |= {name: self.value(section, section.keys[name]) for name in self.random.sample(names, count)}
         for name, key in section.keys.items():
-            if name == section.selector or name in grouped or not (key.required or self.chance(often)):
+            if name == section.selector or name in grouped:
                 continue
-            value = self.value(section, key)
+            value = self.value(section, key) if key.required or self.chance(often) else default_with_a_unit(key)
             if value is not None:
                 made[name] = value
         return made
