@@ -138,6 +138,13 @@ def default_with_a_unit(key):
         return Num(float(key.default), key.unit)
 
 
+def part_of_solid(material):
+    """The moduli of a foam that is given by its solid's, as a part of these."""
+    if "Relative Density" not in material:
+        return 1.0
+    return material["Relative Density"].value ** material["Density Exponent"].value
+
+
 class Draft:
     """What has been drawn so far, and chance."""
 
@@ -292,7 +299,7 @@ class Draft:
             modulus = self.E * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu)) * 1.5
             self.waves[f"m{n + 1}"] = (modulus / self.rho) ** 0.5
             self.fastest = max(self.waves.values())
-            self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, modulus)
+            self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, self.E * part_of_solid(material))
 
     def reconciled(self, material):
         """What one key forbids another (the deck's reader refuses it)."""
