@@ -348,7 +348,7 @@ def half_the_step(case):
     if (scene.end - scene.begin) / dt > most:
         raise NotHere("too many steps")
     results, differences, parts = [], [], 1
-    while parts <= 4 or (scene.end - scene.begin) / dt * parts <= most:
+    while parts <= 4 or (scene.end - scene.begin) / dt * parts <= 4 * most:
         one = case.runner.run(written(scene.fixed_step(dt / parts)), name=f"step-{parts}")
         if one.status == 1:
             raise NotHere("the run ends with an error")
