@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/timing.hpp"
+#include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/contact_law.hpp"
 #include "contact/search/search.hpp"
 
@@ -116,41 +117,119 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
   return false;
 }
 
-void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, ContactPair& contact_pair,
-                         std::vector<Vector>& force_density) {
-  Pairs& pairs = contact_pair.pairs;
-  const Model& model = contact_pair.model;
-  if (pairs.empty() && !pairs.halo && !contact_pair.couples.any()) return;
-  static Teuchos::Time& timer = phase("Contact forces");
-  const Timed timed(timer);
-  const bool rubs = model.friction > 0 && (dt > 0 || sliding.is_trial);
-  std::vector<Vector>& friction = contact_pair.friction;
-  if (Surfaces* surfaces = contact_pair.surfaces ? &*contact_pair.surfaces : nullptr) {
-    const auto& law = std::get<SurfaceLaw>(model.law);
-    contact_pair.result = surfaces->add_normal_forces(kinematics, law, pairs, force_density);
-    if (rubs) surfaces->add_friction(sliding, law, model.friction, pairs, force_density, friction);
-  } else {
-    const auto& law = std::get<PairLaw>(model.law);
-    contact_pair.result = add_normal_forces(kinematics, law, pairs, force_density);
-    if (rubs) {
-      contact::add_friction(kinematics, law, model.friction, dt, pairs, contact_pair.couples, force_density, friction);
+void Contact::look_where_due(const Kinematics& kinematics, double dt) {
+  const int before = searches_;
+  for (ContactPair& contact_pair : contact_pairs_) {
+    if (contact_pair.due) look(kinematics, dt, contact_pair);
+  }
+  if (searches_ > before) find_points_of_several();
+}
+
+// ---- Points that touch points of several blocks --------------------------------------------------------------------
+// What bounds the step and what friction does to a point is not by which blocks it touches: a body may be one or many.
+
+void Contact::find_points_of_several() {
+  for (ContactPair& pair : contact_pairs_) pair.elsewhere.clear();
+  for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
+    for (std::size_t n = 0; n < m; ++n) {
+      ContactPair &one = contact_pairs_[m], &other = contact_pairs_[n];
+      if (one.surfaces || other.surfaces) continue;
+      const std::vector<int>&mine = one.pairs.owned, &others = other.pairs.owned;  // both ascending
+      for (std::size_t k = 0, l = 0; k < mine.size() && l < others.size();) {
+        const int i = mine[k], j = others[l];
+        if (i == j) one.elsewhere.push_back({k, n, l}), other.elsewhere.push_back({l, m, k});
+        if (i <= j) ++k;
+        if (j <= i) ++l;
+      }
     }
   }
 }
 
-void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
-  for (ContactPair& contact_pair : contact_pairs_) {
-    if (contact_pair.due) look(kinematics, dt, contact_pair);
-    add_forces(kinematics, dt, {kinematics.velocities, dt}, contact_pair, force_density);
+namespace {
+
+bool of_same_bodies(const Domain& domain, const BlockPair& one, const BlockPair& other) {
+  const auto bodies = [&domain](const BlockPair& pair) {
+    return std::minmax(domain.blocks[pair.first].body, domain.blocks[pair.second].body);
+  };
+  return bodies(one) == bodies(other);
+}
+
+}  // namespace
+
+// All springs hold a point at once, and its contacts share what stops its sliding; its surface is pushed by all blocks
+// of the other body.
+std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair& contact_pair) const {
+  std::vector<Load> loads = contact_pair.loads;
+  for (const auto& [k, pair, there] : contact_pair.elsewhere) {
+    const ContactPair& other = contact_pairs_[pair];
+    const Load& more = other.loads[there];
+    loads[k].springs += more.springs;
+    if (contact_pair.loads[k].contacts == 0) continue;
+    if (other.model.friction > 0) loads[k].contacts += more.contacts;
+    if (of_same_bodies(domain, contact_pair.blocks, other.blocks)) loads[k].push += more.push;
   }
+  return loads;
+}
+
+void Contact::add_normal_forces(const Kinematics& kinematics, ContactPair& contact_pair,
+                                std::vector<Vector>& force_density) {
+  Pairs& pairs = contact_pair.pairs;
+  if (contact_pair.surfaces) {
+    const auto& law = std::get<SurfaceLaw>(contact_pair.model.law);
+    contact_pair.result = contact_pair.surfaces->add_normal_forces(kinematics, law, pairs, force_density);
+  } else {
+    const auto& law = std::get<PairLaw>(contact_pair.model.law);
+    contact_pair.result = contact::add_normal_forces(kinematics, law, pairs, force_density, contact_pair.loads);
+  }
+}
+
+void Contact::add_friction(const Kinematics& kinematics, double dt, const Sliding& sliding,
+                           const std::vector<Load>& loads, ContactPair& contact_pair,
+                           std::vector<Vector>& force_density) {
+  Pairs& pairs = contact_pair.pairs;
+  const Model& model = contact_pair.model;
+  if (contact_pair.surfaces) {
+    const auto& law = std::get<SurfaceLaw>(model.law);
+    contact_pair.surfaces->add_friction(sliding, law, model.friction, pairs, force_density, contact_pair.friction);
+  } else {
+    const auto& law = std::get<PairLaw>(model.law);
+    contact::add_friction(kinematics, law, model.friction, dt, pairs, loads, contact_pair.couples, force_density,
+                          contact_pair.friction);
+  }
+}
+
+void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding,
+                         std::vector<Vector>& force_density) {
+  static Teuchos::Time& timer = phase("Contact forces");
+  const Timed timed(timer);
+  const auto may_touch = [](const ContactPair& pair) {
+    return !pair.pairs.empty() || pair.pairs.halo || pair.couples.any();
+  };
+  for (ContactPair& pair : contact_pairs_) {
+    if (may_touch(pair)) add_normal_forces(kinematics, pair, force_density);
+  }
+  for (ContactPair& pair : contact_pairs_) {
+    std::vector<Load> of_all;
+    if (!pair.elsewhere.empty()) of_all = loads_of_all(kinematics.domain, pair);
+    double& stiffness = pair.result.stiffness;
+    for (const Load& load : of_all) stiffness = std::max(stiffness, largest_eigenvalue(load.springs, stiffness));
+    const bool rubs = pair.model.friction > 0 && (dt > 0 || sliding.is_trial);
+    const std::vector<Load>& loads = of_all.empty() ? pair.loads : of_all;
+    if (rubs && may_touch(pair)) add_friction(kinematics, dt, sliding, loads, pair, force_density);
+  }
+}
+
+void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density) {
+  if (!any()) return;
+  look_where_due(kinematics, dt);
+  add_forces(kinematics, dt, {kinematics.velocities, dt}, force_density);
 }
 
 void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way,
                                std::vector<Vector>& force_density) {
-  for (ContactPair& contact_pair : contact_pairs_) {
-    if (contact_pair.due) look(kinematics, 0, contact_pair);
-    add_forces(kinematics, 0, {.of = way, .is_trial = true}, contact_pair, force_density);
-  }
+  if (!any()) return;
+  look_where_due(kinematics, 0);
+  add_forces(kinematics, 0, {.of = way, .is_trial = true}, force_density);
 }
 
 double Contact::friction_work_of_trial(std::span<const Vector> way) const {
@@ -200,16 +279,20 @@ void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>&
 
 void Contact::take_agreed(std::span<const double> numbers, double dt) {
   if (!any()) return;
-  double stiffness = 0;  // ω² of a sum of operators is at most the sum of theirs
+  double of_points = 0, of_surfaces = 0;  // ω² of a sum of operators is at most the sum of theirs
   for (std::size_t m = 0; m < contact_pairs_.size(); ++m) {
     ContactPair& contact_pair = contact_pairs_[m];
-    stiffness += numbers[3 * m];
+    if (contact_pair.surfaces) {
+      of_surfaces += numbers[3 * m];
+    } else {
+      of_points = std::max(of_points, numbers[3 * m]);  // joined where points touch several blocks
+    }
     contact_pair.meets = numbers[3 * m + 1] > 0;
     const double use = dt * numbers[3 * m + 2];
     contact_pair.used += use;
     contact_pair.due = !contact_pair.searched || contact_pair.meets || !(contact_pair.used + forecast * use < 1);
   }
-  stiffness_ = std::max(stiffness, decay * stiffness_);
+  stiffness_ = std::max(of_points + of_surfaces, decay * stiffness_);
   penetration_ = numbers.back();
 }
 

@@ -103,15 +103,29 @@ class Contact {
     bool meets = false;  // points whose bond has broken since are near each other
     bool due = true;     // that has come near 1
     ForceResult result = {};
+    std::vector<Load> loads = {};       // of pairs.owned, where the model is one of points
     std::vector<Vector> friction = {};  // N, on pairs.owned
+    // Its points that other contact pairs of points have, too: pairs.owned[k] is owned[there] of contact_pairs_[pair].
+    struct Elsewhere {
+      std::size_t k, pair, there;
+    };
+    std::vector<Elsewhere> elsewhere = {};
   };
   static void visit_normal_forces(const ContactPair& contact_pair,
                                   const std::function<void(std::size_t, Vector)>& visit);
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
   void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
-  void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, ContactPair& contact_pair,
-                  std::vector<Vector>& force_density);
+  // Collective.
+  void look_where_due(const Kinematics& kinematics, double dt);
+  void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, std::vector<Vector>& force_density);
+  static void add_normal_forces(const Kinematics& kinematics, ContactPair& contact_pair,
+                                std::vector<Vector>& force_density);
+  static void add_friction(const Kinematics& kinematics, double dt, const Sliding& sliding,
+                           const std::vector<Load>& loads, ContactPair& contact_pair,
+                           std::vector<Vector>& force_density);
+  void find_points_of_several();
+  std::vector<Load> loads_of_all(const Domain& domain, const ContactPair& contact_pair) const;
 
   std::vector<ContactPair> contact_pairs_;
   double stiffness_ = 0, penetration_ = 0;

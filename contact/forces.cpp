@@ -79,18 +79,15 @@ struct Slider {
 constexpr int slider_width = sizeof(Slider) / sizeof(double);
 
 std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto& law, Pairs& pairs,
-                            const Couples& couples, std::vector<Couples::Neighborhood>& neighborhoods) {
+                            const std::vector<Load>& loads, const Couples& couples,
+                            std::vector<Couples::Neighborhood>& neighborhoods) {
   std::vector<Slider> all(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    if (loads[k].contacts == 0) continue;
     Slider& slider = all[k];
     slider.velocity = kinematics.velocities[pairs.owned[k]];
-    double contacts = 0;
-    for_each_touch(pairs, law, k, [&](const auto& touch) {
-      slider.push -= touch.force() * touch.direction;
-      contacts += 1;
-    });
-    slider.mobility = contacts / pairs.masses[k];
-    if (contacts == 0) continue;
+    slider.push = loads[k].push;
+    slider.mobility = loads[k].contacts / pairs.masses[k];
     neighborhoods[k] = couples.of(kinematics, pairs.owned[k], 0.5 * law.radius);
     const Patch& patch = neighborhoods[k].patch;
     if (!patch.turns) continue;
@@ -115,21 +112,24 @@ Vector surface_normal(const Slider& here, const Slider& there, const Vector& dir
 }
 
 template <ContactLaw L>
-ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>& force_density) {
+ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>& force_density,
+                          std::vector<Load>& loads) {
   ForceResult result;
+  loads.resize(pairs.owned.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    Vector force = Vector::Zero();
-    Tensor springs = Tensor::Zero();
+    Load load;
     for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
-      force -= touch.force() * touch.direction;
+      load.push -= touch.force() * touch.direction;
+      load.contacts += 1;
       result.deepest.take({touch.penetration(), pairs.owned[k]});
       result.energy += 0.5 * touch.energy();
       const double mass = pairs.masses[k];
       const double weight = touch.stiffness_to_come() * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
-      springs += weight * touch.direction * touch.direction.transpose();
+      load.springs += weight * touch.direction * touch.direction.transpose();
     });
-    force_density[pairs.owned[k]] += force / pairs.sites[k].volume();
-    result.stiffness = std::max(result.stiffness, largest_eigenvalue(springs, result.stiffness));
+    force_density[pairs.owned[k]] += load.push / pairs.sites[k].volume();
+    result.stiffness = std::max(result.stiffness, largest_eigenvalue(load.springs, result.stiffness));
+    loads[k] = load;
   }
   return result;
 }
@@ -142,10 +142,11 @@ struct Friction {
 // None between two points that both have no neighbors, or one row of them: nothing could take up its couple.
 template <ContactLaw L>
 Friction friction_forces(const Kinematics& kinematics, const L& law, double coefficient, double dt, Pairs& pairs,
-                         const Couples& couples, std::vector<Couples::Neighborhood>& neighborhoods) {
+                         const std::vector<Load>& loads, const Couples& couples,
+                         std::vector<Couples::Neighborhood>& neighborhoods) {
   const std::vector<Vector> none(pairs.owned.size(), Vector::Zero());
   Friction friction{none, none};
-  const std::vector<Slider> all = sliders(kinematics, law, pairs, couples, neighborhoods);
+  const std::vector<Slider> all = sliders(kinematics, law, pairs, loads, couples, neighborhoods);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     const Slider& here = all[k];
     for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
@@ -181,17 +182,20 @@ void for_each_spring(const PairLaw& law, const Pairs& pairs, const Visit& visit)
 }  // namespace
 
 ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, Pairs& pairs,
-                              std::vector<Vector>& force_density) {
+                              std::vector<Vector>& force_density, std::vector<Load>& loads) {
   bring_to_present(kinematics, pairs);
-  return std::visit([&](const auto& one) { return normal_forces(one, pairs, force_density); }, law);
+  return std::visit([&](const auto& one) { return normal_forces(one, pairs, force_density, loads); }, law);
 }
 
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
-                  Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction) {
+                  const std::vector<Load>& loads, Couples& couples, std::vector<Vector>& force_density,
+                  std::vector<Vector>& friction) {
   couples.bring_to_present(kinematics);
   std::vector<Couples::Neighborhood> neighborhoods(pairs.owned.size());
   Friction found = std::visit(
-      [&](const auto& one) { return friction_forces(kinematics, one, coefficient, dt, pairs, couples, neighborhoods); },
+      [&](const auto& one) {
+        return friction_forces(kinematics, one, coefficient, dt, pairs, loads, couples, neighborhoods);
+      },
       law);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k)
     force_density[pairs.owned[k]] += found.forces[k] / pairs.sites[k].volume();

@@ -34,15 +34,24 @@ struct ForceResult {
   double stiffness = 0;
 };
 
-// Collective. Brings the pairs to the present places and adds their normal forces to force_density (N/m³).
+// What the partners that touch a point do to it.
+struct Load {
+  Vector push = Vector::Zero();     // the sum of their normal forces, N
+  Tensor springs = Tensor::Zero();  // of which ForceResult::stiffness is the largest eigenvalue, 1/s²
+  double contacts = 0;              // how many there are
+};
+
+// Collective. Brings the pairs to the present places and adds their normal forces to force_density (N/m³); loads[k] is
+// that of pairs.owned[k].
 ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, Pairs& pairs,
-                              std::vector<Vector>& force_density);
+                              std::vector<Vector>& force_density, std::vector<Load>& loads);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on
 // pairs.owned[k] (N), so that its work can be counted, beside that of `couples`, which has taken pairs.owned. dt: the
-// length of the step (s).
+// length of the step (s). `loads`: of pairs.owned, by whatever else rubs on them, too.
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,
-                  Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);
+                  const std::vector<Load>& loads, Couples& couples, std::vector<Vector>& force_density,
+                  std::vector<Vector>& friction);
 
 // After add_normal_forces. What each point pairs.owned[k] feels, by visit(k, force in N).
 void for_each_normal_force(const PairLaw& law, const Pairs& pairs,

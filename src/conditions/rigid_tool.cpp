@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel/reproducible_sum.hpp"
 #include "conditions/velocity_update.hpp"
@@ -33,6 +34,23 @@ class ToolMotion {
   std::vector<Vector> velocities_;  // by time-step levels
 };
 
+// A place on an edge of a box is on several faces, to round-off. It is held by the one that it comes to most directly:
+// a punch whose edges are those of the body takes along what they coincide with, and no round-off of places decides.
+template <class S>
+void choose_face(const S&, const Vector&, const Vector&, Surface&) {}
+void choose_face(const Box& box, const Vector& place, const Vector& velocity, Surface& at) {
+  const Vector outside = (box.lower - place).cwiseMax(place - box.upper);  // of the faces across each axis
+  const double round_off = 1e-9 * (box.upper - box.lower).minCoeff(), nearest = outside.maxCoeff();
+  if (nearest > round_off) return;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int c = 0; c < 3; ++c) {
+    const Vector n = (box.lower[c] - place[c] == outside[c] ? -1 : 1) * Vector::Unit(c);
+    if (outside[c] < nearest - round_off || n.dot(velocity) >= slowest) continue;
+    slowest = n.dot(velocity);
+    at.normal = n;
+  }
+}
+
 // The change of velocity that keeps a point which has this one, relative to the tool, out of it over dt.
 Vector correction(const Surface& at, double friction, const Vector& velocity, double dt) {
   const double speed = at.normal.dot(velocity);
@@ -52,8 +70,10 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
   const auto keep_out = [&](const auto& shape) {
     for (const int i : tool.points) {
       const double dt = update.steps.of(i);
-      const Surface at = tool.met_by(i, shape, update.body.current(i) - motion.offset());
+      const Vector place = update.body.current(i) - motion.offset();
       const Vector relative = update.body.velocity[i] - motion.velocity(update.steps.level(i));
+      Surface at = tool.met_by(i, shape, place);
+      choose_face(shape, place, relative, at);
       if (at.gap + dt * at.normal.dot(relative) >= 0) continue;
       *tool.touched = true;
       visit(i, correction(at, tool.friction, relative, dt));

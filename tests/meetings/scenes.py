@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 import mesh
-from frame import AXES, Frame
+from frame import AXES, Frame, dimension
 from schema import ANY
 from values import GROUPS, NOT_DRAWN, VALUES, Direction, Expr, Num, Place
 
@@ -132,6 +132,19 @@ def refers(key):
 # ---- drawing
 
 
+def default_with_a_unit(key):
+    """A default such as 1 1/s is written out: in other units it is another number. None of others."""
+    if key.kind == "real" and key.default not in (None, "0") and key.unit not in ("", "spacings") and dimension(key.unit).any():
+        return Num(float(key.default), key.unit)
+
+
+def part_of_solid(material):
+    """The moduli of a foam that is given by its solid's, as a part of these."""
+    if "Relative Density" not in material:
+        return 1.0
+    return material["Relative Density"].value ** material["Density Exponent"].value
+
+
 class Draft:
     """What has been drawn so far, and chance."""
 
@@ -178,9 +191,9 @@ class Draft:
         for count, names in groups:
             made |= {name: self.value(section, section.keys[name]) for name in self.random.sample(names, count)}
         for name, key in section.keys.items():
-            if name == section.selector or name in grouped or not (key.required or self.chance(often)):
+            if name == section.selector or name in grouped:
                 continue
-            value = self.value(section, key)
+            value = self.value(section, key) if key.required or self.chance(often) else default_with_a_unit(key)
             if value is not None:
                 made[name] = value
         return made
@@ -286,7 +299,7 @@ class Draft:
             modulus = self.E * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu)) * 1.5
             self.waves[f"m{n + 1}"] = (modulus / self.rho) ** 0.5
             self.fastest = max(self.waves.values())
-            self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, modulus)
+            self.stiffest, self.softest = max(self.stiffest, modulus), min(self.softest, self.E * part_of_solid(material))
 
     def reconciled(self, material):
         """What one key forbids another (the deck's reader refuses it)."""

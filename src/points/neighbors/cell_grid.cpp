@@ -10,9 +10,11 @@ CellGrid::CellGrid(const std::vector<Vector>& points, double reach, double width
   for (const Vector& x : points) box.extend(x);
   if (points.empty()) box.extend(Vector::Zero());
   origin_ = box.min();
-  // Sparse clouds in a large box get wider cells: memory stays in proportion to the points.
-  const double volume = (box.sizes().array() + width).prod();
-  width_ = std::max(width, std::cbrt(volume / (8.0 * points.size() + 64)));
+  // Sparse clouds in a large box get wider cells: memory stays in proportion to the points. In a long thin box, as of a
+  // point that has flown off, rows of single cells would still be too many.
+  const double volume = (box.sizes().array() + width).prod(), enough = 8.0 * points.size() + 64;
+  width_ = std::max(width, std::cbrt(volume / enough));
+  while (((box.sizes() / width_).array().floor() + 1).prod() > 8 * enough) width_ *= 2;
   cells_within_reach_ = static_cast<int>(std::ceil(reach / width_));
   shape_ = (box.sizes() / width_).array().floor().cast<int>() + 1;
   start_.assign(static_cast<std::size_t>(shape_[0]) * shape_[1] * shape_[2] + 1, 0);

@@ -250,7 +250,8 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   const auto [a, b] = GetParam();
   Pairs pairs = part.pairs(a, b);
   std::vector<Vector> density(part.domain.owned, Vector::Zero()), friction;
-  const ForceResult result = add_normal_forces(part.kinematics(), law, pairs, density);
+  std::vector<Load> loads;
+  const ForceResult result = add_normal_forces(part.kinematics(), law, pairs, density, loads);
   double energy = 0, scale = 0;
   std::vector<double> sums(11, 0);
   for (int i = 0; i < part.domain.owned; ++i) {
@@ -273,7 +274,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   Couples couples;
   couples.take(part.domain, pairs.owned);
   std::vector<Vector> rubbed(part.domain.owned, Vector::Zero());
-  add_friction(part.kinematics(), law, model.friction, 1e-3, pairs, couples, rubbed, friction);
+  add_friction(part.kinematics(), law, model.friction, 1e-3, pairs, loads, couples, rubbed, friction);
   for (const Vector& f : friction) sums[6] += f.norm();
   for (int i = 0; i < part.domain.owned; ++i) {
     const Vector f = part.domain.volume(i) * rubbed[i], torque = part.domain.current(i).cross(f);
@@ -301,7 +302,8 @@ TEST(Contact, BoundOfTheStiffnessHolds) {
   const Part part = part_of(all, world);
   Pairs pairs = part.pairs(0, 0);
   std::vector<Vector> density(part.domain.owned, Vector::Zero());
-  const double bound = world.max(add_normal_forces(part.kinematics(), law, pairs, density).stiffness);
+  std::vector<Load> loads;
+  const double bound = world.max(add_normal_forces(part.kinematics(), law, pairs, density, loads).stiffness);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);  // block 0 has every third point
   for (int i = 0; i < count; i += 3) {
     for (int j = 0; j < count; j += 3) {

@@ -123,6 +123,30 @@ TEST(RigidTool, NothingEntersABox) {
   EXPECT_LT(run.worst_balance, energy_of_rates);
 }
 
+// A punch whose edges are those of the body: the points on its edges and in its corners go down with those between.
+TEST(RigidTool, ABoxTakesAlongWhatItsEdgesCoincideWith) {
+  const RunFolder folder(Lattice{.nx = 3, .ny = 3, .nz = 4, .spacing = 1e-3});
+  Parts parts;
+  parts.points = "Nodes";
+  parts.node_sets = key("lowest", "z &lt; 0.1e-3");
+  parts.times = key("Final Time", "4e-6");
+  parts.conditions =
+      along("floor", "Prescribed Displacement", "lowest", "z", "0") +
+      along("sides", "Prescribed Displacement", "all", "xy", "0") +
+      tool("punch", "Rigid Box",
+           key("Lower Corner", "0 0 4e-3") + key("Upper Corner", "3e-3 3e-3 6e-3") + key("Travel Z", "-1e6*t*t"));
+  Simulation run(folder, parts);
+  run.go();
+  double top = 0;
+  for (int i = 0; i < run.body().owned(); ++i) {
+    if (run.body().domain.reference(i)[2] < 3.9e-3) continue;
+    EXPECT_NEAR(run.body().displacement(i)[2], -16e-6, deepest) << run.body().domain.reference(i).transpose();
+    ++top;
+  }
+  run.world().sum(std::span(&top, 1));
+  EXPECT_EQ(top, 16);
+}
+
 // A plastic bar whose foot is subcycled: what counts is how fast wall and bar come together, at 227 m/s. Places
 // differ by the round-off of velocities, 1e-16, which yielding does not let grow beyond some 1e-10 of the way.
 TEST(RigidTool, WallThatComesIsABarThatFlies) {
