@@ -221,8 +221,9 @@ void Fracture::set_shortest(const Body& body) {
 
 void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt) {
   std::vector<double> due = due_;
-  for (const MaterialBlock& block : body.blocks) {
-    if (!block.in_rigid_motion) continue;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    if (!may_break_[b] || !block.in_rigid_motion) continue;  // points on the lattice of another body are in no cluster
     for (const Part part : {Part::interior, Part::boundary}) {
       const auto [first, last] = clusters_of(body, block, part);
       for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];
