@@ -99,7 +99,9 @@ void update_rigid_motion(Body& body) {
   }
   // Where none was strained, ranks have not told each other where points are: bonds that break ask for the start of the
   // step.
-  if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange(places(body.domain.sites), site_stride, 3);
+  if (all_did && !all_move_rigidly(body)) {
+    body.domain.halo.exchange(places(body.domain.sites), site_stride, 3, reflect_place);
+  }
 }
 
 }  // namespace strut
