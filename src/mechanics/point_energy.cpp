@@ -1,5 +1,7 @@
 #include "mechanics/point_energy.hpp"
 
+#include "mechanics/fracture/broken_family.hpp"
+
 namespace strut {
 
 namespace {
@@ -7,12 +9,13 @@ namespace {
 template <class L>
 PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& law, std::size_t k) {
   const int places = block.places_a_point();
+  const bool carries_stress = steepness(body, block.points[k]) > 0;
   PointEnergy sum;
   for (int q = 0; q < places; ++q) {
     const MaterialPoint& point = body.law_point(block, k, q);
     const auto state = block.state_of<L>(block.place(k, q));
     const double J = point.deformation_gradient.determinant();
-    sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;
+    if (carries_stress) sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;
     sum.dissipated += law.dissipation(state) / places;
     if constexpr (materials::tells_heat<L>) sum.heat += law.heat(state) / places;
     if (!block.viscous.empty()) sum.dissipated += block.viscous[block.place(k, q)].work / places;

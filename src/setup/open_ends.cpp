@@ -29,6 +29,21 @@ Extent extent_along(const Vector& direction, const Domain& domain, int i) {
   return extent;
 }
 
+// What is there of the cell of a point, as a part: a half on a symmetry plane, the rest is its image's.
+double part_between_planes(const Domain& domain, int i) {
+  std::vector<Vector> outward;
+  for (const Mirror& mirror : domain.mirrors) {
+    if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;
+    if (!mirror.holds(domain.reference(i), domain.cloud.spacings[i])) continue;
+    double side = 0;
+    domain.families.for_each(i, [&](int j) {
+      if (Images::image(domain.id(j)) == 0) side += mirror.distance(domain.reference(j));
+    });
+    outward.push_back(side > 0 ? Vector(-mirror.normal) : mirror.normal);
+  }
+  return part_within(outward);
+}
+
 struct EndsOfPoint {
   std::vector<Vector> normals;  // outward
   int last;                     // the place in the deck of the last one
@@ -51,7 +66,8 @@ void take_off_what_is_beyond_ends(const deck::Deck& deck, Scene& scene, deck::Pr
     }
   });
   for (const auto& [i, of_point] : ends) {
-    const double cell = part_within(of_point.normals) * std::pow(body.domain.cloud.spacings[i], 3);
+    const double whole_cell = part_between_planes(body.domain, i) * std::pow(body.domain.cloud.spacings[i], 3);
+    const double cell = part_within(of_point.normals) * whole_cell;
     if (cell == 0) without_inertia[of_point.last].push_back(i);
     body.density[i] *= std::min(1.0, cell / body.domain.volume(i));
   }

@@ -39,6 +39,21 @@ def steps_differ(base, other, frame, later=0.0):
     return float(np.max(np.abs(two / frame.time - one) / one)) if len(one) else 0.0
 
 
+def longest_steps(result):
+    """Between what each row's longest step lies. A step is what is left of the run over a whole number: with one less it was too long, and
+    of the last one nothing is known but that it was not."""
+    time, step = result.history["Time"], result.history["Step_Size"]
+    number = np.round((time[-1] - time) / step)
+    return step, np.where(number > 1, step * number / np.maximum(number - 1, 1), np.inf)
+
+
+def longest_steps_differ(base, other, frame):
+    """By how much at least, as a part; where runs have other numbers of steps, that of the first ones."""
+    rows = len(base.history["Time"]) if len(base.history["Time"]) == len(other.history["Time"]) else 1
+    (low, high), (other_low, other_high) = ([part[:rows] for part in longest_steps(r)] for r in (base, other))
+    return float(max((low * frame.time / other_high).max(), (other_low / frame.time / high).max()) - 1)
+
+
 def mass_of(result):
     return float((result.frames[0]["Volume"] * result.frames[0]["Density"]).sum())
 

@@ -67,9 +67,9 @@ struct Update {
   }
 
   // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
-  void report(const LaneGroup& g, int l, double J) const {
+  void report(const LaneGroup& g, int l, double J, bool carries) const {
     if (std::isnan(J)) return law.failure.report(g.k[l], Failure::Kind::not_finite);
-    if (!has_lost_bonds(body(), g.i[l])) law.failure.report(g.k[l], Failure::Kind::inverted);
+    if (carries && !has_lost_bonds(body(), g.i[l])) law.failure.report(g.k[l], Failure::Kind::inverted);
   }
 
   void drop_forces(const LaneGroup& g, int l) const {
@@ -93,11 +93,11 @@ struct Update {
     store_gradient(i, body().points[i].stabilization, share);
   }
 
-  LaneTensor deformation_gradient(const LaneGroup& g, const LaneTensor& N, const LaneSymmetric& shape_inverse) const {
+  LaneTensor deformation_gradient(const LaneGroup& g, const LaneTensor& N, const LaneSymmetric& shape_inverse,
+                                  const Lanes& carries) const {
     LaneTensor F = small::product(N, small::full(shape_inverse));
-    const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];
     // On lattices N is of displacements. A point whose neighbors do not span space stays undeformed.
-    const Lanes missing = g.cluster ? Lanes((trace > 0).select(Lanes::Zero(), Lanes::Constant(1))) : Lanes::Constant(1);
+    const Lanes missing = g.cluster ? Lanes(1 - carries) : Lanes::Constant(1);
     for (int i = 0; i < 3; ++i) F.c[i][i] += missing;
     return F;
   }
@@ -107,16 +107,18 @@ struct Update {
     const LawPoints g = members(group);
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
     const auto [N, pull] = moments(body(), group, with_springs);
-    const LaneTensor F = deformation_gradient(group, N, shape_inverse);
+    const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];
+    const Lanes carries = (trace > 0).select(Lanes::Constant(1), Lanes::Zero());
+    const LaneTensor F = deformation_gradient(group, N, shape_inverse, carries);
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
-    const Deformed now = law.advance(g, F, share);
+    Deformed now = law.deformed(g, F, share, carries);
+    law.set_stress(g, share, now);
     const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);
     const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);
     const Lanes per_density =
         lanes_of([&](int l) { return body().domain.volume(group.i[l]) / body().density[group.i[l]]; });
-    const Lanes bound2 = share * share * per_density * steepened_modulus(now) *
-                         (shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2]);
+    const Lanes bound2 = share * share * per_density * steepened_modulus(now) * trace;
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (!(now.stiffness[l] > 0)) {  // has failed
@@ -124,7 +126,7 @@ struct Update {
         continue;
       }
       if (!(now.J[l] > 0)) {  // NaN too
-        report(group, l, now.J[l]);
+        report(group, l, now.J[l], carries[l] > 0);
         drop_forces(group, l);
         continue;
       }

@@ -62,7 +62,7 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
-      at[q] = law.deformed(points[q], F, share);
+      at[q] = law.deformed(points[q], F, share, carries);
     }
     const std::array<Lanes, 4> J{at[0].J, at[1].J, at[2].J, at[3].J};
     share_traces(J, {&at[0].rates, &at[1].rates, &at[2].rates, &at[3].rates}, has_flowed);
@@ -74,15 +74,14 @@ struct Update {
     for (int q = 0; q < 4; ++q) {
       const Deformed& now = at[q];
       LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
-      for (auto& row : P.c) row[0] *= carries, row[1] *= carries, row[2] *= carries;  // some laws have a stress at rest
       for (int l = 0; l < group.count; ++l) {
         // A failed place of a metal beside others bears its share of their pressure, as their strains have it.
         if (now.J[l] > 0 && stiffest[l] > 0) {
           law.store(points[q], l, now);
           continue;
         }
-        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // all have failed, or NaN
-        if (!(now.J[l] > 0)) determinant[l] = now.J[l];
+        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // all have failed, NaN, or no stress is carried
+        if (!(now.J[l] > 0)) determinant[l] = now.J[l] + 1 - carries[l];
       }
       cells.add_stress(q, P);
       modulus = modulus.max(steepened_modulus(now));

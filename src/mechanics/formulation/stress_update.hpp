@@ -91,7 +91,7 @@ struct Deformed {
   LaneTensor F;
   Polar<Lanes> polar;
   LaneSymmetric inverse_stretch;
-  Lanes J;
+  Lanes J;               // 0 of those that carry no stress
   LaneSymmetric rates;   // of a step of no length: zero
   LaneSymmetric stress;  // unrotated, with the viscous pressure
   Lanes stiffness;       // M, Pa, 0 of those that have failed
@@ -106,17 +106,12 @@ struct LawUpdate {
   StressPass pass;
   WorstFailure& failure;
 
-  // Advances stress and state to the deformation gradients F over the pass' step.
-  Deformed advance(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
-    Deformed now = deformed(g, F, share);
-    set_stress(g, share, now);
-    return now;
-  }
-
-  // All of it but what follows from the law.
-  Deformed deformed(const LawPoints& g, const LaneTensor& F, const Lanes& share) const {
+  // Deformation gradients F at the end of the pass' step, with all but what follows from the law. `carries`: 1 of
+  // points that carry stress, 0 of others. These have no law, which may have a stress at rest (plastic strain,
+  // pressure).
+  Deformed deformed(const LawPoints& g, const LaneTensor& F, const Lanes& share, const Lanes& carries) const {
     const Polar<Lanes> polar = polar_of(g, F, pass.of_any_size);
-    Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F), {}, {}, {}};
+    Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F) * carries, {}, {}, {}};
     if (pass.dt > 0) {
       now.rates = strain_rate(g, polar.stretch, pass.dt * share);
     } else {
@@ -125,6 +120,7 @@ struct LawUpdate {
     return now;
   }
 
+  // Advances stress and state.
   void set_stress(const LawPoints& g, const Lanes& share, Deformed& now) const {
     now.stiffness = stiffness_of(g);
     if (!(pass.dt > 0)) {
@@ -216,9 +212,10 @@ struct LawUpdate {
     Viscous viscous{Lanes::Zero(), Lanes::Zero()};
     for (int l = 0; l < g.group.count; ++l) {
       ViscousPoint& point = block.viscous[g.places[l]];
-      const bool has_failed = !(now.stiffness[l] > 0);
-      if (has_failed) point.damping = 0;
-      if (!(now.J[l] > 0) || has_failed) continue;
+      if (!(now.J[l] > 0 && now.stiffness[l] > 0)) {
+        point.damping = 0;
+        continue;
+      }
       const double D = now.rates.c[0][l] + now.rates.c[1][l] + now.rates.c[2][l], c = std::sqrt(speed2[l]);
       const double length = std::cbrt(body.domain.volume(g.group.i[l])) / std::sqrt(steepness2[l]);
       const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;

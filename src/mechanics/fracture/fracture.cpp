@@ -77,6 +77,21 @@ double released(const PointAccount& before, const PointAccount& after) {
   return 0.5 * (before.work + after.work) - (after.energy - before.energy);
 }
 
+// How many images of a point are where it is, itself counted: on a symmetry plane 2, each with half of a cell.
+int coincident_images(const Domain& domain, int i) {
+  std::vector<Tensor> turns{Tensor::Identity()};
+  for (std::size_t n = 0; n < turns.size(); ++n) {
+    for (const Mirror& mirror : domain.mirrors) {
+      if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;
+      if (!mirror.holds(domain.reference(i), domain.cloud.spacings[i])) continue;
+      const Tensor turn = Reflection::by(mirror).turn * turns[n];
+      const auto is_it = [&turn](const Tensor& other) { return (other - turn).norm() < 1e-6; };  // round-off is 1e-16
+      if (std::none_of(turns.begin(), turns.end(), is_it)) turns.push_back(turn);
+    }
+  }
+  return static_cast<int>(turns.size());
+}
+
 bool fails(const MaterialBlock& block) {
   const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
   return block.material.damage && std::visit(may_fail, block.material.law);
@@ -184,12 +199,15 @@ void Fracture::look_around(const Body& body, const std::vector<char>& points) {
   }
 }
 
-// Of the points of a block, in their spacings, so many times the least, which is that of a point inside. So broken
-// families do not make the critical time step smaller than corners do. A point that is steeper from the start may be
-// half as much again.
+// Of the points of a block, in their spacings and of whole cells, so many times the least, which is that of a point
+// inside. So broken families do not make the critical time step smaller than corners do. A point that is steeper from
+// the start may be half as much again.
 void Fracture::set_most_steepness(const Body& body) {
   constexpr double more_than_first = 1.5;
-  const auto in_spacings = [&body](int i) { return steepness(body, i) * std::pow(body.domain.cloud.spacings[i], 2); };
+  const auto per_steepness = [&body](int i) {
+    return coincident_images(body.domain, i) * std::pow(body.domain.cloud.spacings[i], 2);
+  };
+  const auto in_spacings = [&](int i) { return steepness(body, i) * per_steepness(i); };
   std::vector<double> least;  // of each block, negated
   for (const MaterialBlock& block : body.blocks) {
     double most = -never;
@@ -198,8 +216,7 @@ void Fracture::set_most_steepness(const Body& body) {
   }
   body.domain.communicator.max(least);
   for (int i = 0; i < body.owned(); ++i) {
-    const double of_block =
-        -steepness_of_corners * least[body.domain.cloud.blocks[i]] / std::pow(body.domain.cloud.spacings[i], 2);
+    const double of_block = -steepness_of_corners * least[body.domain.cloud.blocks[i]] / per_steepness(i);
     most_steepness_.push_back(std::max(of_block, more_than_first * steepness(body, i)));
   }
 }
@@ -221,8 +238,9 @@ void Fracture::set_shortest(const Body& body) {
 
 void Fracture::start_step(const Body& body, std::span<const Vector> velocities, double dt) {
   std::vector<double> due = due_;
-  for (const MaterialBlock& block : body.blocks) {
-    if (!block.in_rigid_motion) continue;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const MaterialBlock& block = body.blocks[b];
+    if (!may_break_[b] || !block.in_rigid_motion) continue;  // points on the lattice of another body are in no cluster
     for (const Part part : {Part::interior, Part::boundary}) {
       const auto [first, last] = clusters_of(body, block, part);
       for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];

@@ -24,11 +24,11 @@ double inner(const Body& body, const Field& a, const Other& b) {
                           [&](int i) { return body.mass(i) * a[i].dot(b[i].template cast<double>()); });
 }
 
-// A fixed pseudo-random direction that depends on the point's id alone, not on who owns it (SplitMix64).
-Vector noise(std::int64_t id) {
+// A pseudo-random direction that depends on the draw and the point's id alone, not on who owns it (SplitMix64).
+Vector noise(int draw, std::int64_t id) {
   Vector v;
   for (int c = 0; c < 3; ++c) {
-    std::uint64_t z = static_cast<std::uint64_t>(3 * id + c) + 0x9e3779b97f4a7c15u;
+    std::uint64_t z = static_cast<std::uint64_t>(3 * id + c) + (draw + std::uint64_t{1}) * 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     v[c] = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53 - 0.5;
@@ -36,13 +36,13 @@ Vector noise(std::int64_t id) {
   return v;
 }
 
-void set_noise(const Body& body, Field& field) {
-  for (int i = 0; i < body.owned(); ++i) field[i] = noise(body.domain.cloud.ids[i]);
+void set_noise(const Body& body, int draw, Field& field) {
+  for (int i = 0; i < body.owned(); ++i) field[i] = noise(draw, body.domain.cloud.ids[i]);
 }
 
-// Mostly the mode found before; enough noise to find a new one that has overtaken it.
+// Mostly the mode found before; enough noise to find one that it has missed, or that has overtaken it.
 void add_noise(const Body& body, const StoredField& mode, Field& field) {
-  set_noise(body, field);
+  set_noise(body, 1, field);
   const double scale = 0.1 / std::sqrt(inner(body, field, field));
   for (int i = 0; i < body.owned(); ++i) field[i] = mode[i].cast<double>() + scale * field[i];  // a mode is of length 1
 }
@@ -143,10 +143,16 @@ double CriticalTimeStep::estimate(Body& body) {
   static Teuchos::Time& timer = phase("Critical time step");
   const Timed timed(timer);
   Field image(body.owned());
-  found_ ? add_noise(body, mode_, image) : set_noise(body, image);
+  // The highest mode may be of a few points, and noise all but orthogonal to it: then a lower one converges. That noise
+  // of another draw is, too, is a chance of a chance.
+  const int least_cycles = found_ ? 1 : 2;
   double bound = 0;
   for (int cycle = 0; cycle < most_cycles; ++cycle) {
-    if (cycle > 0) widen(mode_, image);
+    if (cycle >= least_cycles) {
+      widen(mode_, image);
+    } else {
+      found_ ? add_noise(body, mode_, image) : set_noise(body, 0, image);
+    }
     mode_ = StoredField();  // makes room for the basis
     const Lanczos lanczos = iterate(body, image, basis_size);
     const int n = static_cast<int>(lanczos.diagonal.size());
@@ -160,7 +166,7 @@ double CriticalTimeStep::estimate(Body& body) {
     mode_ = combine(lanczos.basis, weights);
     found_ = true;
     bound = value + residual;
-    if (!(residual > accuracy * value)) break;
+    if (cycle + 1 >= least_cycles && !(residual > accuracy * value)) break;
   }
   return bound > 0 ? 2 / std::sqrt(bound) : std::numeric_limits<double>::infinity();
 }

@@ -142,6 +142,30 @@ TEST(Undisturbed, AHalfThatBreaksInItsFirstStepIsHalfOfTheWhole) {
   EXPECT_NEAR(2 * half_of_it.kinetic, all.kinetic, 1e-9 * all.kinetic);
 }
 
+// A cube on a lattice, no bond of which may break, rests beside one whose bonds may: also on a rank that has none of
+// these it is asked neither for clusters nor for breaks, and in the end it has not moved.
+TEST(Undisturbed, ABodyThatMayNotBreakRestsBesideOneThatMay) {
+  const RunFolder folder;
+  folder.write("points.txt", cubes(1, {0, 0, 0}, 6, 6, 6, h) + cubes(2, {0, 0, 11 * h}, 6, 6, 6, h));
+  Parts parts;
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.01"));
+  const std::string common = key("Material", "copper") + key("Horizon", "4.01e-3");  // lattices are faster then
+  parts.blocks = section("rests", key("Block Names", "block_1") + common + key("Separate Body", "true")) +
+                 section("swells", key("Block Names", "block_2") + common + key("Damage Model", "brittle"));
+  parts.conditions = along("swelling", "Initial Velocity", "block_2", "z", "5e3*z");
+  parts.times = key("Final Time", "2e-6");
+  Simulation run(folder, parts);
+  run.go([](const Ledger&) {});
+  Body& body = run.body();
+  EXPECT_GE(body.domain.communicator.max(body.blocks[0].lattice), 0);
+  double moved = 0;
+  for (const int i : body.blocks[0].points) moved = std::max(moved, body.displacement(i).norm());
+  EXPECT_EQ(moved, 0);
+  EXPECT_GT(run.solver.ledger().elastic, 0);
+}
+
 // A motion that begins later: at rest until then.
 TEST(Undisturbed, AMotionBeginsWhenItBegins) {
   const RunFolder folder;

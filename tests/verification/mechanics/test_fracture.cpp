@@ -8,6 +8,8 @@
 
 #include "base/archive.hpp"
 #include "contact/contact.hpp"
+#include "contract/polyurethane.hpp"
+#include "mechanics/energies.hpp"
 #include "mechanics/fracture/critical_stretch.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/serialize.hpp"
@@ -321,6 +323,42 @@ TEST(Fracture, FailedPointsLoseTheirBonds) {
     EXPECT_EQ(outcome.damage, 1);
     EXPECT_LT(outcome.momentum_drift, 1e-12);
     EXPECT_LT(outcome.balance_error, 1e-3);
+  }
+}
+
+// Some laws have a stress at rest: a foam by its plastic strain, a shocked metal by its volume and energy. A body that
+// is crushed and then loses all of its bonds in one step has none, holds no elastic energy, and does not flow any more.
+TEST(Fracture, PointsWithoutBondsHaveNoLaw) {
+  const materials::SoftenedFlow flow{{1e6, materials::NoHardening{}, materials::NoRate{}}, materials::NoSoftening{}};
+  const materials::ShockJ2 metal{{.bulk = 140e9, .shear = 48e9, .flow = flow, .heating = {8930 * 383, 0.9, 295}},
+                                 materials::MieGruneisen{8930, 3940, 1.49, 1.96}};
+  const Communicator world;
+  for (const Kind& kind : kinds) {
+    if (kind.formulation == Formulation::ordinary) continue;
+    for (const materials::AnyLaw& law : {materials::AnyLaw(testing::Polyurethane::hardening()), {metal}}) {
+      SCOPED_TRACE(kind.name);
+      LatticeSpec spec = block_of(kind, 0.5);
+      spec.cells = {4, 4, 4};
+      spec.material.law = law;
+      Body body = lattice_body(spec, world);
+      advance_stress_and_force(body, 0, true);
+      const auto stretch_to = [&](double z, double x) {
+        deform(body, [&](const Vector& X) -> Vector { return {x * X[0], x * X[1], z * X[2]}; });
+        advance_stress_and_force(body, 1e-3, true);
+      };
+      for (int n = 1; n <= 10; ++n) stretch_to(1 - 0.01 * n, 1);
+      const Energies crushed = stored_energies(body);
+      EXPECT_GT(crushed.elastic, 0);
+      EXPECT_GT(crushed.dissipated, 0);
+      stretch_to(3, 3);
+      hold(body);
+      const Energies apart = stored_energies(body);
+      EXPECT_EQ(largest_over(body, [&](int i) { return 1 - body.fracture->damage(body, i); }), 0);
+      EXPECT_EQ(largest_over(body, [&](int i) { return body.points[i].stress.norm(); }), 0);
+      EXPECT_EQ(apart.elastic, 0);
+      EXPECT_EQ(apart.dissipated, crushed.dissipated);
+      EXPECT_EQ(largest_over(body, [&](int i) { return body.force_density[i].norm(); }), 0);
+    }
   }
 }
 

@@ -122,6 +122,39 @@ TEST(CriticalTimeStep, LimitIsTheLimit) {
   EXPECT_FALSE(stays_bounded(lattice_body(spec, world), 1.05));
 }
 
+// Pairs of points, each with one bond of another length: a pair holds 9 K V (e/|ξ|)² and so swings with ω² = 36 K/(ρ
+// ξ²), the shortest fastest. The estimate starts from noise by the numbers of points. For some numbers it is all but
+// orthogonal to the mode of that pair, and a lower one converges; the estimate must not be that of the next pair, 8 %
+// longer.
+TEST(CriticalTimeStep, IsOfTheHighestModeHoweverPointsAreNumbered) {
+  const Communicator world;
+  constexpr int pairs = 26;
+  const BlockMaterial material{.density = 1000, .law = elastic(1e9, 0.3), .formulation = Formulation::ordinary};
+  const auto limit = [&](int first_number) {
+    PointCloud cloud;
+    cloud.block_names = {"block"};
+    for (int n = 0; n < 2 * pairs && world.rank() == 0; ++n) {
+      const int pair = n / 2;
+      const double length = pair == 0 ? 1 : 1.01 + 0.07 * pair;
+      cloud.ids.push_back(first_number + n);
+      cloud.element_ids.push_back(n + 1);
+      cloud.positions.emplace_back(n % 2 * length, 10.0 * pair, 0);
+      cloud.volumes.push_back(1), cloud.spacings.push_back(1);
+      cloud.blocks.push_back(0), cloud.sets.push_back(0);
+    }
+    BlockBonds bonds(3);
+    bonds.families = FamilyKind::lists;
+    Body body = make_body(make_domain(partitioned(cloud, world), {bonds}, world), Influence::one, {material});
+    return CentralDifference(body, {}, {}, {0, 1}, 0).critical_time_step();
+  };
+  const double bulk = 1e9 / (3 * (1 - 2 * 0.3)), exact = 2 / std::sqrt(36 * bulk / 1000);
+  for (int first_number = 0; first_number < (world.size() == 1 ? 4000 : 40); first_number += 2) {
+    const double found = limit(first_number);
+    ASSERT_LT(found, exact * (1 + 1e-6)) << first_number;  // of modes in single precision
+    ASSERT_GT(found, exact * (1 - 0.5 * CriticalTimeStep::accuracy - 1e-3)) << first_number;
+  }
+}
+
 // A lattice's own formula: for the dispersion of Waves.DispersionOfTheOperator no bulk wave is faster than the limit.
 TEST(CriticalTimeStep, ScalesWithSpacingAndSpeed) {
   const Communicator world;
