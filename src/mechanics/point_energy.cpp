@@ -1,6 +1,6 @@
 #include "mechanics/point_energy.hpp"
 
-#include "mechanics/fracture/broken_family.hpp"
+#include "mechanics/formulation/steepness.hpp"
 
 namespace strut {
 

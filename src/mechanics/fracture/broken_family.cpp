@@ -128,11 +128,6 @@ double part_that_releases(const materials::Moduli& moduli, const Tensor& strain,
   return part_to_least(moduli, -grows, jump);
 }
 
-double steepness(const Body& body, int i) {
-  const bool is_cell = body.block_of(i).is_quadratic();
-  return body.domain.volume(i) * (is_cell ? (*body.fits)[i].steepness : trace(body.shape_inverse[i]));
-}
-
 bool refit(Body& body, MaterialBlock& block, int k, double most) {
   if (block.is_ordinary()) return true;
   if (!block.is_quadratic()) return refit_shape(body, block, k, most);

@@ -18,9 +18,6 @@ inline bool has_lost_bonds(const Body& body, int i) {
   return !broken.empty() && !broken[i].empty();
 }
 
-// Of an owned point, 1/m²: V tr K⁻¹, its share in ω² by correspondence; by quadratic correspondence that of its cell.
-double steepness(const Body& body, int i);
-
 // Computes anew what block.points[k] knows of its family: shape tensor and first moment, or the fit of its cell; of an
 // ordinary point nothing. False where the bonds that are left cannot hold a deformation gradient, or only a steeper one
 // than `most`: it is to be released.

@@ -8,6 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
+#include "mechanics/formulation/steepness.hpp"
 #include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/critical_stretch.hpp"
 #include "mechanics/fracture/spring_account.hpp"

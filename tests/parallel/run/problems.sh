@@ -73,7 +73,8 @@ problem() {
       blocks=$(block bar all copper) ;;
     cells)
       mesh_type=Exodus mesh_file=nodes.g sets= foot=foot points=Nodes horizon='name="Horizon Factor" value="1.6"' speed=200
-      formulation="Quadratic Correspondence" blocks=$(block bar all copper) ;;
+      formulation="Quadratic Correspondence" blocks=$(block bar all copper)
+      solver='<ParameterList name="Verlet"> <Parameter name="Rebalance" type="double" value="1.001"/> <Parameter name="Safety Factor" type="double" value="0.4"/> </ParameterList>' ;;
     cracking)  # on a lattice
       mesh_type=Exodus mesh_file=bar.g sets= foot=foot horizon='name="Horizon" value="0.0122"'
       damage='<Parameter name="Damage Model" type="string" value="brittle"/>'

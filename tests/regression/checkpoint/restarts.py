@@ -353,17 +353,19 @@ class Test:
         self.run(folder, "--continue", ranks=2)
         self.same(whole, folder, scene)
 
-    def rebalanced(self, scene, whole):
+    def rebalanced(self, scene):
         """Ended after the partition has been made anew: on as many ranks it goes on with that partition, and any is as good."""
-        def folder(name):
+        def folder(name, most):
             path = self.folder(f"{scene}-{name}", scene, 10**6)
             deck = path / "deck.xml"
-            verlet = section("Verlet", keys(Rebalance=1.0001))
+            # Steps so short that another partition pays.
+            verlet = section("Verlet", keys(Rebalance=most, Safety_Factor=0.1))
             deck.write_text(deck.read_text().replace('name="Solver">', 'name="Solver">' + verlet))
             return path
 
         told = "spread over the ranks anew"
-        balanced, ended = folder("rebalanced"), folder("rebalanced-ended")
+        whole, balanced, ended = folder("not-rebalanced", 1e9), folder("rebalanced", 1.0001), folder("rebalanced-ended", 1.0001)
+        self.run(whole)
         if told not in self.run(balanced, ranks=2):
             self.fail(f"{balanced}: the partition stays as it is", balanced / "log")
         self.same(whole, balanced, scene, 0, 1e-9)  # totals are sums over ranks
@@ -527,7 +529,7 @@ class Test:
         self.out_of_time(name, whole)
         self.killed(name, whole, kills)
         if name == "cells":  # where levels of time steps make the work uneven
-            self.rebalanced(name, whole)
+            self.rebalanced(name)
         if name in ("impact", "cells"):
             self.rank_lost(name)
             self.disk_full(name, whole)
