@@ -173,11 +173,9 @@ class Bar(Case):
         return self.spacings if method.points == "Nodes" and method.stabilization != "none" else self.spacings[:2]
 
     def run(self, runner, method, spacing):
-        """A point at an element stands for what reaches half a spacing farther: so far is the wall from the lowest."""
         mesh = runner.mesh("body", recipe(shape="cylinder", method="fitted", length=0.0324, radius=0.0032,
                                           spacing=spacing))
-        rim = 0 if method.points == "Nodes" else 0.0324 / round(0.0324 / spacing) / 2
-        return runner.run("bar", mesh, method, self.copper, [velocity("z", -227), plane(rim)], 80e-6, 1e-6,
+        return runner.run("bar", mesh, method, self.copper, [velocity("z", -227), plane(0)], 80e-6, 1e-6,
                           ["Max_Coordinate_Z", "Max_Radial_Distance(body_zmin)"])
 
     def error(self, result, method, spacing):
@@ -212,7 +210,7 @@ class Measured(Case):
     def run(self, runner, method, spacing):
         mesh = runner.mesh("body", recipe(shape="cylinder", method="fitted", length=0.0254, radius=0.00381,
                                           spacing=spacing))
-        return runner.run("measured", mesh, method, self.copper, [velocity("z", -190), plane(self.rim(method, spacing))],
+        return runner.run("measured", mesh, method, self.copper, [velocity("z", -190), plane(0)],
                           80e-6, 8e-6, ["Max_Coordinate_Z", "Min_Coordinate_Z", "Max_Radial_Distance(body_zmin)"])
 
     def rim(self, method, spacing):
