@@ -112,9 +112,9 @@ class Case:
         status = self.process.poll()
         if status is None:
             return False
-        if status != EARLY and status >= 0 and not (stopped and status != 0):
-            self.put_state(over=True, error=last_line(self.log) if status else None,
-                           seconds=time.monotonic() - self.started)
+        over = status != EARLY and status >= 0 and not (stopped and status != 0)
+        self.put_state(over=over, error=last_line(self.log) if over and status else None,
+                       seconds=self.state().get("seconds", 0) + time.monotonic() - self.started)
         self.process = None
         return True
 

@@ -31,8 +31,9 @@ class Found:
 def observed_order(sizes, values):
     """p of the power law through three grids, the finest first, whose differences have one sign; None: none above 0.
 
-    With a = ln(h2/h1), b = ln(h3/h2): (f3 - f2)/(f2 - f1) = exp(p a) (exp(p b) - 1)/(exp(p a) - 1). The right side grows with p,
-    from b/a at 0. Celik et al. iterate the same equation as a fixed point, which need not converge for b > 2 a: here by bisection."""
+    With a = ln(h2/h1), b = ln(h3/h2): (f3 - f2)/(f2 - f1) = exp(p a) (exp(p b) - 1)/(exp(p a) - 1). The right side grows with
+    p, from b/a at 0. Celik et al. iterate the same equation as a fixed point, which need not converge for b > 2 a; here it is
+    solved by bisection."""
     a, b = math.log(sizes[1] / sizes[0]), math.log(sizes[2] / sizes[1])
     ratio = (values[2] - values[1]) / (values[1] - values[0])
     if ratio <= b / a:

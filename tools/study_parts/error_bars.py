@@ -1,5 +1,6 @@
 """The measures of a study over its grids: order, limit and error bar of each, as a table (CSV) and as text."""
 import csv
+import math
 
 from . import collect, convergence
 
@@ -16,7 +17,7 @@ def rows_of(study, name, kinds, rows, units, theory):
 
 
 def row_of_measure(name, kind, measure, values, unit, theory):
-    pairs = [(size, value) for size, value in zip(kind.sizes, values) if isinstance(value, float)][:3]
+    pairs = [(size, value) for size, value in zip(kind.sizes, values) if isinstance(value, float) and math.isfinite(value)][:3]
     sizes, known = zip(*pairs) if pairs else ((), ())
     found = convergence.of_grids(sizes, known, theory)
     row = {**kind.values, "measure": measure, "unit": unit}
@@ -40,9 +41,9 @@ def text(name, kinds, rows, theory):
         own = [row for row in rows if all(row[k] == v for k, v in kind.values.items())]
         parts.append((f"{kind.said()}\n" if kind.values else "") + table(own))
     ratios = [b / a for kind in kinds for a, b in list(zip(kind.sizes, kind.sizes[1:]))[:2]]
-    parts.append(f"Values from the coarsest of up to three grids to the finest, {name} as meshed. Error bar: the finest grid's convergence "
-                 f"index (Roache), {convergence.SAFETY[3]:g} times the distance to the limit by the observed order of three grids, "
-                 f"{convergence.SAFETY[2]:g} times that by order {theory:g} of two.")
+    parts.append(f"Values from the coarsest of up to three grids to the finest, {name} as meshed. Error bar: grid convergence index "
+                 f"of the finest (Roache), {convergence.SAFETY[3]:g} times the distance to the limit by the observed order of three "
+                 f"grids, {convergence.SAFETY[2]:g} times that by order {theory:g} of two.")
     if min(ratios) < convergence.GOOD_RATIO:
         parts.append(f"The grids are refined by {min(ratios):.3g} only: below {convergence.GOOD_RATIO} orders are uncertain "
                      "(Celik et al. 2008).")
@@ -57,5 +58,6 @@ def table(rows):
         bar += "" if row["error_bar_percent"] is None else f" ({row['error_bar_percent']:.2g} %)"
         order = f"{row['order']:.2f}" if row["order"] is not None else row["finding"]
         limit = "-" if row["limit"] is None else f"{row['limit']:.5g}"
-        lines.append(f"| {row['measure']}{', ' * bool(row['unit'])}{row['unit']} | {', '.join(values) or '-'} | {order} | {limit} | {bar} |")
+        measure = row["measure"] + (f", {row['unit']}" if row["unit"] else "")
+        lines.append(f"| {measure} | {', '.join(values) or '-'} | {order} | {limit} | {bar} |")
     return "\n".join(lines)

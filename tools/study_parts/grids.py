@@ -39,7 +39,8 @@ def refine(study, ratio, count):
     """Lets the spacing of the recipe vary: as it is, and `count` - 1 times finer by `ratio`; of several bodies in proportion."""
     deck, recipe = plan.files_of(study, study.cases()[0])
     if recipe is None:
-        fail(f"{deck.path}: its mesh has no recipe beside it whose spacing could be refined: expected one, or a study that varies it")
+        fail(f"{deck.path}: its mesh has no recipe beside it whose spacing could be refined: expected one, or a study that varies "
+             f"the spacing")
     bodies = spaced(recipe)
     if not bodies:
         fail(f"{recipe.path} has no line 'spacing' to refine")

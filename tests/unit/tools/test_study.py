@@ -2,6 +2,7 @@
 """tools/study: whole studies of bars in free flight, whose outcome is known, and of programs that fail or are stopped; orders of
 convergence of power laws that are known."""
 import csv
+import json
 import math
 import os
 import re
@@ -143,7 +144,11 @@ class Studies(InFolder):
         first.send_signal(signal.SIGTERM)
         _, errors = first.communicate(timeout=60)
         self.assertEqual((first.returncode, errors), (1, "tools/study: stopped by a signal; the same command goes on with it\n"))
+        state = self.folder / "out/speed=10,spacing=1e-3/state.json"
+        before = json.loads(state.read_text())["seconds"]
+        self.assertGreater(before, 0.5)  # it was let run so long
         status, out, errors = self.study("bar.study", "out", "--jobs", "2", **programs)
+        self.assertGreater(json.loads(state.read_text())["seconds"], before)  # of both parts
         self.assertEqual((self.folder / "out/went").read_text(), "went on\n")
         self.assertEqual((status, errors), (1, "tools/study: 1 of 2 runs have failed: see the table\n"))
         self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
