@@ -4,7 +4,7 @@ import math
 
 from . import collect, convergence
 
-NUMBERS = ("order", "limit", "error_bar", "error_bar_percent", "safety_factor")
+NUMBERS = ("order", "limit", "error_bar", "error_bar_percent", "safety_factor", "spread_percent")
 
 
 def rows_of(study, name, kinds, rows, units, theory):
@@ -23,8 +23,14 @@ def row_of_measure(name, kind, measure, values, unit, theory):
     row = {**kind.values, "measure": measure, "unit": unit}
     for n in range(3):
         row[f"{name}_{n + 1}"], row[f"value_{n + 1}"] = pairs[n] if n < len(pairs) else (None, None)
-    numbers = (found.order, found.limit, found.bar, found.percent(known[0]) if known else None, found.safety)
+    numbers = (found.order, found.limit, found.bar, found.percent(known[0]) if known else None, found.safety,
+               spread(known))
     return {**row, **dict(zip(NUMBERS, numbers)), "finding": found.finding}
+
+
+def spread(values):
+    """Of the values on the grids, in % of the finest grid's."""
+    return 100 * (max(values) - min(values)) / abs(values[0]) if len(values) > 1 and values[0] != 0 else None
 
 
 def write(path, rows):
@@ -51,13 +57,23 @@ def text(name, kinds, rows, theory):
 
 
 def table(rows):
-    lines = ["| measure | coarse to fine | order | limit | error bar |", "|---|---|---|---|---|"]
-    for row in rows:
-        values = [f"{row[f'value_{n}']:.5g}" for n in (3, 2, 1) if row[f"value_{n}"] is not None]
-        bar = "-" if row["error_bar"] is None else f"± {row['error_bar']:.2g}"
-        bar += "" if row["error_bar_percent"] is None else f" ({row['error_bar_percent']:.2g} %)"
-        order = f"{row['order']:.2f}" if row["order"] is not None else row["finding"]
-        limit = "-" if row["limit"] is None else f"{row['limit']:.5g}"
+    lines = ["| measure | coarse to fine | spread | order | limit | error bar |", "|---|---|---|---|---|---|"]
+    for row in (row for row in rows if row["value_2"] is not None):
         measure = row["measure"] + (f", {row['unit']}" if row["unit"] else "")
-        lines.append(f"| {measure} | {', '.join(values) or '-'} | {order} | {limit} | {bar} |")
+        values = ", ".join(f"{row[f'value_{n}']:.5g}" for n in (3, 2, 1) if row[f"value_{n}"] is not None)
+        order = f"{row['order']:.2f}" if row["order"] is not None else row["finding"]
+        bar = "-" if row["error_bar"] is None else f"± {row['error_bar']:.2g}"
+        bar += "" if row["error_bar_percent"] is None else f" ({short(row['error_bar_percent'], ' %')})"
+        lines.append(f"| {measure} | {values} | {short(row['spread_percent'], ' %')} | {order} | {shown(row['limit'])} | {bar} |")
+    missing = [row["measure"] for row in rows if row["value_2"] is None]
+    if missing:
+        lines += ["", f"No value on two grids (what tools/curve says of it lies beside each run): {', '.join(missing)}."]
     return "\n".join(lines)
+
+
+def short(value, unit):
+    return "-" if value is None else f"{float(f'{value:.2g}'):g}{unit}"
+
+
+def shown(value):
+    return "-" if value is None else f"{value:.5g}"

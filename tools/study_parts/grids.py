@@ -189,10 +189,14 @@ def plan_of(name, kinds, programs, ranks):
         for size, case in reversed(list(zip(kind.sizes, kind.cases))):
             case.cost = (largest / size)**4
             points, steps, seconds = cost.at(size, source.is_equilibrium(case.source))
-            done = case.done()
-            left += [] if done else [seconds]
+            time = duration(seconds)
+            if case.done():
+                facts = collect.facts_of(case)
+                points, steps, time = facts.get("points"), facts.get("steps"), f"done in {duration(case.state().get('seconds'))}"
+            else:
+                left.append(seconds)
             counts = " | ".join("unknown" if n is None else f"{n:,.0f}" for n in (points, steps))
-            lines.append(f"| {plan.name_of(case.values)} | {size:.6g} | {counts} | {'done' if done else duration(seconds)} |")
+            lines.append(f"| {plan.name_of(case.values)} | {size:.6g} | {counts} | {time} |")
     lines.append(f"Predicted from {' and '.join(dict.fromkeys(bases))}; cells grow as h^-3, steps as h^-1, time as h^-4.")
     if left:
         lines.append(f"{len(left)} of {sum(len(kind.cases) for kind in kinds)} left: "

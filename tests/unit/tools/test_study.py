@@ -189,14 +189,14 @@ class Studies(InFolder):
         self.assertAlmostEqual(float(row["error_bar"]), 1.25 * 3 * (1e3 * h[0])**1.5, delta=1e-8)
         self.assertEqual((row["safety_factor"], row["finding"]), ("1.25", "converging"))
         row = self.convergence()["Mean_Velocity_Z"]  # -1, 1, 1: of 9, 6 and 4 cells
-        self.assertEqual((row["order"], row["limit"], row["error_bar"]), ("", "", ""))
+        self.assertEqual((row["order"], row["limit"], row["error_bar"], row["spread_percent"]), ("", "", "", "200"))
         self.assertEqual(row["finding"], "none: diverging (no difference between the two coarsest grids)")
         self.assertIn((self.folder / "out/convergence.txt").read_text(), out)
-        self.assertIn("| Mean_Displacement_Z | 5, 3.7056, 2.8889 | 1.50 | 2 | ± 1.1 (38 %) |", out)
+        self.assertIn("| Mean_Displacement_Z | 5, 3.7056, 2.8889 | 73 % | 1.50 | 2 | ± 1.1 (38 %) |", out)
         # Once they are done, the finest one is what is predicted from.
         out = self.study(*words, "--list", **programs)[1]
         self.assertIn("Predicted from speed=10,spacing=0.45e-3, which is done", out)
-        self.assertIn("| speed=10,spacing=1e-3 | 0.001 | unknown | unknown | done |", out)  # this one's log says nothing of them
+        self.assertIn("| speed=10,spacing=1e-3 | 0.001 | unknown | unknown | done in 0 s |", out)  # this one's log says nothing of them
         self.assertNotIn("left", out)
 
     def test_the_recipe_of_a_deck_is_refined_by_a_ratio(self):
