@@ -1,4 +1,5 @@
 """The runs of a study: each in a folder of its own, several at a time, resumed where they were stopped."""
+import copy
 import glob
 import hashlib
 import json
@@ -7,6 +8,7 @@ import re
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 
 from launcher import is_open_mpi, mpirun
@@ -26,6 +28,7 @@ class Case:
         if recipe is not None:
             self.texts[self.recipe] = text
         self.process, self.started = None, 0.0
+        self.cost = 1.0  # beside other runs, for the time that is left
 
     @property
     def log(self):
@@ -73,19 +76,34 @@ class Case:
     def start(self, programs, ranks):
         goes_on = self.prepare()
         with open(self.log, "a") as log:
-            if not goes_on and self.recipe:
-                made = subprocess.run([programs.mesh, self.recipe, self.mesh], cwd=self.folder, stdout=log, stderr=log)
-                if made.returncode != 0:
-                    return self.put_state(over=True, error=last_line(self.log), seconds=0)
-            command = [programs.strut, *(["--continue"] if goes_on else []), self.deck]
-            if ranks > 1:
-                command = [*mpirun(ranks), *command]
+            if not goes_on and not self.make_mesh(programs, log):
+                return self.put_state(over=True, error=last_line(self.log), seconds=0)
             self.started = time.monotonic()
-            environment = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
             # A group of its own: a Ctrl-C at the terminal is handed on by this program alone.
-            self.process = subprocess.Popen(command, cwd=self.folder, stdout=log, stderr=log, env=environment,
-                                            start_new_session=True)
+            self.process = subprocess.Popen(self.command(programs, ranks, *(["--continue"] if goes_on else [])), cwd=self.folder,
+                                            stdout=log, stderr=log, env=environment(), start_new_session=True)
         return None
+
+    def make_mesh(self, programs, log):
+        """Whether that went well."""
+        return not self.recipe or subprocess.run([programs.mesh, self.recipe, self.mesh], cwd=self.folder, stdout=log,
+                                                 stderr=log).returncode == 0
+
+    def command(self, programs, ranks, *options):
+        return [*(mpirun(ranks) if ranks > 1 else []), programs.strut, *options, self.deck]
+
+    def check(self, programs, ranks):
+        """What strut --check says, in a folder that is thrown away."""
+        with tempfile.TemporaryDirectory() as folder:
+            trial = copy.copy(self)
+            trial.folder = os.path.join(folder, "trial")
+            trial.prepare()
+            with open(trial.log, "a+") as log:
+                if trial.make_mesh(programs, log):
+                    subprocess.run(trial.command(programs, ranks, "--check"), cwd=trial.folder, stdout=log, stderr=log,
+                                   env=environment())
+                log.seek(0)
+                return log.read()
 
     def ended(self, stopped=False):
         """Whether the run has come to its end, now or before. One that a signal has ended goes on another time."""
@@ -94,9 +112,9 @@ class Case:
         status = self.process.poll()
         if status is None:
             return False
-        if status != EARLY and status >= 0 and not (stopped and status != 0):
-            self.put_state(over=True, error=last_line(self.log) if status else None,
-                           seconds=time.monotonic() - self.started)
+        over = status != EARLY and status >= 0 and not (stopped and status != 0)
+        self.put_state(over=over, error=last_line(self.log) if over and status else None,
+                       seconds=self.state().get("seconds", 0) + time.monotonic() - self.started)
         self.process = None
         return True
 
@@ -116,6 +134,10 @@ class Case:
             return int(found[-1]) / 100 if found else 0
         except OSError:
             return 0
+
+
+def environment():
+    return {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 def claim(out, path, *written):
@@ -168,7 +190,7 @@ def run_all(cases, jobs, ranks, tell):
             if case.process is not None:
                 case.stop(ranks)
     before = {s: signal.signal(s, stop) for s in (signal.SIGINT, signal.SIGTERM)}
-    began, ahead = time.monotonic(), len(waiting)
+    began, ahead = time.monotonic(), sum(case.cost for case in waiting)
     while (waiting and not stopped) or running:
         while waiting and len(running) < jobs and not stopped:
             case = waiting.pop(0)
@@ -178,8 +200,8 @@ def run_all(cases, jobs, ranks, tell):
                 case.stop(ranks)
         over = [case for case in running if case.ended(stopped)]
         running = [case for case in running if case not in over]
-        finished = ahead - len(waiting) - len(running)
-        tell(over, running, len(cases) - len(waiting) - len(running), left(began, finished, ahead, running))
+        to_do = sum(case.cost for case in waiting) + sum(case.cost * (1 - case.part()) for case in running)
+        tell(over, running, len(cases) - len(waiting) - len(running), left(began, ahead, to_do))
         if not over:
             time.sleep(0.2)
     for number, handler in before.items():
@@ -187,7 +209,13 @@ def run_all(cases, jobs, ranks, tell):
     return not stopped
 
 
-def left(began, finished, ahead, running):
+def left(began, ahead, to_do):
     """Seconds that are left, by what has been done since the start; None where that is next to nothing."""
-    done = finished + sum(case.part() for case in running)
-    return (time.monotonic() - began) / done * (ahead - done) if done > 0.02 else None
+    done = ahead - to_do
+    return (time.monotonic() - began) / done * to_do if done > 0.02 else None
+
+
+def duration(seconds):
+    if seconds is None:
+        return "unknown"
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"

@@ -34,7 +34,8 @@ class Study:
         return [{k: v for part in parts for k, v in part.items()} for parts in itertools.product(*lines)]
 
 
-def read(path):
+def read(path, converge=None):
+    """Of a file. With `converge` nothing has to vary: the recipe's spacing may, and something is read off the runs."""
     study = Study(path)
     try:
         with open(path) as file:
@@ -44,8 +45,10 @@ def read(path):
     for number, line in enumerate(lines, 1):
         if line:
             take(study, f"{path}, line {number}", *(part.strip() for part in line.partition("=")[::2]))
-    if not study.deck or not study.vary:
+    if not study.deck or not (study.vary or converge):
         fail(f"{path}: expected a line 'deck = …' and at least one 'vary NAME = …'")
+    if converge and study.curve is None and not study.collect:
+        fail(f"{path}: expected a line 'curve =' or 'collect = …': nothing is read off the runs that could converge")
     study.deck = os.path.join(os.path.dirname(path), study.deck)
     return study
 

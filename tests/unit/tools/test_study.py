@@ -1,7 +1,11 @@
 #!/usr/bin/python3
-"""tools/study: whole studies of bars in free flight, whose outcome is known, and of programs that fail or are stopped."""
+"""tools/study: whole studies of bars in free flight, whose outcome is known, and of programs that fail or are stopped; orders of
+convergence of power laws that are known."""
 import csv
+import json
+import math
 import os
+import re
 import signal
 import subprocess
 import time
@@ -9,9 +13,9 @@ import unittest
 
 from tool_test import TOOLS, InFolder
 
-from decks import Deck
+from decks import Deck, Recipe
 from strut_tools import history_of
-from study_parts import names, plan
+from study_parts import convergence, grids, names, plan
 
 DECK = """<ParameterList>
   <ParameterList name="Discretization"><Parameter name="Type" type="string" value="Exodus"/>
@@ -61,6 +65,21 @@ if [ "$1" = --continue ]; then echo went on >> ../went; exit 0; fi
 if grep -q 'value="-20"' $deck; then echo "deck.xml: error: it was expected" >&2; exit 1; fi
 trap 'touch bar.restart; exit 3' TERM
 while :; do sleep 0.1; done
+"""
+
+# Stands for strut: what it writes is 2 + 3 h^1.5 with the spacing of the box of 4 x 4 x 8 mm in mm, and goes up and down with h.
+GRIDS = """#!/usr/bin/python3
+import re, sys
+h = float(re.search(r"spacing *= *([^ #\\n]+)", open("bar.recipe").read())[1])
+if "--check" in sys.argv:
+    print("1,000 points, 5 bonds\\ncritical time step 1 s at the start; about 200 steps of 1 s (more)")
+    print("estimated time 1 min 1.5 s to 2 min 3 s (0.1 s a step)")
+else:
+    n, m = int(4e-3 / h + 0.5), int(8e-3 / h + 0.5)
+    h = (128 / (n * n * m)) ** (1 / 3)
+    with open("bar.csv", "w") as file:
+        print("Time,Mean_Displacement_Z,Mean_Velocity_Z", file=file)
+        print(f"0,{2 + 3 * h**1.5!r},{(-1) ** n}", file=file)
 """
 
 
@@ -125,7 +144,11 @@ class Studies(InFolder):
         first.send_signal(signal.SIGTERM)
         _, errors = first.communicate(timeout=60)
         self.assertEqual((first.returncode, errors), (1, "tools/study: stopped by a signal; the same command goes on with it\n"))
+        state = self.folder / "out/speed=10,spacing=1e-3/state.json"
+        before = json.loads(state.read_text())["seconds"]
+        self.assertGreater(before, 0.5)  # it was let run so long
         status, out, errors = self.study("bar.study", "out", "--jobs", "2", **programs)
+        self.assertGreater(json.loads(state.read_text())["seconds"], before)  # of both parts
         self.assertEqual((self.folder / "out/went").read_text(), "went on\n")
         self.assertEqual((status, errors), (1, "tools/study: 1 of 2 runs have failed: see the table\n"))
         self.assertEqual([(r["Mean_Velocity_Z"], r["error"]) for r in self.rows()],
@@ -139,6 +162,76 @@ class Studies(InFolder):
             (self.folder / name).chmod(0o755)
             found[variable] = str(self.folder / name)
         return found
+
+    def convergence(self, folder="out"):
+        with open(self.folder / folder / "convergence.csv", newline="") as file:
+            return {row["measure"]: row for row in csv.DictReader(file)}
+
+    def test_grids_of_a_study_give_the_order_the_limit_and_the_error_bar_by_the_spacings_that_were_meshed(self):
+        (self.folder / "bar.study").write_text(STUDY.replace("10 20", "10").replace("1e-3 2e-3", "1e-3 0.7e-3 1.3e-3 0.45e-3"))
+        programs = self.programs(GRIDS)
+        words = ["--converge", "spacing", "bar.study", "out"]
+        status, out, errors = self.study(*words, "--list", **programs)
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertFalse((self.folder / "out").exists())  # nothing has begun
+        # From the 123 s of the coarsest grid, of 3 x 3 x 6 cells: 9 x 9 x 18 take 3^4 times as long, 27 times the cells.
+        self.assertIn("| speed=10,spacing=0.45e-3 | 0.000444444 | 27,000 | 600 | 2.8 h |", out)
+        self.assertIn("Predicted from strut --check of the coarsest grid", out)
+        self.assertIn("4 of 4 left: ", out)
+        status, out, errors = self.study(*words, **programs)
+        self.assertEqual((status, errors), (0, ""), out)
+        row = self.convergence()["Mean_Displacement_Z"]
+        h = [(128e-9 / cells) ** (1 / 3) for cells in (9 * 9 * 18, 6 * 6 * 11, 4 * 4 * 8)]
+        for n in range(3):  # nine digits in the table
+            self.assertAlmostEqual(float(row[f"spacing_{n + 1}"]), h[n], delta=1e-12)
+        self.assertAlmostEqual(float(row["order"]), 1.5, delta=1e-8)
+        self.assertAlmostEqual(float(row["limit"]), 2, delta=1e-8)
+        self.assertAlmostEqual(float(row["error_bar"]), 1.25 * 3 * (1e3 * h[0])**1.5, delta=1e-8)
+        self.assertEqual((row["safety_factor"], row["finding"]), ("1.25", "converging"))
+        row = self.convergence()["Mean_Velocity_Z"]  # -1, 1, 1: of 9, 6 and 4 cells
+        self.assertEqual((row["order"], row["limit"], row["error_bar"], row["spread_percent"]), ("", "", "", "200"))
+        self.assertEqual(row["finding"], "none: diverging (no difference between the two coarsest grids)")
+        self.assertIn((self.folder / "out/convergence.txt").read_text(), out)
+        self.assertIn("| Mean_Displacement_Z | 5, 3.7056, 2.8889 | 73 % | 1.50 | 2 | ± 1.1 (38 %) |", out)
+        # Once they are done, the finest one is what is predicted from.
+        out = self.study(*words, "--list", **programs)[1]
+        self.assertIn("Predicted from speed=10,spacing=0.45e-3, which is done", out)
+        self.assertIn("| speed=10,spacing=1e-3 | 0.001 | unknown | unknown | done in 0 s |", out)  # this one's log says nothing of them
+        self.assertNotIn("left", out)
+
+    def test_the_recipe_of_a_deck_is_refined_by_a_ratio(self):
+        programs = self.programs(GRIDS)
+        (self.folder / "bar.xml").write_text(re.sub(r'<Parameter name="Mean_Velocity_[XY].*/>', "", DECK))
+        status, out, errors = self.study("--converge", "spacing", "--ratio", "2", "--grids", "2", "--order", "1.5", "bar.xml", "out", **programs)
+        self.assertEqual((status, errors), (0, ""), out)
+        self.assertEqual([path.name for path in sorted(self.folder.glob("out/spacing*"))], ["spacing=0.0005", "spacing=0.001"])
+        row = self.convergence()["Mean_Displacement_Z"]
+        self.assertAlmostEqual(float(row["error_bar"]), 3 * 3 * 0.5**1.5, delta=1e-8)  # nine digits
+        self.assertEqual((row["order"], row["limit"], row["finding"]), ("", "", "two grids, order 1.5 assumed"))
+        self.assertEqual(self.study("--converge", "spacing", "--ratio", "2", "bar.xml", "out", **programs)[0], 0)  # a third one
+        self.assertAlmostEqual(float(self.convergence()["Mean_Displacement_Z"]["order"]), 1.5, delta=1e-7)
+
+    def test_bodies_are_refined_in_proportion_and_graded_ones_are_refused(self):
+        (self.folder / "bar.recipe").write_text("[body]\nname = foam\nshape = foam\nspacing = 1e-3\n[body]\nname = plate\nspacing = 2e-3\n")
+        study = grids.study_of_deck(str(self.folder / "bar.xml"))
+        grids.refine(study, 2, 3)
+        bodies = [plan.files_of(study, case)[1].bodies() for case in study.cases()]
+        self.assertEqual([[float(body["spacing"]) for body in both] for both in bodies],
+                         [[1e-3, 2e-3], [0.5e-3, 1e-3], [0.25e-3, 0.5e-3]])
+        (self.folder / "bar.recipe").write_text(RECIPE + "grading = 1.1\n")
+        status, _, errors = self.study("--converge", "spacing", "bar.xml", "out")
+        self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+        self.assertIn("the layers of 'bar' are graded", errors)
+
+    @unittest.skipUnless("STRUT_MESH" in os.environ, "STRUT_MESH names no program")
+    def test_the_spacing_as_meshed_is_that_of_the_volume_of_a_cell(self):
+        for lines, volume in (("shape = box\nsize = 4e-3 4.4e-3 8e-3\nspacing = 0.9e-3", 4e-3 * 4.4e-3 * 8e-3),
+                              ("shape = cylinder\nmethod = fitted\nlength = 10e-3\nradius = 2e-3\nspacing = 0.57e-3", math.pi * 4e-6 * 10e-3)):
+            path = self.folder / "one.recipe"
+            path.write_text(lines + "\n")
+            out = subprocess.run([os.environ["STRUT_MESH"], path, self.folder / "one.g"], capture_output=True, text=True, check=True).stdout
+            points = int(re.search(r"([\d,]+) points", out)[1].replace(",", ""))
+            self.assertAlmostEqual(grids.spacing_of(Recipe(str(path))), (volume / points) ** (1 / 3), delta=1e-15)  # round-off
 
     def test_results_that_lie_beside_the_deck_stay_as_they_are(self):
         mine = {"bar.csv": "Time,Mean_Velocity_Z\n0,7\n", "bar.e": "mine", "bar.restart": "mine", "bar.g": "mine"}
@@ -231,6 +324,25 @@ class Studies(InFolder):
         self.assertIn("curve: --force: there is no column 'Reaction_Z(top)'", error("collect", "curve = --force Reaction_Z(top)\ncollect"))
         self.assertIn("nobar.xml cannot be read", error("bar.xml", "nobar.xml"))
 
+    def test_errors_of_converge_are_one_line_that_helps(self):
+        def error(*words):
+            status, _, errors = self.study(*words, "out", "--list", **self.programs(GRIDS))
+            self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+            return errors
+        self.assertIn("the study does not vary 'spacin' (did you mean 'spacing'?)", error("--converge", "spacin", "bar.study"))
+        self.assertIn("bar.study varies spacing itself: leave out --ratio", error("--converge", "spacing", "--ratio", "2", "bar.study"))
+        self.assertIn("--order needs --converge", error("--order", "2", "bar.study"))
+        self.assertIn("--grids: expected 2 or 3", error("--converge", "spacing", "--grids", "4", "bar.xml"))
+        (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3 0.99e-3"))
+        self.assertIn("spacing = 0.99e-3 and 1e-3 are one grid, of whole numbers of cells of 0.001 m", error("--converge", "spacing", "bar.study"))
+        (self.folder / "bar.study").write_text(STUDY.replace("1e-3 2e-3", "1e-3"))
+        self.assertIn("spacing has one value: expected two or three", error("--converge", "spacing", "bar.study"))
+        (self.folder / "bar.study").write_text(STUDY.split("collect")[0])
+        self.assertIn("nothing is read off the runs that could converge", error("--converge", "spacing", "bar.study"))
+        (self.folder / "bar.study").write_text(STUDY)
+        (self.folder / "bar.recipe").unlink()
+        self.assertIn("its mesh has no recipe beside it whose spacing could be refined", error("--converge", "spacing", "bar.xml"))
+
     def test_values_go_together_or_in_all_combinations(self):
         study = plan.Study("here")
         plan.take_vary(study, "here", ["a", "b"], "one word, | two words, 6")
@@ -238,6 +350,45 @@ class Studies(InFolder):
         self.assertEqual(study.cases(), [{"a": "one word", "b": "", "c": "1"}, {"a": "one word", "b": "", "c": "2"},
                                          {"a": "two words", "b": "6", "c": "1"}, {"a": "two words", "b": "6", "c": "2"}])
         self.assertEqual(plan.filled("{a} {c} {2^3*c}", study.cases()[3], "here"), "two words 2 16")
+
+
+class Convergence(unittest.TestCase):
+    """Grids, the finest first; the power law is f = 7 - 2 h^p."""
+
+    def test_power_laws_give_their_order_limit_and_error_bar_by_any_ratios(self):
+        for sizes in ((1, 2, 4), (1, 1.3, 1.7), (1, 1.17, 1.4), (0.5, 0.6, 1.5), (1, 3, 3.5)):
+            for order in (0.5 + 1e-6, 0.8, 1, 1.5, 2, 2.4):
+                values = [7 - 2 * h**order for h in sizes]
+                # Round-off of values of up to 40 in differences of 0.1 and more: 40/0.1 times 2e-16, over ln of the ratio, 0.15.
+                self.assertAlmostEqual(convergence.observed_order(sizes, values), order, delta=1e-12)
+                found = convergence.of_grids(sizes, values, 1)
+                self.assertEqual((found.grids, found.finding, found.safety), (3, "converging", 1.25))
+                self.assertAlmostEqual(found.limit, 7, delta=1e-10)  # the order's, over the same differences
+                self.assertAlmostEqual(found.bar, 1.25 * 2 * sizes[0]**order, delta=1e-10)
+                self.assertAlmostEqual(found.percent(values[0]), 100 * found.bar / abs(values[0]), delta=1e-12)
+
+    def test_the_finest_three_of_more_grids_count(self):
+        values = [7 - 2 * h for h in (1, 2, 3)]
+        self.assertAlmostEqual(convergence.of_grids((1, 2, 3, 4), [*values, 1e9], 1).limit, 7, delta=1e-12)
+
+    def test_where_there_is_no_order_no_number_is_told(self):
+        for values, finding in (((1, 2, 1.5), "none: oscillating"),
+                                ((1, 2, 2.9), "none: diverging"),  # coarser grids differ less
+                                ((1, 2, 3), "none: diverging"),  # of h in equal ratios: the logarithm, order 0
+                                ((1, 2, 3.1), "none: out of the asymptotic range (an order of 0.14, expected 0.5 to 2.5)"),
+                                ((1, 2, 10), "none: out of the asymptotic range (an order of 3, expected 0.5 to 2.5)"),
+                                ((1, 1, 2), "none: out of the asymptotic range (no difference between the two finest grids)"),
+                                ((1, 2, 2), "none: diverging (no difference between the two coarsest grids)"),
+                                ((3, 3, 3), "none: no difference between the grids")):
+            self.assertEqual(convergence.of_grids((1, 2, 4), values, 1), convergence.Found(3, finding))
+        self.assertEqual(convergence.of_grids((1,), (5,), 1), convergence.Found(1, "none: no value on two grids"))
+        # A scheme of the third order, told so, may show it.
+        self.assertAlmostEqual(convergence.of_grids((1, 2, 4), (1, 2, 10), 3).order, 3, delta=1e-12)
+
+    def test_two_grids_have_the_theoretical_order_and_a_factor_of_three(self):
+        found = convergence.of_grids((1, 1.5), (10, 11), 2)
+        self.assertEqual((found.order, found.limit, found.safety, found.finding), (None, None, 3, "two grids, order 2 assumed"))
+        self.assertAlmostEqual(found.bar, 3 / (1.5**2 - 1), delta=1e-14)
 
 
 if __name__ == "__main__":
