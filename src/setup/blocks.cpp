@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "mechanics/expected_error.hpp"
 #include "mechanics/thin_members.hpp"
 
 namespace strut {
@@ -139,9 +140,9 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 namespace {
 
 // Of ordinary points.
-std::string stiffness_of_thin(const Body& body, double horizon, double thickness) {
+std::string stiffness_of_thin(Influence influence, double horizon, double thickness) {
   constexpr double worth_saying = 0.1;
-  const double found = tension_stiffness_found(body.influence, horizon, thickness);
+  const double found = tension_stiffness_found(influence, horizon, thickness);
   if (std::abs(found - 1) < worth_saying) return "";
   std::ostringstream text;
   text.precision(2);
@@ -151,19 +152,37 @@ std::string stiffness_of_thin(const Body& body, double horizon, double thickness
   return text.str();
 }
 
-// Of correspondence and quadratic correspondence.
-std::string bending_of_thin(Formulation formulation, double horizon, double thickness) {
+// Of correspondence.
+std::string bending_of_thin(double horizon, double thickness) {
   constexpr double worth_saying = 0.9;
-  const double kept = bending_stiffness_kept(formulation, horizon, thickness);
+  const double kept = bending_stiffness_kept(horizon, thickness);
   if (kept >= worth_saying) return "";
   std::ostringstream text;
   text.precision(2);
-  text << "so thin they keep about " << 100 * kept << " % of their bending stiffness";
-  if (formulation == Formulation::correspondence) {
-    text << ", by Formulation 'Quadratic Correspondence' some "
-         << 100 * bending_stiffness_kept(Formulation::quadratic, horizon, thickness) << " %";
-  }
+  text << "so thin they keep about " << 100 * kept << " % of their bending stiffness; by Formulation 'Quadratic "
+       << "Correspondence' expect " << expected_error_text(thickness, "");
   return text.str();
+}
+
+// Of quadratic correspondence.
+std::string resolution_of_thin(const materials::AnyLaw& law, double thickness) {
+  constexpr double worth_saying = 0.05;
+  if (!(thickness > 0) || expected_error(thickness).stiffness < worth_saying) return "";
+  const bool flows = std::visit([]<class L>(const L&) { return materials::tells_flow<L>; }, law);
+  return "expect " + expected_error_text(thickness, flows ? "in the plateau" : "") +
+         "; tools/study --converge spacing measures it (docs/resolution.md)";
+}
+
+std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness) {
+  switch (block.material.formulation) {
+    case Formulation::ordinary:
+      return stiffness_of_thin(influence, horizon, thickness);
+    case Formulation::correspondence:
+      return bending_of_thin(horizon, thickness);
+    case Formulation::quadratic:
+      return resolution_of_thin(block.material.law, thickness);
+  }
+  return "";
 }
 
 }  // namespace
@@ -175,9 +194,7 @@ std::string thin_members(const Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const double spacing = body.domain.blocks[b].spacing;
     const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
-    const Formulation formulation = body.blocks[b].material.formulation;
-    const std::string found = formulation == Formulation::ordinary ? stiffness_of_thin(body, horizon, all[b])
-                                                                   : bending_of_thin(formulation, horizon, all[b]);
+    const std::string found = told_of_thin(body.blocks[b], body.influence, horizon, all[b]);
     if (found.empty()) continue;
     text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
          << found << "\n";

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "mesh/cells.hpp"
+#include "mesh/resolution.hpp"
 #include "mesh/voxels.hpp"
 
 namespace strut::mesh {
@@ -78,7 +79,7 @@ io::Mesh gathered_mesh(const Body& body, const Struts& struts, const VoxelGrid& 
   const Gathering gathering{body.cells, body.smallest_cell};
   const Cells cells = gathered(struts.voxels, {}, grid, gathering);
   summary += summary_of(cells, gathering);
-  summary += "  struts " + number(2 * struts.radius / std::cbrt(cells.grid.spacing().prod())) + " cells thick\n";
+  summary += resolution_of("struts", 2 * struts.radius / std::cbrt(cells.grid.spacing().prod()));
   return cell_mesh(cells);
 }
 
