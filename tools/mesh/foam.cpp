@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/errors.hpp"
+#include "mechanics/expected_error.hpp"
 #include "mesh/cells.hpp"
 #include "mesh/resolution.hpp"
 #include "mesh/voxels.hpp"
@@ -67,8 +68,8 @@ std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& 
                 h[1], h[2], body.spacing);
   if (body.cells > 0 || thickness >= thin * body.spacing) return text;
   return std::string(text) +
-         "  note: struts so thin are stairs of whole voxels, which their stiffness shows; 'cells = 6' draws them "
-         "finer\n";
+         "  note: struts so thin are stairs of whole voxels; by 'cells = 6' errors of their stiffness are some " +
+         std::to_string(times_by_stairs) + " times smaller\n";
 }
 
 // As it is drawn: in voxels, where these are gathered in cells.
