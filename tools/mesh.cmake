@@ -8,8 +8,9 @@ strut_common_headers(strut_foam)
 # The same seed gives the same foam on any machine, with fused multiply-add or without.
 target_compile_options(strut_foam PRIVATE -ffp-contract=off)
 
-add_library(strut_recipe STATIC mesh/recipe.cpp mesh/section.cpp mesh/layers.cpp mesh/body.cpp mesh/foam.cpp mesh/arrays.cpp)
+add_library(strut_recipe STATIC mesh/recipe.cpp mesh/section.cpp mesh/layers.cpp mesh/body.cpp mesh/foam.cpp mesh/resolution.cpp mesh/arrays.cpp)
 target_link_libraries(strut_recipe PUBLIC strut_foam)
+target_include_directories(strut_recipe PRIVATE ${CMAKE_BINARY_DIR}/rooms/mechanics)  # a table of it, in a header alone
 strut_common_headers(strut_recipe)
 
 add_executable(strut-mesh mesh.cpp)

@@ -122,11 +122,8 @@ std::vector<double> thicknesses(const Domain& domain) {
   return thicknesses;
 }
 
-double bending_stiffness_kept(Formulation formulation, double horizon, double thickness) {
-  if (!(thickness > 0) || formulation == Formulation::ordinary) return 1;
-  if (formulation == Formulation::quadratic) {
-    return interpolated({{2, 0.87}, {3, 0.94}, {4, 0.945}, {6, 0.97}}, thickness);
-  }
+double bending_stiffness_kept(double horizon, double thickness) {
+  if (!(thickness > 0)) return 1;
   if (horizon < 2.4) return interpolated({{2, 0.08}, {3, 0.26}, {4, 0.51}, {6, 0.74}}, thickness);
   return interpolated({{2, 0.08}, {3, 0.19}, {4, 0.31}, {6, 0.51}}, thickness);
 }

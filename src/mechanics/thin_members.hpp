@@ -10,10 +10,10 @@ namespace strut {
 // by what is missing of the material around points. What blocks of one body have in common is no surface.
 std::vector<double> thicknesses(const Domain& domain);
 
-// The share of the bending stiffness that struts so many spacings thick keep, by tests/reference/bench_thin_members
-// (elements; mean gradient at a horizon of 1.75 spacings and of 3; cells that know what is in them). 1 where nothing is
-// known or nothing is lost.
-double bending_stiffness_kept(Formulation formulation, double horizon, double thickness);
+// The share of the bending stiffness that struts so many spacings thick keep by correspondence, by
+// tests/reference/bench_thin_members (elements; mean gradient at a horizon of 1.75 spacings and of 3). 1 where nothing
+// is known or nothing is lost. Quadratic correspondence: expected_error.hpp.
+double bending_stiffness_kept(double horizon, double thickness);
 
 // Young's modulus of bars so many spacings thick of ordinary points, in that of the material, as it was found; between
 // what was measured, in between. Horizon in spacings. 1 where the members are thicker than what was measured.

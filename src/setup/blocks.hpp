@@ -28,8 +28,8 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 
-// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness or, of
-// ordinary points, are off by a tenth in tension.
+// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness, of
+// ordinary points are off by a tenth in tension, or by quadratic correspondence may be off by a twentieth.
 std::string thin_members(const Body& body);
 
 // A line for each block whose points fail without softening, as its fracture energy is too small for its spacing.

@@ -136,7 +136,7 @@ void cylinders(int most, const std::vector<Method>& methods) {
   for (const Method& method : methods) {
     for (const Cells cells : {Cells::whole, Cells::cut}) {
       if (method.only_whole_elements && cells == Cells::cut) continue;
-      for (const int across : {3, 4, 6}) {
+      for (const int across : {2, 3, 4, 6}) {
         if (across <= most) cylinder_row(method, cells, across);
       }
     }

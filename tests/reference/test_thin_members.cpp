@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "../verification/lattice.hpp"
 #include "base/errors.hpp"
 #include "cells.hpp"
 #include "frequencies.hpp"
+#include "mechanics/expected_error.hpp"
 #include "mechanics/thin_members.hpp"
 #include "schemes.hpp"
 #include "thin_members.hpp"
@@ -232,23 +234,13 @@ TEST(Vibration, ComesNearTheExactOneWithTheSpacing) {
   for (int m = 0; m < 6; ++m) EXPECT_LT(fine[m], 0.6 * coarse[m]) << "mode " << m;
 }
 
-// What users are told: the share of the bending stiffness of prisms at elements, and of round struts of cut cells (the
-// mean over directions; six of them scatter by 3 %).
+// What users are told: the share of the bending stiffness of prisms at elements.
 TEST(BendingStiffnessKept, IsWhatIsMeasured) {
-  const auto kept = [](const PointCloud& cloud, const std::string& scheme, const auto& exact) {
-    Body body = body_of(cloud, scheme);
-    return std::pow(vibration_of(by_mass(stiffness_matrix(body), masses_of(body)), 6).frequencies[0] / exact[0], 2);
-  };
   for (const int across : {3, 4, 6}) {
-    const double found = kept(square_prism(across, PointsAt::elements), "mean gradient", square_frequencies);
-    EXPECT_NEAR(bending_stiffness_kept(Formulation::correspondence, 1.75, across), found, 0.01) << across;
-  }
-  for (const int across : {3, 4}) {
-    double mean = 0;
-    for (const Placement& placement : random_placements(6)) {
-      mean += kept(round_cylinder(across, placement, Cells::cut), "quadratic", round_frequencies) / 6;
-    }
-    EXPECT_NEAR(bending_stiffness_kept(Formulation::quadratic, 1.75, across), mean, 0.03) << across;
+    Body body = body_of(square_prism(across, PointsAt::elements), "mean gradient");
+    const Vibration found = vibration_of(by_mass(stiffness_matrix(body), masses_of(body)), 6);
+    const double kept = std::pow(found.frequencies[0] / square_frequencies[0], 2);
+    EXPECT_NEAR(bending_stiffness_kept(1.75, across), kept, 0.01) << across;
   }
 }
 
@@ -275,18 +267,43 @@ TEST(QuadraticCorrespondence, HasLittleForceAtFreeSurfacesOfUniformStress) {
 }
 
 // Errors of the stiffness of the first six modes of round struts in any direction, of cells that know their moments.
-// The mean sizes over twenty struts are 5.6, 4.4 % with three and four cells across (bench_thin_members); over the
-// first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
-TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStruts) {
-  for (const auto& [across, limit] : {std::pair(3, 0.09), {4, 0.07}}) {
-    double sum = 0;
-    for (const Placement& placement : random_placements(6)) {
+// The mean sizes over twenty struts are 10.3, 5.6, 4.4, 2.4 % with 2, 3, 4, 6 cells across (bench_thin_members); over
+// the first six of them they scatter by a tenth of that. No zero-energy mode beside the rigid motions.
+//   The largest is what users are told, which is not twice too much. Of torsion a frequency tells no stiffness: the
+//   mass
+// of a cell is in its middle, the moment of inertia short by 1/n².
+TEST(QuadraticCorrespondence, KeepsTheStiffnessOfThinStrutsAsIsTold) {
+  constexpr int torsion = 2;
+  for (const auto& [across, struts, limit] : {std::tuple(2, 6, 0.13), {3, 6, 0.09}, {4, 6, 0.07}, {6, 2, 0.04}}) {
+    double sum = 0, largest = 0;
+    for (const Placement& placement : random_placements(struts)) {
       Body body = body_of(round_cylinder(across, placement, Cells::cut), "quadratic");
       const Vibration found = vibration_of(by_mass(stiffness_matrix(body), masses_of(body)), 6);
       EXPECT_EQ(found.zeros, 6);
-      for (int m = 0; m < 6; ++m) sum += std::abs(std::pow(found.frequencies[m] / round_frequencies[m], 2) - 1) / 36;
+      for (int m = 0; m < 6; ++m) {
+        const double error = std::abs(std::pow(found.frequencies[m] / round_frequencies[m], 2) - 1);
+        sum += error / (6 * struts);
+        if (m != torsion) largest = std::max(largest, error);
+      }
     }
     EXPECT_LT(sum, limit) << across;
+    EXPECT_LT(largest, expected_error(across).stiffness) << across;
+    EXPECT_GT(2 * largest, expected_error(across).stiffness) << across;
+  }
+}
+
+// The largest of the same errors of cylinders of whole cells: 40 and 33 % over twenty with 3 and 4 cells across.
+TEST(QuadraticCorrespondence, LosesTheStiffnessOfStairsAsIsTold) {
+  for (const int across : {3, 4}) {
+    double largest = 0;
+    for (const Placement& placement : random_placements(6)) {
+      Body body = body_of(round_cylinder(across, placement, Cells::whole), "quadratic");
+      const Vibration found = vibration_of(by_mass(stiffness_matrix(body), masses_of(body)), 6);
+      for (int m = 0; m < 6; ++m)
+        largest = std::max(largest, std::abs(std::pow(found.frequencies[m] / round_frequencies[m], 2) - 1));
+    }
+    EXPECT_LT(largest, times_by_stairs * expected_error(across).stiffness) << across;
+    EXPECT_GT(2 * largest, times_by_stairs * expected_error(across).stiffness) << across;
   }
 }
 

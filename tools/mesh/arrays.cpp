@@ -13,6 +13,7 @@
 #include "base/errors.hpp"
 #include "mesh/body.hpp"
 #include "mesh/cells.hpp"
+#include "mesh/resolution.hpp"
 
 namespace strut::mesh {
 
@@ -50,6 +51,7 @@ struct VoxelHeader {
   Vector origin;
   Gathering gathering;
   bool grey = false;
+  double thickness = 0;  // of members, voxels; 0: not told
 };
 
 class ArraysReader {
@@ -138,10 +140,10 @@ class ArraysReader {
     if (header.size() == 5 && header[0] == "block") return read_block(header);
     if (header.size() == 3 && header[0] == "set") return read_set(header);
     if (header.size() == 3 && header[0] == "cells") return read_cells(header);
-    if (header.size() == 9 && header[0] == "voxels") return read_voxels(header);
+    if ((header.size() == 9 || header.size() == 10) && header[0] == "voxels") return read_voxels(header);
     expected(
-        "'block NAME TYPE COUNT NPE', 'cells NAME COUNT', 'voxels NAME COUNT NX NY NZ N SMALLEST KIND', 'set NAME "
-        "COUNT' or 'end'");
+        "'block NAME TYPE COUNT NPE', 'cells NAME COUNT', 'voxels NAME COUNT NX NY NZ N SMALLEST KIND "
+        "[THICKNESS]', 'set NAME COUNT' or 'end'");
   }
 
   // Of a block of hexahedra that has been read and has none.
@@ -200,13 +202,26 @@ class ArraysReader {
     if (header[8] != "solid" && header[8] != "grey")
       fail(voxels.user + " are '" + header[8] + "', expected solid or grey");
     voxels.grey = header[8] == "grey";
+    if (header.size() == 10) voxels.thickness = thickness(header[9], voxels.user);
     return voxels;
   }
 
-  double fraction(const std::string& word, const std::string& user) const {
-    double value = -1;
+  // NaN: the word is no number.
+  static double number(const std::string& word) {
+    double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc() && end == word.data() + word.size() && value >= 0 && value <= 0.9) return value;
+    return error == std::errc() && end == word.data() + word.size() ? value : std::nan("");
+  }
+
+  double thickness(const std::string& word, const std::string& user) const {
+    const double value = number(word);
+    if (value > 0 && std::isfinite(value)) return value;
+    fail(user + ": the thickness is '" + word + "', expected voxels > 0");
+  }
+
+  double fraction(const std::string& word, const std::string& user) const {
+    const double value = number(word);
+    if (value >= 0 && value <= 0.9) return value;
     fail(user + ": the smallest cell is '" + word + "', expected a number from 0 to 0.9");
   }
 
@@ -260,6 +275,8 @@ class ArraysReader {
     const Cells cells = gathered(solid, read_fills(voxels), voxels.grid, voxels.gathering);
     if (cells.parts.empty()) fail(voxels.user + ": no cell is left of them");
     summary_ += summary_of(cells, voxels.gathering);
+    if (voxels.thickness > 0)
+      summary_ += resolution_of("members on the average", voxels.thickness / voxels.gathering.factor);
     io::Mesh body = cell_mesh(cells);
     shift(body, voxels.origin);
     give_names(body, voxels.name);

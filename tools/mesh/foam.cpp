@@ -5,7 +5,9 @@
 #include <cstdio>
 
 #include "base/errors.hpp"
+#include "mechanics/expected_error.hpp"
 #include "mesh/cells.hpp"
+#include "mesh/resolution.hpp"
 #include "mesh/voxels.hpp"
 
 namespace strut::mesh {
@@ -13,7 +15,7 @@ namespace strut::mesh {
 namespace {
 
 constexpr double fewest_voxels_in_a_cell = 4;  // across it: fewer cannot show struts and pores
-constexpr double thin = 3;                     // spacings: thinner struts are worth a warning
+constexpr double thin = 8;                     // voxels: thinner struts should be no stairs
 constexpr double too_much = 1.05;              // times the wanted density: the pieces met too late
 
 std::string number(double value) {
@@ -64,8 +66,10 @@ std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& 
                 points / static_cast<double>(grid.count()), body.relative_density, struts.dropped_pieces,
                 struts.dropped_voxels, skeleton.cells, edges, length, thickness / std::cbrt(h.prod()), thickness, h[0],
                 h[1], h[2], body.spacing);
-  if (thickness >= thin * body.spacing) return text;
-  return std::string(text) + "  note: struts are thinner than 3 spacings; a smaller spacing would show their shape\n";
+  if (body.cells > 0 || thickness >= thin * body.spacing) return text;
+  return std::string(text) +
+         "  note: struts so thin are stairs of whole voxels; by 'cells = 6' errors of their stiffness are some " +
+         std::to_string(times_by_stairs) + " times smaller\n";
 }
 
 // As it is drawn: in voxels, where these are gathered in cells.
@@ -78,7 +82,7 @@ io::Mesh gathered_mesh(const Body& body, const Struts& struts, const VoxelGrid& 
   const Gathering gathering{body.cells, body.smallest_cell};
   const Cells cells = gathered(struts.voxels, {}, grid, gathering);
   summary += summary_of(cells, gathering);
-  summary += "  struts " + number(2 * struts.radius / std::cbrt(cells.grid.spacing().prod())) + " cells thick\n";
+  summary += resolution_of("struts", 2 * struts.radius / std::cbrt(cells.grid.spacing().prod()));
   return cell_mesh(cells);
 }
 

@@ -57,10 +57,11 @@ def hexahedra(solid, cell, origin, block):
     return coordinates(places, cell, origin, 0), (block, "HEX8", elements, None), places, solid.shape
 
 
-def gathered(solid, cell, origin, factor, smallest, block, fills=None):
-    """The stream with which strut-mesh gathers voxels in cells. fills: of each voxel of the box, what of it is solid."""
+def gathered(solid, cell, origin, factor, smallest, block, fills=None, thickness=None):
+    """The stream with which strut-mesh gathers voxels in cells. fills: of each voxel of the box, what of it is solid;
+    thickness: of struts and walls, in voxels."""
     places = np.nonzero(solid)
-    kind = "solid" if fills is None else "grey"
+    kind = ("solid" if fills is None else "grey") + ("" if thickness is None else f" {thickness:.6g}")
     yield (f"strut-mesh arrays 1\nnodes 0\nvoxels {block} {len(places[0])} {' '.join(map(str, solid.shape[::-1]))} "
            f"{factor} {smallest} {kind}\n").encode()
     yield np.array([*cell, *origin]), "<f8"

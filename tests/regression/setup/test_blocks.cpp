@@ -48,5 +48,32 @@ TEST(Blocks, WhoseCracksAreNoiseAreToldOf) {
   EXPECT_NE(warnings_of(breaks).find("WARNING: block 'bar' breaks bonds by Formulation"), std::string::npos);
 }
 
+// A bar of three by three points, 40 long: thin enough to be told, by each formulation in a line of its own; thick ones
+// are not. Metal that cannot flow has no plateau.
+TEST(Blocks, OfThinMembersAreToldOfTheirResolution) {
+  const auto told = [](int across, const std::string& formulation, const std::string& plasticity) {
+    const RunFolder folder(Lattice{.nx = across, .ny = across, .nz = 40});
+    Parts parts;
+    parts.materials = copper(plasticity + key("Formulation", formulation));
+    const std::string text =
+        changed(parts.text(), "Elastic Plastic", plasticity.empty() ? "Elastic" : "Elastic Plastic");
+    return set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
+  };
+  const std::string plastic = key("Yield Stress", "400e6");
+  const std::string flows = told(3, "Quadratic Correspondence", plastic),
+                    elastic = told(3, "Quadratic Correspondence", "");
+  EXPECT_EQ(flows.find("block 'bar': members are "), 0) << flows;
+  EXPECT_NE(flows.find("; expect up to ±1"), std::string::npos) << flows;
+  EXPECT_NE(flows.find(" % in the plateau; tools/study --converge spacing"), std::string::npos) << flows;
+  EXPECT_NE(flows.find("(some 3 times that where whole cells make stairs) and +"), std::string::npos) << flows;
+  EXPECT_EQ(flows.find('\n'), flows.size() - 1) << "one line";
+  EXPECT_NE(elastic.find("whole cells make stairs); tools/study"), std::string::npos) << elastic;
+  EXPECT_NE(told(3, "Correspondence", "")
+                .find("% of their bending stiffness; by Formulation 'Quadratic Correspondence' "
+                      "expect up to ±1"),
+            std::string::npos);
+  EXPECT_EQ(told(10, "Quadratic Correspondence", plastic), "");
+}
+
 }  // namespace
 }  // namespace strut::regression

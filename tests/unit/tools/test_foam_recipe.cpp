@@ -146,7 +146,7 @@ TEST_F(FoamRecipe, SpheresAreTheSamePointsAsHexahedra) {
 TEST_F(FoamRecipe, SaysWhatWasMade) {
   const std::string text = make(cube + "relative_density = 0.1\nirregularity = 0\n").text;
   for (const char* part : {"open-cell foam, irregularity 0", "of 40 x 40 x 40 voxels", "(asked for 0.1)", "cells",
-                           "edges", "spacings = ", "other pieces"}) {
+                           "edges", "spacings = ", "other pieces", "stairs of whole voxels"}) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   }
 }
@@ -158,10 +158,11 @@ TEST_F(FoamRecipe, CellsHoldTheFinerVoxels) {
   const PointCloud voxels = made(fine + recipe);
   const testing::Outcome outcome = make(cube + recipe + "cells = 2\n");
   ASSERT_EQ(outcome.status, 0) << outcome.text;
-  for (const char* part :
-       {"51200 voxels", "40 x 40 x 40 places", "merged into neighbors", "0 kept", "dropped (0 % of the volume)"}) {
+  for (const char* part : {"51200 voxels", "40 x 40 x 40 places", "merged into neighbors", "0 kept",
+                           "dropped (0 % of the volume)", " cells thick: by quadratic correspondence expect up to ±"}) {
     EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
   }
+  EXPECT_EQ(outcome.text.find("stairs"), std::string::npos);
   const io::Mesh mesh = io::read_mesh(path("mesh.g"));
   ASSERT_EQ(mesh.blocks[0].cells.size(), mesh.blocks[0].elements());
   std::size_t small = 0;

@@ -223,6 +223,13 @@ TEST_F(Arrays, VoxelsAreGatheredInCells) {
   ASSERT_EQ(mesh.node_sets.size(), 5u);                                                  // none at zmax
   EXPECT_EQ(mesh.node_sets[0].name, "foam_zmin");
 
+  EXPECT_EQ(outcome.text.find("thick"), std::string::npos);
+
+  stream.header = "voxels foam 32 4 4 3 2 0 solid 6\n";
+  EXPECT_NE(
+      make(stream.text()).text.find("members on the average 3 cells thick: by quadratic correspondence expect up"),
+      std::string::npos);
+
   stream.header = "voxels foam 32 4 4 3 2 0 grey\n";
   stream.fills.assign(32, 0.5);
   ASSERT_EQ(make(stream.text()).status, 0);
@@ -262,6 +269,8 @@ TEST_F(Arrays, WrongVoxels) {
         {"voxels foam 32 4 4 3 17 0.3 solid\n", "17 along an edge of a cell, expected 1 to 16"},
         {"voxels foam 32 4 4 3 2 1 solid\n", "the smallest cell is '1', expected a number from 0 to 0.9"},
         {"voxels foam 32 4 4 3 2 0.3 gray\n", "are 'gray', expected solid or grey"},
+        {"voxels foam 32 4 4 3 2 0.3 solid 0\n", "the thickness is '0', expected voxels > 0"},
+        {"voxels foam 32 4 4 3 2 0.3 solid inf\n", "the thickness is 'inf', expected voxels > 0"},
         {"voxels foam 0 4 4 3 2 0.3 solid\n", "no cell is left"}}) {
     VoxelStream stream;
     stream.header = header;

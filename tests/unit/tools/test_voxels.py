@@ -290,6 +290,13 @@ class Cells(ToolTest):
         np.testing.assert_allclose(hexahedra_volumes(mesh), 27 * 6e-9, rtol=1e-9)
         self.assertEqual(set(mesh.sets), {"foam_xmax", "foam_ymin", "foam_zmin"})
 
+    def test_a_bar_is_told_its_thickness_in_cells_and_the_error_to_expect(self):
+        said, _, _ = self.cells(box((12, 20, 30), (0, 12), (5, 11), (7, 13)), "--cells", 3)
+        self.assertRegex(said["members"], r"^on the average 2 cells thick: .* expect up to ±\d+ % in the stiffness and \+")
+        said, _, _ = self.cells(box((12, 20, 20), (0, 12), (5, 10), (10, 15)), "--cells", 3, "--crop", 0.5, 0.75, 0.25, 0.5, 0, 1)
+        self.assertEqual(said["thickness"], "the box is all solid")
+        self.assertNotIn("members", said)
+
     def test_small_cells_are_kept_where_none_is_too_small(self):
         image = box((8, 12, 8), (0, 8), (0, 9), (0, 8))
         self.assertEqual(len(self.cells(image, "--cells", 4)[2]), 8)  # a quarter of a cell is merged
