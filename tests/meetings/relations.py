@@ -8,7 +8,7 @@ import numpy as np
 
 from compare import SMALL, fields_differ, histories_differ, longest_steps_differ, steps_differ
 from frame import AXES, Frame
-from laws import NotHere
+from laws import NotHere, signs
 from runs import PATIENCE
 from scenes import MOTIONS, TOOLS, written
 from values import Direction, Expr, Num, Place
@@ -69,6 +69,22 @@ class Case:
     def smallest_step(self):
         """Of any point: those that are subcycled take parts of a step."""
         return self.base.history["Step_Size"].min() / substeps(self.base)
+
+    def signs_in_shorter_steps(self):
+        """What a break dissipates is a difference from the work of the mean of the forces at both ends of its step, right to second order in
+        the step, and to nothing above the critical one: it must be gone in steps of an eighth."""
+        if not self.scene.explicit:
+            raise NotHere("nothing breaks in equilibria")
+        dt = min(self.smallest_step(), self.critical_step()) / 8
+        files = written(self.scene.fixed_step(dt))
+        fine = self.runner.run(files, name="fine")
+        if fine.status == 1:
+            raise NotHere("the run ends with an error in shorter steps")
+        return signs(self.scene, fine, files)
+
+    def critical_step(self):
+        told = re.search(r"critical time step ([0-9.e+-]+) s", self.base.log)
+        return float(told[1]) if told else np.inf
 
     def ended_differently(self, other, base=None):
         base = base or self.base
