@@ -98,6 +98,8 @@ class Case:
             raise NotHere("the run ends with an error, the other one with the same")
         if any(wanders(one) for one in (base, other)):
             raise NotHere("a load step takes many iterations: it may find one of several equilibria")
+        if any("points have failed" in line for line in base.warnings):
+            raise NotHere("what failed points have held is in equilibrium anywhere, and a warning says so")
 
     def differ(self, base, base_written, other, other_written, frame, fixed=None, by_blocks=True, tolerance=ROUND_OFF, only=None, energies=True, reactions=True, nudge=True):
         parts = fields_differ(base, other, self.scene, frame, only)
