@@ -112,12 +112,16 @@ class Case:
         if wrong and any("expect it to blow up" in line for line in base.warnings):
             raise NotHere("a fixed step above the critical one makes round-off grow without a bound, and a warning says so")
         if wrong and nudge and all(np.isfinite(part) for part in wrong.values()):
-            for n in range(NUDGES):
-                own = self.own_scatter(self.scene.fixed_step(fixed) if fixed else self.scene, base, n)
-                wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
+            wrong = self.beyond_own_scatter(wrong, self.scene.fixed_step(fixed) if fixed else self.scene, base)
         if wrong:
             name = max(wrong, key=wrong.get)
             return f"{name}: {wrong[name]:.2e}" + (f" ({len(wrong)} of {len(parts)} quantities)" if len(wrong) > 1 else "")
+
+    def beyond_own_scatter(self, wrong, scene, base):
+        for n in range(NUDGES):
+            own = self.own_scatter(scene, base, n)
+            wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
+        return wrong
 
     def own_scatter(self, scene, base, n):
         """By how much a run itself differs where its points are nudged, in one way or another."""
@@ -477,9 +481,7 @@ def half_of_it(case):
     if problem:
         return problem
     if wrong and all(np.isfinite(part) for part in wrong.values()):
-        for n in range(NUDGES):
-            own = case.own_scatter(half, one, n)
-            wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
+        wrong = case.beyond_own_scatter(wrong, half, one)
     if wrong:
         worst = max(wrong, key=wrong.get)
         return f"{worst}: {wrong[worst]:.2e}"
