@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "conditions/crossing.hpp"
@@ -214,6 +215,53 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
                 "steps, or a load too sudden; a smaller Safety Factor follows it";
     warn(turning, negative.str());
   }
+  if (ledger.fracture < -worth_telling * ledger.largest) {
+    std::ostringstream given;
+    given
+        << at(ledger.time) << "Fracture_Energy is negative, " << ledger.fracture
+        << " J: bonds that broke gave energy. Likely causes: a Fixed dt above the critical time step, breaks in steps "
+           "that are too long for them; a smaller Safety Factor or Fixed dt";
+    warn(breaking, given.str());
+  }
+}
+
+namespace {
+
+// Of this rank: the points without any stress by a criterion of their law, and the first of them, or -1.
+std::pair<int, int> failed_points(const Body& body) {
+  int count = 0, first = -1;
+  for (const MaterialBlock& block : body.blocks) {
+    std::visit(
+        [&]<class Law>(const Law&) {
+          if constexpr (requires(typename Law::State state) { state.failed > 0; }) {
+            for (std::size_t k = 0; k < block.points.size(); ++k) {
+              if (!(block.template state_of<Law>(k).failed > 0)) continue;
+              if (++count == 1) first = block.points[k];
+            }
+          }
+        },
+        block.material.law);
+  }
+  return {count, first};
+}
+
+}  // namespace
+
+void Monitor::check_failed(double time) {
+  if (told_[failing]) return;
+  const auto [own, point] = failed_points(body_);
+  const double all = body_.domain.communicator.sum(static_cast<double>(own));
+  if (!(all > 0)) return;
+  std::ostringstream text;
+  if (own > 0) {
+    text << at(time) << all
+         << " points have failed (Failure Strain), each all at once in a load step: " << locate(body_, point)
+         << ". The work of that is not counted, and what nothing else holds is in equilibrium anywhere; expected "
+            "explicit "
+            "steps (Solver > Verlet) where material parts";
+  }
+  const double turn = own > 0 ? 1.0 / (1 + body_.domain.communicator.rank()) : 0;  // of one rank
+  tell_once(failing, of_largest(body_, turn, text.str()));
 }
 
 void Monitor::check_resolution(const Ledger& ledger, bool last) {

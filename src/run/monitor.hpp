@@ -27,6 +27,7 @@ class Monitor {
   void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
   // What the points do not resolve, after a step with diagnostics: told once, and never the end of a run.
   void check_resolution(const Ledger& ledger, bool last);
+  void check_failed(double time);  // points that have lost all stress in an equilibrium: told once
   // What the deck has forgotten or cannot have, at some looks: material that goes through material without contact,
   // and tools (named as in `tools`) between points that are bonded to each other.
   void check_undeclared(double time, const contact::Contact& contact);
@@ -47,6 +48,8 @@ class Monitor {
     stretch,
     undeclared,
     crossing,
+    breaking,
+    failing,
     count
   };
   static constexpr double looks = 200;  // in a run, for bodies inside each other, and for tools between points

@@ -8,7 +8,7 @@ import numpy as np
 
 from compare import SMALL, fields_differ, histories_differ, longest_steps_differ, steps_differ
 from frame import AXES, Frame
-from laws import NotHere
+from laws import NotHere, signs
 from runs import PATIENCE
 from scenes import MOTIONS, TOOLS, written
 from values import Direction, Expr, Num, Place
@@ -19,6 +19,8 @@ ROUND_OFF = 1e-7
 # Beyond, a scene is asked itself: how far a change of all places by 1e-11 of a spacing takes it, which is 1e4 times round-off.
 NUDGE = 1e-11
 NUDGE_OF_EQUILIBRIA = 1e-6  # these are found to 1e-8 of the forces, which is more than round-off
+# Two layers, one family thick, are 1e4 times as soft in one motion as in another: what the forces that are left make of it goes with them.
+FINE = 1e-11
 ENOUGH = 3.0  # times that
 NUDGES = 3  # a body that buckles goes to either side
 # The estimate of the critical step starts from a noise that goes by element numbers and axes. It is right to 1 % where it has converged, and
@@ -68,6 +70,22 @@ class Case:
         """Of any point: those that are subcycled take parts of a step."""
         return self.base.history["Step_Size"].min() / substeps(self.base)
 
+    def signs_in_shorter_steps(self):
+        """What a break dissipates is a difference from the work of the mean of the forces at both ends of its step, right to second order in
+        the step, and to nothing above the critical one: it must be gone in steps of an eighth."""
+        if not self.scene.explicit:
+            raise NotHere("nothing breaks in equilibria")
+        dt = min(self.smallest_step(), self.critical_step()) / 8
+        files = written(self.scene.fixed_step(dt))
+        fine = self.runner.run(files, name="fine")
+        if fine.status == 1:
+            raise NotHere("the run ends with an error in shorter steps")
+        return signs(self.scene, fine, files)
+
+    def critical_step(self):
+        told = re.search(r"critical time step ([0-9.e+-]+) s", self.base.log)
+        return float(told[1]) if told else np.inf
+
     def ended_differently(self, other, base=None):
         base = base or self.base
         if other.status in ("crash", "hang"):
@@ -80,6 +98,8 @@ class Case:
             raise NotHere("the run ends with an error, the other one with the same")
         if any(wanders(one) for one in (base, other)):
             raise NotHere("a load step takes many iterations: it may find one of several equilibria")
+        if any("points have failed" in line for line in base.warnings):
+            raise NotHere("what failed points have held is in equilibrium anywhere, and a warning says so")
 
     def differ(self, base, base_written, other, other_written, frame, fixed=None, by_blocks=True, tolerance=ROUND_OFF, only=None, energies=True, reactions=True, nudge=True):
         parts = fields_differ(base, other, self.scene, frame, only)
@@ -92,12 +112,16 @@ class Case:
         if wrong and any("expect it to blow up" in line for line in base.warnings):
             raise NotHere("a fixed step above the critical one makes round-off grow without a bound, and a warning says so")
         if wrong and nudge and all(np.isfinite(part) for part in wrong.values()):
-            for n in range(NUDGES):
-                own = self.own_scatter(self.scene.fixed_step(fixed) if fixed else self.scene, base, n)
-                wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
+            wrong = self.beyond_own_scatter(wrong, self.scene.fixed_step(fixed) if fixed else self.scene, base)
         if wrong:
             name = max(wrong, key=wrong.get)
             return f"{name}: {wrong[name]:.2e}" + (f" ({len(wrong)} of {len(parts)} quantities)" if len(wrong) > 1 else "")
+
+    def beyond_own_scatter(self, wrong, scene, base):
+        for n in range(NUDGES):
+            own = self.own_scatter(scene, base, n)
+            wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
+        return wrong
 
     def own_scatter(self, scene, base, n):
         """By how much a run itself differs where its points are nudged, in one way or another."""
@@ -259,7 +283,10 @@ def cut_in_blocks(case):
         for n, (a, b) in enumerate(itertools.product(first, second)):
             if a and n > 0 and not (pair["First Block"] == pair["Second Block"] and (a, b) == (two, one)):
                 interactions[f"{name} cut {n}"] = pair | {"First Block": a, "Second Block": b}
-    return case.same(scene=scene, by_blocks=False)
+    problem = case.same(scene=scene, by_blocks=False)
+    if problem and "would have no point" in problem:
+        raise NotHere("all nodes of a part belong to blocks before it, and an error says so")
+    return problem
 
 
 # ---- how it is computed
@@ -310,6 +337,8 @@ def checked(case):
     checked = case.runner.run(case.written, "--check", name="other")
     if checked.status in ("crash", "hang"):
         return checked.status
+    if checked.status == 1 and checked.error == case.base.error:
+        return None  # it makes the first steps, in which the run fails, too
     if checked.status != 0:
         return f"--check finds '{checked.error[:200]}', and the run does not"
     if checked.frames or checked.history:
@@ -411,6 +440,8 @@ def half_of_it(case):
                 raise NotHere("what a half gives to a free tool has a part across the plane")
             if "Axis" in one:  # a cylinder's is in the plane
                 one["Point"] = Place(tuple(0.0 if i == axis else v for i, v in enumerate(one["Point"].at)))
+                if stands_in_the_body(one, scene):  # it stood beside the plane
+                    continue
             for k in list(one):
                 if k.endswith(f" {key}"):
                     del one[k]
@@ -443,25 +474,45 @@ def half_of_it(case):
     half.deck["Node Sets"]["mirror"] = Expr(f"({{{name}}} < {float((first + second) / 2)!r})")
     half.conditions["mirror"] = {"Type": "Symmetry Plane", "Node Set": "mirror", "Point": Place((0.0, 0.0, 0.0)),
                                  "Normal": Direction(tuple(float(i == axis) for i in range(3)))}
-    files, others = written(half), written(whole)
-    one, two = case.runner.run(files, name="half"), case.runner.run(others, name="whole")
+    problem, one, wrong = halves_differ(case, half, whole, axis)
+    if wrong and not scene.explicit:
+        half, whole = with_tolerance(half, FINE), with_tolerance(whole, FINE)
+        problem, one, wrong = halves_differ(case, half, whole, axis)
+    if problem:
+        return problem
+    if wrong and all(np.isfinite(part) for part in wrong.values()):
+        wrong = case.beyond_own_scatter(wrong, half, one)
+    if wrong:
+        worst = max(wrong, key=wrong.get)
+        return f"{worst}: {wrong[worst]:.2e}"
+
+
+def halves_differ(case, half, whole, axis):
+    """What is wrong, the run of the half, and the fields that differ."""
+    one, two = case.runner.run(written(half), name="half"), case.runner.run(written(whole), name="whole")
     if any("contact does not see mirror images" in line for line in one.warnings):
         raise NotHere("contact does not see mirror images, and a warning says so")
     if case.ended_differently(two, one):
-        return case.ended_differently(two, one)
-    kept = two.at[:, axis] > -1e-6 * scene.h
+        return case.ended_differently(two, one), one, {}
+    kept = two.at[:, axis] > -1e-6 * half.h
     two.at = two.at[kept]
     two.frames = [{field: values[kept] for field, values in frame.items()} for frame in two.frames]
     fields = ["Displacement", "Velocity", "Cauchy_Stress", "Jacobian", "Equivalent_Plastic_Strain", "Temperature", "Damage"]
     parts = fields_differ(one, two, half, Frame(), fields)
-    wrong = {name: part for name, part in parts.items() if part > (1e-6 if scene.explicit else 1e-4)}  # ROUND_OFF, of sums over two halves in place of one
-    if wrong and all(np.isfinite(part) for part in wrong.values()):
-        for n in range(NUDGES):
-            own = case.own_scatter(half, one, n)
-            wrong = {name: part for name, part in wrong.items() if part > ENOUGH * own.get(name, 0)}
-    if wrong:
-        worst = max(wrong, key=wrong.get)
-        return f"{worst}: {wrong[worst]:.2e}"
+    # ROUND_OFF, of sums over two halves in place of one
+    return None, one, {name: part for name, part in parts.items() if part > (1e-6 if half.explicit else 1e-4)}
+
+
+def with_tolerance(scene, tolerance):
+    other = scene.copy()
+    other.deck["Solver"]["QuasiStatic"]["Tolerance"] = Num(tolerance, "")
+    return other
+
+
+def stands_in_the_body(cylinder, scene):
+    away = scene.mesh.sites() - np.array(cylinder["Point"].at)
+    along = np.array(cylinder["Axis"].along)
+    return np.linalg.norm(np.cross(away, along / np.linalg.norm(along)), axis=1).min() < cylinder["Radius"].value - 0.5 * scene.h
 
 
 def folded(text, name, at):

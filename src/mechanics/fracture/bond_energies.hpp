@@ -32,9 +32,9 @@ class BondEnergies {
   // have broken. Empty where there is none.
   std::vector<char> take_states(const Body& body, double travel);
 
-  // Calls visit(n, w/w_c, room) over the n neighbors of a cluster: how far (m) any two points have to move apart before
-  // w can be w_c; w_c is the lesser one of the two ends. A bond that is not stretched has w = 0. `places`: of owned
-  // points and ghosts at the time of the states, m.
+  // Calls visit(n, w/w_c, or 0 where the bond holds whatever its w, room) over the n neighbors of a cluster: how far
+  // (m) any two points have to move apart before w can be w_c; w_c is the lesser one of the two ends. A bond that is
+  // not stretched has w = 0. `places`: of owned points and ghosts at the time of the states, m.
   template <class Visit>
   void over(const Body& body, const Cluster& cluster, const std::vector<Vector>& places, const Visit& visit) const;
 
@@ -58,6 +58,9 @@ class BondEnergies {
   std::vector<char> concerned_;  // blocks of which a bond may break so
 };
 
+// What the body loses with a bond is 2 w − ½ ω (b_i + b_j) e²: its θ goes, too. Where that is less than nothing, which
+// is so under pressure, the bond holds. (Left out is how much its own break changes θ.)
+//
 // With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, w reaches w_c no sooner than at the root d of a quadratic
 // equation.
 inline BondEnergies::Held BondEnergies::held(const std::array<Lanes, 4>& own, const Point& there, const Lanes& omega,
@@ -66,7 +69,9 @@ inline BondEnergies::Held BondEnergies::held(const std::array<Lanes, 4>& own, co
   const Lanes stretched = extension.max(0.0), pull = a * rest + b * stretched;
   const Lanes constant = a.abs() * rest + b * stretched, slope = (own[3] + there.growth) * rest + b;
   const Lanes half = 0.5 * (constant + slope * stretched), left = 2 * limit / omega - constant * stretched;
-  return {0.5 * omega * pull * stretched / limit, ((half.square() + slope * left).max(0.0).sqrt() - half) / slope};
+  const Lanes released = pull + a * rest;
+  return {(released > 0).select(0.5 * omega * pull * stretched / limit, 0.0),
+          ((half.square() + slope * left).max(0.0).sqrt() - half) / slope};
 }
 
 template <class Visit>

@@ -155,7 +155,7 @@ void CentralDifference::advance_velocity(double final_time) {
 // Loads act once a step, by what they are at time(). With substeps a step is long, and loads that change in it act by
 // their mean over the time of the impulse, at as many times as there are substeps.
 void CentralDifference::choose_load_times(double final_time) {
-  const int count = steps_ > 0 && loads_change_ ? 1 << multi_stepping_.level_count() : 1;
+  const int count = loads_change_ ? 1 << multi_stepping_.level_count() : 1;
   load_times_.assign(1, time_);
   if (count == 1) return;
   const double begin = time_ - 0.5 * previous_dt_, end = std::min(time_ + 0.5 * dt_, final_time);

@@ -10,7 +10,7 @@ namespace {
 struct Files {
   Table history;
   io::ExodusResult result;  // of rank 0
-  std::string error;        // what the run threw
+  std::string error, said;  // what the run threw
 };
 
 std::string switched_on(const std::vector<std::string>& names) {
@@ -37,7 +37,7 @@ Files files_of(Parts parts, const std::string& quasi_static, const std::vector<s
   } catch (const Error& error) {
     files.error = error.what();
   }
-  testing::internal::GetCapturedStdout();
+  files.said = testing::internal::GetCapturedStdout();
   files.history = read_history(folder / "history.csv");
   if (folder.world.rank() == 0) files.result = io::read_result(folder / "result.e");
   return files;
@@ -96,6 +96,28 @@ TEST(SlowLoading, HoldsAllAxesByOneCondition) {
   EXPECT_EQ(found.history.at("Elastic_Energy"), expected.history.at("Elastic_Energy"));
   EXPECT_TRUE(found.result.nodal == expected.result.nodal && found.result.element == expected.result.element);
   EXPECT_GT(found.history.at("Reaction_Z(foot)").back(), 0);
+}
+
+// A foam bar that is drawn out loses all stress in a load step, without work, and is told of; one that is pressed is
+// not.
+TEST(SlowLoading, FoamThatPartsIsTold) {
+  const auto told = [](const std::string& travel) {
+    Parts parts;
+    parts.materials = section("copper", key("Material Model", "Metal Foam Correspondence") + key("Density", "150") +
+                                            key("Young's Modulus", "300e6") + key("Poisson's Ratio", "0") +
+                                            key("Plastic Poisson's Ratio", "0") + key("Plateau Stress", "1e6") +
+                                            key("Linear Hardening", "0") + key("Locking Stress", "2e6") +
+                                            key("Locking Exponent", "8") + key("Densification Strain", "1.0") +
+                                            key("Failure Strain", "0.01"));
+    parts.conditions = all_of_foot() + along("top", "Prescribed Displacement", "top", "z", travel + "*t");
+    const Files files = files_of(parts, key("Number of Load Steps", "2"), {"Reaction_Z(low)"});
+    EXPECT_EQ(files.error, "");
+    return files.said.find("points have failed (Failure Strain)") != std::string::npos;
+  };
+  const bool parted = told("4e-4"), pressed = told("-1e-4");
+  if (Communicator().rank() > 0) return;
+  EXPECT_TRUE(parted);
+  EXPECT_FALSE(pressed);
 }
 
 // Nothing acts on a held bar until a tool arrives, or a load or a motion begins, at t = 0.35: it rests, in balance but

@@ -33,23 +33,28 @@ TEST(Subcycling, IsNotOfStiffPointsThatCostMost) {
   EXPECT_EQ(most_substeps(key("Formulation", "Quadratic Correspondence")), 1);
 }
 
-// A free bar, the upper part of which is a hundred times as stiff and has substeps, under a load for a part of the run:
-// it gains force times time, as one. It stays in rigid motion, where there is nothing to do between whole steps.
+// A free bar, the upper part of which is a hundred times as stiff and has substeps.
+Parts bar_with_substeps(const std::string& formulation, const std::string& load) {
+  std::string stiff = copper();
+  if (!formulation.empty()) {
+    stiff = changed(stiff, key("Density", "8930"), key("Density", "8930") + key("Formulation", formulation));
+  }
+  Parts parts;
+  parts.materials = stiff + changed(changed(stiff, "\"copper\"", "\"soft\""), "117e9", "1.17e9");
+  parts.blocks =
+      section("soft", key("Block Names", "bar") + key("Material", "soft") + key("Horizon Factor", "1.75")) +
+      section("stiff", key("Block Names", "plate") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  parts.conditions = along("pull", "Body Force", "all", "z", load);
+  parts.times = key("Final Time", "20e-6");
+  return parts;
+}
+
+// Under a load for a part of the run it gains force times time, as one. It stays in rigid motion, where there is
+// nothing to do between whole steps.
 TEST(Subcycling, LeavesLoadsOnABodyInRigidMotionAsTheyAre) {
   for (const std::string& formulation : std::vector<std::string>{"", "Quadratic Correspondence"}) {
     const RunFolder folder({.nx = 4, .ny = 4, .nz = 40, .plate_layers = 4});
-    std::string stiff = copper();
-    if (!formulation.empty()) {
-      stiff = changed(stiff, key("Density", "8930"), key("Density", "8930") + key("Formulation", formulation));
-    }
-    Parts parts;
-    parts.materials = stiff + changed(changed(stiff, "\"copper\"", "\"soft\""), "117e9", "1.17e9");
-    parts.blocks =
-        section("soft", key("Block Names", "bar") + key("Material", "soft") + key("Horizon Factor", "1.75")) +
-        section("stiff", key("Block Names", "plate") + key("Material", "copper") + key("Horizon Factor", "1.75"));
-    parts.conditions = along("pull", "Body Force", "all", "z", "if (t &lt; 5e-6) { value = 1e9; } else { value = 0; }");
-    parts.times = key("Final Time", "20e-6");
-    Simulation run(folder, parts);
+    Simulation run(folder, bar_with_substeps(formulation, "if (t &lt; 5e-6) { value = 1e9; } else { value = 0; }"));
     const Body& body = run.body();
     double apart = 0;
     const Ledger end = run.go([&](const Ledger&) {
@@ -62,6 +67,16 @@ TEST(Subcycling, LeavesLoadsOnABodyInRigidMotionAsTheyAre) {
     EXPECT_EQ(apart, 0) << "on this rank";
     EXPECT_LT(end.balance_error, 1e-10);  // round-off of a sum over points and steps
   }
+}
+
+// The mean of a load over the times of an impulse is exact of a ramp, from its beginning on: ½ F T.
+TEST(Subcycling, GivesTheWholeImpulseOfARamp) {
+  const RunFolder folder({.nx = 4, .ny = 4, .nz = 40, .plate_layers = 4});
+  Simulation run(folder, bar_with_substeps("", "1e9 * t / 20e-6"));
+  const Ledger end = run.go([](const Ledger&) {});
+  EXPECT_GT(run.solver.most_substeps(), 1);
+  EXPECT_NEAR(end.momentum[2] / (0.5 * 1e9 * run.volume() * 20e-6), 1,
+              1e-10);  // round-off of a sum over points and steps
 }
 
 // The same body at rest is hit by another one: contact pushes both alike.

@@ -204,6 +204,29 @@ TEST(BondEnergy, BreaksOfOthersAreSeen) {
   EXPECT_TRUE(any_later);
 }
 
+// A block of ν = 0.4, 3K − 5G = 9G, that is squeezed, and grows by ε across: θ = (2 − r) ε. Of a bond across w is
+// ½ ω (2/m) |ξ|² G (15 + 9 (2 − r)) ε², some 4 w_c, and what the body would lose with it is ½ ω (2/m) |ξ|² G
+// (15 + 18 (2 − r)) ε²: more than nothing for r < 2 + 15/18.
+TEST(BondEnergy, ABondWhoseBreakWouldGiveEnergyHolds) {
+  const Communicator world;
+  const auto damage_in_the_middle = [&](double r) {
+    LatticeSpec spec = block_of(kinds[4], 1e-4);
+    spec.cells = {9, 9, 9};  // neighbors of the middle have whole families
+    spec.material.law = elastic(young, 0.4);
+    Body body = lattice_body(spec, world);
+    advance_stress_and_force(body, 0, false);
+    deform(body, [&](const Vector& X) -> Vector { return X + 3e-4 * Vector(X[0], X[1], -r * X[2]); });
+    advance_stress_and_force(body, 1e-9, false);
+    hold(body);  // by what the first step has ended with
+    const Vector middle = Vector::Constant(4.5e-3);
+    return largest_over(body, [&](int i) {
+      return (body.domain.reference(i) - middle).norm() < 1e-4 ? body.fracture->damage(body, i) : 0.0;
+    });
+  };
+  EXPECT_GT(damage_in_the_middle(2 + 14.0 / 18), 0);
+  EXPECT_EQ(damage_in_the_middle(2 + 16.0 / 18), 0);
+}
+
 // ---- What is conserved ---------------------------------------------------------------------------------------------
 
 struct Outcome : Conservation {
