@@ -54,7 +54,8 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.places.clear();
   for (const int i : blocks.points) contact_pair.places.push_back(kinematics.domain.current(i));
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
-  contact_pair.pairs = find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins);
+  contact_pair.pairs =
+      find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins, broken_before_);
   if (contact_pair.surfaces) {
     contact_pair.surfaces->take(blocks, contact_pair.pairs);
   } else if (contact_pair.model.friction > 0) {
@@ -65,7 +66,10 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.meets = false;
   contact_pair.broken_counts.clear();
   if (blocks.one_body && !kinematics.domain.families.broken.empty()) {
-    for (const int i : blocks.points) contact_pair.broken_counts.push_back(kinematics.domain.families.broken[i].size());
+    const auto& broken = kinematics.domain.families.broken;
+    for (const int i : blocks.points) {
+      contact_pair.broken_counts.push_back(broken_before_.empty() ? broken[i].size() : broken_before_[i]);
+    }
   }
   contact_pair.used = 0;
   contact_pair.result = {};
@@ -89,17 +93,8 @@ void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact
   }
 }
 
-namespace {
-
-// Whether the far end of a bond of an owned point may be of the other block; of ghosts it is not known.
-bool may_meet(const BlockPair& blocks, const Domain& domain, int i, int j) {
-  return blocks.self() || j >= domain.owned || domain.cloud.blocks[i] != domain.cloud.blocks[j];
-}
-
-}  // namespace
-
 // Whether points whose bonds have broken since the last search are about to touch: that search has left them out, and
-// they may be nearer to each other than two skin distances.
+// they may be nearer to each other than two skin distances. Blocks do not matter: of ghosts they are not known.
 bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair) {
   constexpr double about_to_touch = 1.05;
   const Domain& domain = kinematics.domain;
@@ -108,7 +103,6 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
     const int i = contact_pair.blocks.points[k];
     const std::vector<int>& broken = domain.families.broken[i];
     for (std::size_t n = contact_pair.broken_counts[k]; n < broken.size(); ++n) {
-      if (!may_meet(contact_pair.blocks, domain, i, broken[n])) continue;
       const double apart = (domain.reference(broken[n]) - domain.reference(i)).norm();
       const double touch = about_to_touch * largest_touching_distance(radius, apart, true);
       if ((domain.current(broken[n]) - domain.current(i)).norm() < touch) return true;
@@ -267,7 +261,7 @@ void Contact::add_springs(std::span<Tensor> springs) const {
   }
 }
 
-void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const {
+void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) {
   if (!any()) return;
   for (const ContactPair& contact_pair : contact_pairs_) {
     numbers.push_back(contact_pair.result.stiffness);
@@ -275,6 +269,9 @@ void Contact::append_to_agree(const Kinematics& kinematics, std::vector<double>&
     numbers.push_back(largest_use(kinematics, contact_pair.blocks, contact_pair.mean_velocity, contact_pair.skins));
   }
   numbers.push_back(deepest().penetration);
+  const auto& broken = kinematics.domain.families.broken;
+  broken_before_.resize(broken.size());
+  for (std::size_t i = 0; i < broken.size(); ++i) broken_before_[i] = broken[i].size();
 }
 
 void Contact::take_agreed(std::span<const double> numbers, double dt) {

@@ -56,7 +56,7 @@ class Contact {
 
   // What all ranks must agree on once a step. The solver takes the maximum of these numbers over all ranks together
   // with its own, and hands it back.
-  void append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers) const;
+  void append_to_agree(const Kinematics& kinematics, std::vector<double>& numbers);
   void take_agreed(std::span<const double> numbers, double dt);
 
   double stiffness() const { return stiffness_; }  // a bound of ω² of all touching points, 1/s²; as last agreed
@@ -128,6 +128,9 @@ class Contact {
   std::vector<Load> loads_of_all(const Domain& domain, const ContactPair& contact_pair) const;
 
   std::vector<ContactPair> contact_pairs_;
+  // Of each owned point, how many of its bonds had broken when ranks last agreed. Points whose bond breaks in a step
+  // touch from the next one on: when a search is due differs with the ranks, by round-off.
+  BrokenCounts broken_before_;
   double stiffness_ = 0, penetration_ = 0;
   int searches_ = 0;
 };

@@ -27,6 +27,9 @@ struct BlockPair {
   bool self() const { return first == second; }
 };
 
+// How many bonds of each owned point have broken; empty where none may.
+using BrokenCounts = std::vector<std::size_t>;
+
 // Points that have a partner, then the partners of other ranks. Both ends of a pair have it in their lists.
 struct Pairs {
   std::vector<int> owned;         // local indices in the body, ascending
