@@ -120,7 +120,7 @@ void Contact::look_where_due(const Kinematics& kinematics, double dt) {
 }
 
 // ---- Points that touch points of several blocks --------------------------------------------------------------------
-// What bounds the step and what friction does to a point is not by which blocks it touches: a body may be one or many.
+// The bound of the step and the friction on a point do not depend on how the body that it touches is cut into blocks.
 
 void Contact::find_points_of_several() {
   for (ContactPair& pair : contact_pairs_) pair.elsewhere.clear();

@@ -128,8 +128,8 @@ class Contact {
   std::vector<Load> loads_of_all(const Domain& domain, const ContactPair& contact_pair) const;
 
   std::vector<ContactPair> contact_pairs_;
-  // Of each owned point, how many of its bonds had broken when ranks last agreed. Points whose bond breaks in a step
-  // touch from the next one on: when a search is due differs with the ranks, by round-off.
+  // How many bonds of each owned point had broken when ranks last agreed. Points whose bond breaks in a step touch
+  // from the next step on, although a search may be due in the step itself, which round-off and so the ranks decide.
   BrokenCounts broken_before_;
   double stiffness_ = 0, penetration_ = 0;
   int searches_ = 0;

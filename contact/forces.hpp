@@ -34,7 +34,7 @@ struct ForceResult {
   double stiffness = 0;
 };
 
-// What the partners that touch a point do to it.
+// The load on a point by the partners that touch it.
 struct Load {
   Vector push = Vector::Zero();     // the sum of their normal forces, N
   Tensor springs = Tensor::Zero();  // of which ForceResult::stiffness is the largest eigenvalue, 1/s²

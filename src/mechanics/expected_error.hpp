@@ -1,4 +1,4 @@
-// What struts a few cells thick are wrong by, by quadratic correspondence: the one table of it, which the program and
+// The errors of struts a few cells thick by quadratic correspondence: the one table of them, which the program and
 // strut-mesh print. It stands in a header, so that the mesh tool needs none of mechanics to be linked.
 #pragma once
 

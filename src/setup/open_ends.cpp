@@ -4,6 +4,7 @@
 #include <map>
 #include <type_traits>
 
+#include "points/planes_through.hpp"
 #include "setup/found_points.hpp"
 
 namespace strut {
@@ -32,9 +33,7 @@ Extent extent_along(const Vector& direction, const Domain& domain, int i) {
 // What is there of the cell of a point, as a part: a half on a symmetry plane, the rest is its image's.
 double part_between_planes(const Domain& domain, int i) {
   std::vector<Vector> outward;
-  for (const Mirror& mirror : domain.mirrors) {
-    if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;
-    if (!mirror.holds(domain.reference(i), domain.cloud.spacings[i])) continue;
+  for (const Mirror& mirror : planes_through(domain, i)) {
     double side = 0;
     domain.families.for_each(i, [&](int j) {
       if (Images::image(domain.id(j)) == 0) side += mirror.distance(domain.reference(j));

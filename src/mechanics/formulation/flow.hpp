@@ -14,8 +14,8 @@ namespace strut {
 // the present places; their stress stays. Returns whether it did.
 bool begin_flow(Body& body, MaterialBlock& block, int k);
 
-// The same of all owned cells, ghosts at their present places; whether any did. Steps in time do so themselves; an
-// equilibrium, whose trials are not steps, as it is accepted.
+// Does so for all owned cells and returns whether any cell began to flow. Ghosts must be at their present places. Steps
+// in time call the function above themselves; an equilibrium calls this one when it accepts a load step.
 bool begin_flow(Body& body);
 
 // As a body has been restored: the fits of the cells that have flowed.

@@ -101,9 +101,9 @@ struct Update {
   }
 
  private:
-  // Of cells that begin to flow (where `may` is 1) the forces are half those with which the step ends, by their old
-  // fit, and half those with which the next one begins, by the new: so the work over both is that of their stress, to
-  // the second order in the step.
+  // A cell that begins to flow (only where `may` is 1) has the mean of two forces: those that end the step, by its old
+  // fit, and those that begin the next step, by its new fit. So the work over both steps is that of its stress, to the
+  // second order in the step.
   void begin_flow_of(const LaneGroup& group, const std::array<LawPoints, 4>& points, const std::array<Deformed, 4>& at,
                      const Lanes& share, const Lanes& may) const {
     Lanes begun = Lanes::Zero();

@@ -48,11 +48,11 @@ class QuadraticFits {
   // Collective. Of all owned points of the blocks by quadratic correspondence.
   explicit QuadraticFits(Body& body);
 
-  // Of an owned point that has lost bonds, whose μ and those of its neighbors stay. `flows`: whether its metal has
+  // Fits an owned point that has lost bonds anew; its μ and those of its neighbors stay. `flows`: whether its metal has
   // flowed. False where the bonds that are left do not span space, or only with a steepness times volume (1/m²) above
-  // `most`: it carries no stress.
+  // `most`: the point carries no stress.
   bool refit(const Body& body, int i, bool flows, double most);
-  // Of an owned point that carries stress, with the bonds that it has, as its metal has flowed.
+  // Fits an owned point that carries stress and whose metal has flowed anew, to the bonds that it has.
   void refit_in_flow(const Body& body, int i);
   void drop(int i) { fit(i) = {}; }  // it carries no stress
 

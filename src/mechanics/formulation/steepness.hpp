@@ -5,8 +5,8 @@
 
 namespace strut {
 
-// Of an owned point, 1/m²: V tr K⁻¹, its share in ω² by correspondence; by quadratic correspondence that of its cell.
-// 0 of a point that carries no stress.
+// V tr K⁻¹ of an owned point, 1/m²: its share in ω² by correspondence; by quadratic correspondence V κ of its cell. It
+// is 0 where the point carries no stress.
 double steepness(const Body& body, int i);
 
 }  // namespace strut

@@ -58,8 +58,8 @@ class BondEnergies {
   std::vector<char> concerned_;  // blocks of which a bond may break so
 };
 
-// What the body loses with a bond is 2 w − ½ ω (b_i + b_j) e²: its θ goes, too. Where that is less than nothing, which
-// is so under pressure, the bond holds. (Left out is how much its own break changes θ.)
+// As a bond breaks, the body loses the energy 2 w − ½ ω (b_i + b_j) e², as the bond's part of θ goes, too. Where this
+// is negative, as it is under pressure, the bond holds. (How much the break changes θ of both ends is left out.)
 //
 // With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, w reaches w_c no sooner than at the root d of a quadratic
 // equation.

@@ -17,6 +17,7 @@
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
 #include "points/parallel_for.hpp"
+#include "points/planes_through.hpp"
 
 namespace strut {
 
@@ -80,12 +81,11 @@ double released(const PointAccount& before, const PointAccount& after) {
 
 // How many images of a point are where it is, itself counted: on a symmetry plane 2, each with half of a cell.
 int coincident_images(const Domain& domain, int i) {
+  const std::vector<Mirror> planes = planes_through(domain, i);
   std::vector<Tensor> turns{Tensor::Identity()};
   for (std::size_t n = 0; n < turns.size(); ++n) {
-    for (const Mirror& mirror : domain.mirrors) {
-      if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;
-      if (!mirror.holds(domain.reference(i), domain.cloud.spacings[i])) continue;
-      const Tensor turn = Reflection::by(mirror).turn * turns[n];
+    for (const Mirror& plane : planes) {
+      const Tensor turn = Reflection::by(plane).turn * turns[n];
       const auto is_it = [&turn](const Tensor& other) { return (other - turn).norm() < 1e-6; };  // round-off is 1e-16
       if (std::none_of(turns.begin(), turns.end(), is_it)) turns.push_back(turn);
     }
@@ -200,9 +200,9 @@ void Fracture::look_around(const Body& body, const std::vector<char>& points) {
   }
 }
 
-// Of the points of a block, in their spacings and of whole cells, so many times the least, which is that of a point
-// inside. So broken families do not make the critical time step smaller than corners do. A point that is steeper from
-// the start may be half as much again.
+// The limit of a point's steepness is `steepness_of_corners` times the least one of its block, which is that of a point
+// inside; both are compared in spacings and as of whole cells. So broken families do not make the critical time step
+// smaller than corners do. A point that is steeper from the start may be half as much again.
 void Fracture::set_most_steepness(const Body& body) {
   constexpr double more_than_first = 1.5;
   const auto per_steepness = [&body](int i) {
