@@ -52,11 +52,8 @@ Eigen::Matrix3d block_of(const VoxelStiffness& by_pattern, int s) {
   return block;
 }
 
-// Components of all corners, or of all patterns, of some voxels side by side.
-using Side24 = std::array<std::array<Lanes, 3>, 8>;
-
 // x̂[pattern] = Σ ± x[corner]; twice is eight times the identity.
-void to_patterns(Side24& x) {
+void to_patterns(SideVectors& x) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int c = 0; c < 8; ++c) {
       if ((c & bit(axis)) != 0) continue;
@@ -66,15 +63,6 @@ void to_patterns(Side24& x) {
         x[c | bit(axis)][k] = difference;
       }
     }
-  }
-}
-
-void add_to_nodes(const std::array<Lanes, 3>& values, const small::Indices& nodes, NodeField& field) {
-  // Four records to the register's four rows and back is the same exchange.
-  const auto rows = small::detail::transposed(
-      {small::raw(values[0]), small::raw(values[1]), small::raw(values[2]), small::RawLanes{}});
-  for (int l = 0; l < lane_count; ++l) {
-    field[nodes[l]] += Eigen::Map<const Eigen::Array4d>(reinterpret_cast<const double*>(&rows[l % 4]) + l / 4 * 4);
   }
 }
 
@@ -158,6 +146,26 @@ Eigen::VectorXd masses_of(const VoxelMesh& mesh, double density) {
   return masses;
 }
 
+SideVectors taken(const NodeField& field, const Side& side) {
+  SideVectors x;
+  for (int c = 0; c < 8; ++c) {
+    const auto record = small::numbers_of<4>([&](int l) { return field[side[c][l]].data(); });
+    for (int k = 0; k < 3; ++k) x[c][k] = record[k];
+  }
+  return x;
+}
+
+void add_to_nodes(const SideVectors& values, const Side& side, NodeField& field) {
+  for (int c = 0; c < 8; ++c) {
+    // Four records to the register's four rows and back is the same exchange.
+    const auto rows = small::detail::transposed(
+        {small::raw(values[c][0]), small::raw(values[c][1]), small::raw(values[c][2]), small::RawLanes{}});
+    for (int l = 0; l < lane_count; ++l) {
+      field[side[c][l]] += Eigen::Map<const Eigen::Array4d>(reinterpret_cast<const double*>(&rows[l % 4]) + l / 4 * 4);
+    }
+  }
+}
+
 VoxelForces::VoxelForces(const VoxelMesh& mesh, const VoxelStiffness& stiffness) : nodes_(mesh.nodes.size()) {
   for (std::size_t first = 0; first < mesh.voxels.size(); first += lane_count) {
     Side side;
@@ -179,20 +187,15 @@ VoxelForces::VoxelForces(const VoxelMesh& mesh, const VoxelStiffness& stiffness)
 
 void VoxelForces::add(const NodeField& displacement, NodeField& force) const {
   for (const Side& side : sides_) {
-    Side24 x;
-    for (int c = 0; c < 8; ++c) {
-      const auto record = small::numbers_of<4>([&](int l) { return displacement[side[c][l]].data(); });
-      for (int k = 0; k < 3; ++k) x[c][k] = record[k];
-    }
+    SideVectors x = taken(displacement, side), f;
     to_patterns(x);
-    Side24 f;
     for (int s = 0; s < 8; ++s) {
       const Lanes &x0 = x[s ^ 1][0], &x1 = x[s ^ 2][1], &x2 = x[s ^ 4][2];
       const Eigen::Matrix3d& K = blocks_[s];
       for (int a = 0; a < 3; ++a) f[s ^ bit(a)][a] = K(a, 0) * x0 + K(a, 1) * x1 + K(a, 2) * x2;
     }
     to_patterns(f);
-    for (int c = 0; c < 8; ++c) add_to_nodes(f[c], side[c], force);
+    add_to_nodes(f, side, force);
   }
 }
 

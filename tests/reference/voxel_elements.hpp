@@ -36,9 +36,15 @@ Eigen::VectorXd masses_of(const VoxelMesh& mesh, double density);
 // Of the nodes, a vector and a number that is not looked at; and a last one that no node has.
 using NodeField = std::vector<Eigen::Array4d>;
 
+// As many voxels side by side as a register has lanes: their nodes, [corner][lane], and a vector at each corner (or of
+// each pattern of corners), [corner][axis].
+using Side = std::array<small::Indices, 8>;
+using SideVectors = std::array<std::array<small::Lanes, 3>, 8>;
+SideVectors taken(const NodeField& field, const Side& side);
+void add_to_nodes(const SideVectors& values, const Side& side, NodeField& field);
+
 // Forces of displacements. A cube is its own mirror image across three planes: in sums and differences of its corners'
-// displacements, its stiffness falls into eight blocks of three rows, 72 products instead of 576. As many voxels as a
-// register has lanes are taken side by side.
+// displacements, its stiffness falls into eight blocks of three rows, 72 products instead of 576.
 class VoxelForces {
  public:
   VoxelForces(const VoxelMesh& mesh, const VoxelStiffness& stiffness);
@@ -48,10 +54,8 @@ class VoxelForces {
   void add(const NodeField& displacement, NodeField& force) const;
 
  private:
-  using Side = std::array<small::Indices, 8>;  // [corner][lane]; lanes without a voxel take the last number of a field
-
   std::size_t nodes_;
-  std::vector<Side> sides_;
+  std::vector<Side> sides_;  // lanes without a voxel take the last number of a field
   std::array<Eigen::Matrix3d, 8> blocks_;
 };
 

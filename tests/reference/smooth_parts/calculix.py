@@ -1,4 +1,4 @@
-"""A mesh of quadratic tetrahedra between clamped ends, by CalculiX."""
+"""A mesh of tetrahedra (quadratic, or of four nodes) between clamped ends, by CalculiX."""
 import pathlib
 import re
 import subprocess
@@ -16,7 +16,7 @@ def node_set(name, chosen):
 def body(nodes, tets):
     lines = ["*NODE, NSET=ALL"]
     lines += [f"{k + 1}, {x[0]:.12g}, {x[1]:.12g}, {x[2]:.12g}" for k, x in enumerate(nodes * MM)]
-    lines += ["*ELEMENT, TYPE=C3D10, ELSET=FOAM"]
+    lines += [f"*ELEMENT, TYPE=C3D{tets.shape[1]}, ELSET=FOAM"]
     return lines + [", ".join(map(str, (k + 1, *t))) for k, t in enumerate(tets + 1)]
 
 
@@ -39,17 +39,30 @@ def deck(nodes, tets, height, young, poisson, solver):
         ""])
 
 
-def reactions(deck):
-    """Runs a deck; the sums of forces that it prints on sets of nodes, one row for each time and set."""
+NUMBER = r"(-?\d\.\d+E[+-]\d+)"
+THREE = rf"^\s*{NUMBER}\s+{NUMBER}\s+{NUMBER}\s*$"
+
+
+def printed(deck):
+    """Runs a deck; what it prints on sets of nodes."""
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "deck.inp").write_text(deck)
         done = subprocess.run(["ccx", "deck"], cwd=folder, capture_output=True, text=True)
         results = pathlib.Path(folder) / "deck.dat"
         if done.returncode != 0 or not results.exists():
             raise SystemExit(done.stdout[-2000:] + done.stderr[-2000:])
-        number = r"(-?\d\.\d+E[+-]\d+)"
-        rows = re.findall(rf"^\s*{number}\s+{number}\s+{number}\s*$", results.read_text(), re.M)
-    return [[float(force) for force in row] for row in rows]
+        return results.read_text()
+
+
+def reactions(deck):
+    """The sums of forces, one row for each time and set."""
+    return [[float(force) for force in row] for row in re.findall(THREE, printed(deck), re.M)]
+
+
+def timed_reactions(deck):
+    """The same of one set, behind the time."""
+    rows = re.findall(rf"and time\s+(\S+)\s*$\s*{THREE}", printed(deck), re.M)
+    return [[float(word) for word in row] for row in rows]
 
 
 def stiffness(nodes, tets, height, young, poisson, solver="SPOOLES"):
