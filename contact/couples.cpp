@@ -8,15 +8,14 @@ void Couples::take(const Domain& domain, const std::vector<int>& points) {
   any_ = domain.communicator.max(points.empty() ? 0.0 : 1.0) > 0;
   if (!any_) return;
   const std::size_t count = domain.owned + domain.ghosts;
-  std::vector<double> marks(count, 0);
-  std::vector<char> affected(count, 0);
+  std::vector<char> marks(count, 0), affected(count, 0);
   for (const int i : points) {
     marks[i] = affected[i] = 1;
     domain.families.for_each(i, [&](int j) { affected[j] = 1; });
   }
-  domain.halo.exchange(marks.data(), 1, 1);
+  domain.halo.exchange(marks);
   for (int i = domain.interior; i < domain.owned; ++i) {  // bonds go both ways
-    domain.families.for_each(i, [&](int j) { affected[i] |= marks[j] > 0; });
+    domain.families.for_each(i, [&](int j) { affected[i] |= marks[j]; });
   }
   for (int i = 0; i < domain.owned; ++i) {
     if (affected[i]) affected_.push_back(i);
@@ -30,7 +29,7 @@ void Couples::bring_to_present(const Kinematics& kinematics) {
   forces_.clear();
   if (!any_) return;
   for (int i = domain.interior; i < domain.owned; ++i) motions_[i] = {domain.current(i), kinematics.velocities[i]};
-  domain.halo.exchange(reinterpret_cast<double*>(motions_.data()), 6, 6);
+  domain.halo.exchange<unchanged>(motions_);
 }
 
 Couples::Neighborhood Couples::of(const Kinematics& kinematics, int i, double arm) const {
@@ -57,7 +56,7 @@ void Couples::add_forces(const Domain& domain, const std::vector<Neighborhood>& 
     const Patch& patch = neighborhoods[k].patch;
     twists_[points_[k]] = {patch.per_couple * couples[k], domain.current(points_[k]) + patch.middle};
   }
-  domain.halo.exchange(reinterpret_cast<double*>(twists_.data()), 6, 6);
+  domain.halo.exchange<unchanged>(twists_);
   forces_.assign(affected_.size(), Vector::Zero());
   for (std::size_t n = 0; n < affected_.size(); ++n) {
     const int i = affected_[n];

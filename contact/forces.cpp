@@ -76,7 +76,6 @@ struct Slider {
   Vector velocity_at(const Vector& arm) const { return velocity + spin.cross(arm); }
   double mobility_at(const Vector& arm) const { return mobility + turning * arm.squaredNorm(); }
 };
-constexpr int slider_width = sizeof(Slider) / sizeof(double);
 
 std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto& law, Pairs& pairs,
                             const std::vector<Load>& loads, const Couples& couples,
@@ -95,7 +94,7 @@ std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto&
     slider.spin = neighborhoods[k].spin;
     slider.turns = 1;
   }
-  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(all.data()), slider_width, slider_width);
+  if (pairs.halo) pairs.halo->exchange<unchanged>(all);
   return all;
 }
 
@@ -223,7 +222,7 @@ void add_springs(const PairLaw& law, const Pairs& pairs, std::span<Tensor> sprin
 void add_stiffness(const PairLaw& law, Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) {
   std::vector<Vector> values(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) values[k] = field[pairs.owned[k]];
-  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(values.data()), 3, 3);
+  if (pairs.halo) pairs.halo->exchange<unchanged>(values);
   for_each_spring(law, pairs, [&](std::size_t k, int partner, const Vector& n, double stiffness) {
     const double approach = n.dot(values[k] - values[partner]);
     result[pairs.owned[k]] += stiffness * approach * n;

@@ -58,8 +58,7 @@ double reach_between(double reach, const Site& here, const Site& there, bool one
 
 template <class Record>
 void exchange_records(const Pairs& pairs, std::vector<Record>& records) {
-  constexpr int width = sizeof(Record) / sizeof(double);
-  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(records.data()), width, width);
+  if (pairs.halo) pairs.halo->exchange<unchanged>(records);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Crossing crossing_of(const S& shape, const RigidTool& tool, const Vector& offset
 std::vector<Vector> present_places(const Domain& domain) {
   std::vector<Vector> places(domain.owned + domain.ghosts, Vector::Zero());
   for (int i = 0; i < domain.owned; ++i) places[i] = domain.current(i);
-  domain.halo.exchange(places.empty() ? nullptr : places.front().data(), 3, 3, reflect_place);
+  domain.halo.exchange<reflect_place>(places);
   return places;
 }
 

@@ -48,9 +48,7 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
     over(Part::interior);
     return together(reports);
   }
-  behind_exchange(
-      body.domain.halo, places(body.domain.sites), site_stride, 3, reflect_place, [&] { over(Part::interior); },
-      [&] { over(Part::boundary); });
+  behind_exchange_of<reflect_place>(body.domain.halo, body.domain.sites, over);
   if (body.fracture) body.fracture->finish_step();
   return together(reports);
 }

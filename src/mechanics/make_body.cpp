@@ -133,20 +133,19 @@ void set_what_blocks_feel(Body& body) {
     for (MaterialBlock& block : body.blocks) block.feels_correspondence = true;
     return;
   }
-  std::vector<double> formulations(body.domain.sites.size());
+  std::vector<Formulation> formulations(body.domain.sites.size());
   for (const MaterialBlock& block : body.blocks) {
-    for (const int i : block.points) formulations[i] = static_cast<double>(block.material.formulation);
+    for (const int i : block.points) formulations[i] = block.material.formulation;
   }
-  body.domain.halo.exchange(formulations.data(), 1, 1);
+  body.domain.halo.exchange(formulations);
   const Families& families = body.domain.families;
   for (MaterialBlock& block : body.blocks) {
-    const auto feel = [&block](double formulation) {
-      const auto is = [formulation](Formulation f) { return formulation == static_cast<double>(f); };
-      if (is(Formulation::ordinary)) block.feels_ordinary = true;
-      if (is(Formulation::quadratic)) block.feels_quadratic = true;
-      if (is(Formulation::correspondence)) block.feels_correspondence = true;
+    const auto feel = [&block](Formulation formulation) {
+      if (formulation == Formulation::ordinary) block.feels_ordinary = true;
+      if (formulation == Formulation::quadratic) block.feels_quadratic = true;
+      if (formulation == Formulation::correspondence) block.feels_correspondence = true;
     };
-    feel(static_cast<double>(block.material.formulation));
+    feel(block.material.formulation);
     if (block.lattice >= 0) continue;  // all of its body is by correspondence
     for (const int i : block.points) families.for_each(i, [&](int j) { feel(formulations[j]); });
   }

@@ -10,40 +10,30 @@
 
 namespace strut {
 
-inline constexpr int site_stride = sizeof(Site) / sizeof(double);
-
-// The present places, for a halo: none on a rank without points.
-inline double* places(std::vector<Site>& sites) { return sites.empty() ? nullptr : sites[0].current.data(); }
-
-// The places of ghosts: those of their owners, or of images the reflected ones of their originals.
-inline void exchange_places(const Halo& halo, std::vector<Site>& sites) {
-  halo.exchange(places(sites), site_stride, 3, reflect_place);
-}
-
-// Runs `interior` while the halo of `data` is under way, then `boundary`.
-template <class Interior, class Boundary>
-void behind_exchange(Halo& halo, double* data, int stride, int width, Reflect reflect, Interior&& interior,
-                     Boundary&& boundary) {
+// Runs work(part) for the points that need no ghost while an exchange is under way, then for the others.
+template <class Start, class Finish, class Work>
+void between(const Start& start, const Finish& finish, const Work& work) {
   static Teuchos::Time& waiting = phase("Halo exchange");
   {
     const Timed timed(waiting);
-    halo.start(data, stride, width);
+    start();
   }
-  interior();
+  work(Part::interior);
   {
     const Timed timed(waiting);
-    halo.finish(data, stride, width, reflect);
+    finish();
   }
-  boundary();
+  work(Part::boundary);
 }
 
-// Runs work(part) for the points that need no ghost of `states` while its exchange is under way, then for the others.
 template <class State, class Work>
-void behind_exchange(Halo& halo, std::vector<State>& states, const Work& work) {
-  constexpr int width = sizeof(State) / sizeof(double);
-  behind_exchange(
-      halo, reinterpret_cast<double*>(states.data()), width, width, reflect_record<State>,
-      [&] { work(Part::interior); }, [&] { work(Part::boundary); });
+void behind_exchange(const Halo& halo, std::vector<State>& states, const Work& work) {
+  between([&] { halo.start(states); }, [&] { halo.finish(states); }, work);
+}
+
+template <auto reflected, class Work>
+void behind_exchange_of(const Halo& halo, std::vector<Site>& places, const Work& work) {
+  between([&] { halo.start_places(places); }, [&] { halo.finish_places<reflected>(places); }, work);
 }
 
 // Which bodies a pass is over: forces need only those that are strained, a tangent is of all.

@@ -15,17 +15,27 @@ inline void reflect(const Reflection& by, TensorRecord& record) {
 
 inline void reflect(const Reflection&, ScalarState&) {}
 
+// A direction by its numbers.
+inline void turn(const Reflection& by, double* numbers) {
+  Eigen::Map<Vector> direction(numbers);
+  direction = (by.turn * direction).eval();
+}
+
 // A tensor whose rows stand one after the other.
 inline void reflect_rows(const Reflection& by, double* rows) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> tensor(rows);
   tensor = (by.turn * tensor * by.turn.transpose()).eval();
 }
 
+inline void reflect_multiplier(const Reflection& by, Eigen::Array4d& multiplier) {
+  multiplier.head<3>() = (by.turn * multiplier.head<3>().matrix()).eval().array();
+}
+
 // Of the second force state each row is a symmetric tensor M by its numbers xx, yy, zz, xy, yz, zx: ½ ξ·M ξ = B q.
 inline void reflect(const Reflection& by, QuadraticState& state) {
   reflect_rows(by, state.first);
   reflect_rows(by, state.correction);
-  reflect_direction(by, state.offset);
+  turn(by, state.offset);
   Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>> second(state.second);
   Eigen::Matrix<double, 3, 6> turned;
   for (int r = 0; r < 3; ++r) {

@@ -99,7 +99,7 @@ void update_rigid_motion(Body& body) {
   }
   // Where none was strained, ranks have not told each other where points are: bonds that break ask for the start of the
   // step.
-  if (all_did && !all_move_rigidly(body)) exchange_places(body.domain.halo, body.domain.sites);
+  if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange_places(body.domain.sites);
 }
 
 }  // namespace strut

@@ -126,7 +126,7 @@ void serialize(Archive& archive, Body& body) {
   compare_reference(archive, body);
   serialize_motion(archive, body);
   keep_points(archive, body);
-  if (archive.loading()) exchange_places(body.domain.halo, body.domain.sites);
+  if (archive.loading()) body.domain.halo.exchange_places(body.domain.sites);
   if (body.fracture) body.fracture->serialize(archive, body);
   if (archive.loading()) refit_flowed(body);
 }

@@ -119,9 +119,7 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
                    const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result) {
   const Displacements field{directions.data(), true};
   const TangentStates set_states{body, field, tangents, scratch, result};
-  behind_exchange(
-      halo, places(directions), site_stride, 3, reflect_direction, [&] { set_states(Part::interior); },
-      [&] { set_states(Part::boundary); });
+  behind_exchange_of<reflect_direction>(halo, directions, set_states);
   if (!scratch.gradients.empty()) {
     const ResidualSum sum{body, Bodies::all, field, scratch, result, {}};
     behind_exchange(halo, scratch.gradients, [&](Part part) { sum(part); });

@@ -3,6 +3,8 @@
 #include <Kokkos_Core.hpp>
 #include <Tpetra_Distributor.hpp>
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -45,16 +47,6 @@ std::vector<int> places_of(const Ids& wanted, std::span<const std::int64_t> owne
 }
 
 }  // namespace
-
-void reflect_place(const Reflection& by, double* numbers) {
-  Eigen::Map<Vector> place(numbers);
-  place = by(place);
-}
-
-void reflect_direction(const Reflection& by, double* numbers) {
-  Eigen::Map<Vector> direction(numbers);
-  direction = (by.turn * direction).eval();
-}
 
 struct Halo::Plan {
   Teuchos::RCP<Tpetra::Distributor> distributor;  // null where there is one rank
@@ -124,31 +116,41 @@ Halo::~Halo() = default;
 Halo::Halo(Halo&&) noexcept = default;
 Halo& Halo::operator=(Halo&&) noexcept = default;
 
-void Halo::start(const double* data, int stride, int width) const {
+namespace {
+
+// Messages are of doubles, which Tpetra sends; a value takes whole ones.
+std::size_t doubles(std::size_t bytes) { return (bytes + sizeof(double) - 1) / sizeof(double); }
+
+}  // namespace
+
+void Halo::start(const void* first, std::size_t stride, std::size_t width) const {
   if (plan_->distributor.is_null()) return;
   Plan& plan = *plan_;
-  const std::size_t outgoing = plan.sent.size() * width, incoming = plan.received.size() * width;
+  const std::size_t each = doubles(width), outgoing = plan.sent.size() * each, incoming = plan.received.size() * each;
   if (plan.outgoing.size() != outgoing) Kokkos::resize(plan.outgoing, outgoing);
   if (plan.incoming.size() != incoming) Kokkos::resize(plan.incoming, incoming);
   double* to = plan.outgoing.data();
-  for (const int i : plan.sent) to = std::copy_n(data + static_cast<std::size_t>(i) * stride, width, to);
-  plan.distributor->doPosts(Kokkos::View<const double*, Kokkos::HostSpace>(plan.outgoing), width, plan.incoming);
+  for (const int i : plan.sent) {
+    std::memcpy(to, static_cast<const std::byte*>(first) + i * stride, width);
+    to += each;
+  }
+  plan.distributor->doPosts(Kokkos::View<const double*, Kokkos::HostSpace>(plan.outgoing), each, plan.incoming);
   bytes_sent_ += static_cast<std::int64_t>(outgoing * sizeof(double));
 }
 
-void Halo::finish(double* data, int stride, int width, Reflect reflect) const {
-  const auto numbers_of = [&](int i) { return data + static_cast<std::size_t>(i) * stride; };
+void Halo::finish(void* first, std::size_t stride, std::size_t width, Reflect reflect) const {
+  const auto value_of = [&](int i) { return static_cast<std::byte*>(first) + i * stride; };
   if (!plan_->distributor.is_null()) {
     plan_->distributor->doWaits();
     const double* from = plan_->incoming.data();
     for (const int i : plan_->received) {
-      std::copy_n(from, width, numbers_of(i));
-      from += width;
+      std::memcpy(value_of(i), from, width);
+      from += doubles(width);
     }
   }
   for (const ImagePoint& image : plan_->images) {
-    if (image.original >= 0) std::copy_n(numbers_of(image.original), width, numbers_of(image.ghost));
-    if (reflect) reflect(image.by, numbers_of(image.ghost));
+    if (image.original >= 0) std::memcpy(value_of(image.ghost), value_of(image.original), width);
+    reflect(image.by, value_of(image.ghost));
   }
 }
 

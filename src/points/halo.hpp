@@ -4,23 +4,21 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "points/mirror.hpp"
+#include "points/site.hpp"
 
 namespace strut {
 
 class Communicator;
 
-// Makes the numbers of an image from those of its original.
-using Reflect = void (*)(const Reflection& by, double* numbers);
-void reflect_place(const Reflection& by, double* numbers);
-void reflect_direction(const Reflection& by, double* numbers);
-// The same of a record that reflect(by, record) is for.
-template <class Record>
-void reflect_record(const Reflection& by, double* numbers) {
-  reflect(by, *reinterpret_cast<Record*>(numbers));
-}
+inline void reflect_place(const Reflection& by, Vector& place) { place = by(place); }
+inline void reflect_direction(const Reflection& by, Vector& direction) { direction = (by.turn * direction).eval(); }
+
+// For values that an image has as its original does.
+inline constexpr auto unchanged = [](const Reflection&, auto&) {};
 
 // A ghost that is an image by symmetry planes, and its original where that is this rank's own; −1: another's.
 struct ImagePoint {
@@ -42,20 +40,42 @@ class Halo {
   Halo(Halo&&) noexcept;
   Halo& operator=(Halo&&) noexcept;
 
-  // Sends `width` consecutive doubles of every owned point that another rank needs: point i's start at
-  // data[i * stride]. One exchange at a time; finish() with the same arguments waits and fills the ghosts. `reflect`:
-  // without, the numbers of an image are its original's.
-  void start(const double* data, int stride, int width) const;
-  void finish(double* data, int stride, int width, Reflect reflect = nullptr) const;
-
-  void exchange(double* data, int stride, int width, Reflect reflect = nullptr) const {
-    start(data, stride, width);
-    finish(data, stride, width, reflect);
+  // Values of owned points and of ghosts, of any type that can be copied byte by byte. Sends those of the owned points
+  // that other ranks need. One exchange at a time; finish() with the same values waits and fills the ghosts. An image
+  // takes reflect(by, value) of its original's value, or a number as it is.
+  template <class Value>
+  void start(const std::vector<Value>& values) const {
+    static_assert(std::is_trivially_destructible_v<Value>, "it owns what is elsewhere");
+    start(values.data(), sizeof(Value), sizeof(Value));
   }
-  template <class Record>
-  void exchange_records(std::vector<Record>& records) const {
-    constexpr int width = sizeof(Record) / sizeof(double);
-    exchange(reinterpret_cast<double*>(records.data()), width, width, reflect_record<Record>);
+  template <class Value>
+  void finish(std::vector<Value>& values) const {
+    finish(values.data(), sizeof(Value), sizeof(Value), [](const Reflection& by, void* value) {
+      if constexpr (!std::is_arithmetic_v<Value> && !std::is_enum_v<Value>) reflect(by, *static_cast<Value*>(value));
+    });
+  }
+  template <class Value>
+  void exchange(std::vector<Value>& values) const {
+    start(values);
+    finish(values);
+  }
+
+  // With another function of that kind; a Vector does not say by itself whether it is a place or a direction.
+  template <auto reflected, class Value>
+  void exchange(std::vector<Value>& values) const {
+    start(values);
+    finish(values.data(), sizeof(Value), sizeof(Value), by_value<reflected, Value>);
+  }
+
+  // The same for present places alone, or for directions in their place.
+  void start_places(const std::vector<Site>& sites) const { start(place(sites), sizeof(Site), sizeof(Vector)); }
+  template <auto reflected = reflect_place>
+  void finish_places(std::vector<Site>& sites) const {
+    finish(const_cast<void*>(place(sites)), sizeof(Site), sizeof(Vector), by_value<reflected, Vector>);
+  }
+  void exchange_places(std::vector<Site>& sites) const {
+    start_places(sites);
+    finish_places(sites);
   }
 
   const std::vector<ImagePoint>& images() const;
@@ -63,6 +83,18 @@ class Halo {
   std::int64_t bytes_sent() const { return bytes_sent_; }  // since the start, by this rank
 
  private:
+  // Makes the value of an image from its original's, in place.
+  using Reflect = void (*)(const Reflection& by, void* value);
+  template <auto reflected, class Value>
+  static void by_value(const Reflection& by, void* value) {
+    reflected(by, *static_cast<Value*>(value));
+  }
+  static const void* place(const std::vector<Site>& sites) { return sites.empty() ? nullptr : &sites[0].current; }
+
+  // `width` bytes of each point, `stride` bytes from one to the next.
+  void start(const void* first, std::size_t stride, std::size_t width) const;
+  void finish(void* first, std::size_t stride, std::size_t width, Reflect reflect) const;
+
   struct Plan;
   explicit Halo(std::unique_ptr<Plan> plan);
   std::unique_ptr<Plan> plan_;

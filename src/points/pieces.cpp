@@ -22,8 +22,8 @@ UnionFind joined_on_this_rank(const Domain& domain) {
 std::vector<std::int64_t> piece_ids(const Domain& domain) {
   const int count = static_cast<int>(domain.sites.size());
   UnionFind sets = joined_on_this_rank(domain);
-  std::vector<double> of_point(count), least(count, 0);  // least: of a set, by its first point
-  for (int i = 0; i < count; ++i) of_point[i] = static_cast<double>(domain.id(i));
+  std::vector<std::int64_t> of_point(count), least(count, 0);  // least: of a set, by its first point
+  for (int i = 0; i < count; ++i) of_point[i] = domain.id(i);
   for (bool changed = true; changed;) {
     for (int i = 0; i < count; ++i) least[sets.first(i)] = of_point[sets.first(i)];
     for (int i = 0; i < count; ++i) least[sets.first(i)] = std::min(least[sets.first(i)], of_point[i]);
@@ -33,11 +33,10 @@ std::vector<std::int64_t> piece_ids(const Domain& domain) {
       of_point[i] = least[sets.first(i)];
     }
     changed = domain.communicator.max(any) > 0;
-    domain.halo.exchange(of_point.data(), 1, 1);
+    domain.halo.exchange(of_point);
   }
-  std::vector<std::int64_t> ids;
-  for (int i = 0; i < domain.owned; ++i) ids.push_back(static_cast<std::int64_t>(of_point[i]));
-  return ids;
+  of_point.resize(domain.owned);
+  return of_point;
 }
 
 // Each is counted by the rank that owns its first point.

@@ -67,7 +67,7 @@ struct BondsBetween {
   double count = 0, shortest = std::numeric_limits<double>::infinity();
 };
 
-BondsBetween bonds_between(const Domain& domain, const std::vector<double>& blocks, int first, int second) {
+BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, int first, int second) {
   BondsBetween bonds;
   for (int i = 0; i < domain.owned; ++i) {
     if (domain.cloud.blocks[i] != first) continue;
@@ -81,10 +81,10 @@ BondsBetween bonds_between(const Domain& domain, const std::vector<double>& bloc
 }
 
 // Of owned points and ghosts.
-std::vector<double> blocks_of(const Domain& domain) {
-  std::vector<double> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
+std::vector<int> blocks_of(const Domain& domain) {
+  std::vector<int> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
   blocks.resize(domain.owned + domain.ghosts, -1);
-  domain.halo.exchange(blocks.data(), 1, 1);
+  domain.halo.exchange(blocks);
   return blocks;
 }
 
@@ -101,7 +101,7 @@ std::string bonded_contacts(const deck::Deck& deck, const Domain& domain) {
       1.25;  // spacings: no two layers of one lattice, or of two that fit, are so far from each other
   if (deck.interactions.empty()) return "";
   const std::vector<std::string>& names = domain.cloud.block_names;
-  const std::vector<double> blocks = blocks_of(domain);
+  const std::vector<int> blocks = blocks_of(domain);
   std::ostringstream text;
   for (int a = 0; a < static_cast<int>(names.size()); ++a) {
     for (int b = a + 1; b < static_cast<int>(names.size()); ++b) {

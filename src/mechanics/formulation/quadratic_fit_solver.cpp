@@ -246,9 +246,7 @@ class ConsistencyCorrection {
   int count() const { return static_cast<int>(points_.size()); }
   bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
   Halo& halo() const { return body_.domain.halo; }
-  void exchange_multipliers() {
-    halo().exchange(reinterpret_cast<double*>(fits_.multipliers_.data()), 4, 3, reflect_direction);
-  }
+  void exchange_multipliers() { halo().exchange<reflect_multiplier>(fits_.multipliers_); }
 
   void set_missing();
   void set_operator();
@@ -261,7 +259,7 @@ class ConsistencyCorrection {
     double c[3], C[9], weight;
 
     friend void reflect(const Reflection& by, Share& share) {
-      reflect_direction(by, share.c);
+      turn(by, share.c);
       reflect_rows(by, share.C);  // columns do as well
     }
   };
@@ -286,7 +284,7 @@ void ConsistencyCorrection::set_missing() {
     states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
     states[i].failed = 1;  // a mark, here of points by quadratic correspondence
   }
-  halo().exchange_records(states);
+  halo().exchange(states);
   missing_.assign(body_.owned(), Vector::Zero());
   bonds::with_influence(body_.influence, [&](auto weight) {
     for_each_point(0, count(), [&, weight](int p) {
@@ -313,7 +311,7 @@ void ConsistencyCorrection::set_operator() {
     moments_[i] = inverse_moments(body_, i);
     shares_[i].weight = volume * volume;
   }
-  halo().exchange_records(shares_);
+  halo().exchange(shares_);
   for (const int i : points_) {
     const double volume = body_.domain.volume(i);
     double sum = shares_[i].weight;
@@ -333,7 +331,7 @@ void ConsistencyCorrection::apply_operator() {
     Eigen::Map<Vector>{shares_[i].c} = fit.c;
     Eigen::Map<Tensor>{shares_[i].C} = fit.C;
   });
-  halo().exchange_records(shares_);
+  halo().exchange(shares_);
   for_each_point(0, count(), [&](int p) {
     const int i = points_[p];
     const Vector mu = fits_.multipliers_[i].head<3>().matrix();

@@ -58,8 +58,7 @@ BondEnergies::BondEnergies(const Body& body) : concerned_(concerned_blocks(body)
       if (damage && damage->critical_bond_energy) points_[i].limit = *damage->critical_bond_energy;
     }
   }
-  constexpr int width = sizeof(Point) / sizeof(double);
-  body.domain.halo.exchange(reinterpret_cast<double*>(points_.data()), width, width);
+  body.domain.halo.exchange<unchanged>(points_);
 }
 
 std::vector<char> BondEnergies::take_states(const Body& body, double travel) {

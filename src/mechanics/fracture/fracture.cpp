@@ -145,7 +145,7 @@ Fracture::Fracture(Body& body) : travel_(body.domain) {
   for (const MaterialPoint& point : body.points) whole_springs_.push_back(point.stabilization);
   block_of_.assign(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) block_of_[i] = domain.cloud.blocks[i];
-  body.domain.halo.exchange(block_of_.data(), 1, 1);
+  body.domain.halo.exchange(block_of_);
   body.domain.families.broken.resize(domain.owned);
   dissipated_.assign(domain.owned, 0);
   released_.assign(domain.owned, 0);
@@ -171,7 +171,7 @@ void Fracture::set_limits(const Body& body, double time) {
   }
   limits_.resize(block_of_.size(), 0);
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (limits_[i] != of_failed) limits_[i] = of_block[static_cast<std::size_t>(block_of_[i])];
+    if (limits_[i] != of_failed) limits_[i] = of_block[block_of_[i]];
   }
 }
 
@@ -179,7 +179,7 @@ void Fracture::set_limits(const Body& body, double time) {
 void Fracture::take_failed(const Body& body) {
   std::vector<char> is_new;  // empty while there is none, as in most steps
   for (std::size_t i = 0; i < limits_.size(); ++i) {
-    if (limits_[i] == of_failed || !may_fail_[static_cast<std::size_t>(block_of_[i])]) continue;
+    if (limits_[i] == of_failed || !may_fail_[block_of_[i]]) continue;
     if (!has_failed(body.force_states, i)) continue;
     limits_[i] = of_failed;
     is_new.resize(limits_.size());
@@ -530,11 +530,11 @@ namespace {
 void exchange_states(Body& body) {
   ForceStates& states = body.force_states;
   const Domain& domain = body.domain;
-  if (!states.scalars.empty()) domain.halo.exchange_records(states.scalars);
-  if (!states.gradients.empty()) domain.halo.exchange_records(states.gradients);
+  if (!states.scalars.empty()) domain.halo.exchange(states.scalars);
+  if (!states.gradients.empty()) domain.halo.exchange(states.gradients);
   std::vector<double> failed(domain.sites.size(), 0);
   for (int i = 0; i < domain.owned; ++i) failed[i] = has_failed(states, i);
-  domain.halo.exchange(failed.data(), 1, 1);
+  domain.halo.exchange(failed);
   for (std::size_t i = domain.owned; i < failed.size(); ++i) {
     if (!states.tensors.empty()) states.tensors[i].failed() = failed[i];
     if (!states.quadratics.empty()) states.quadratics[i].failed = failed[i];

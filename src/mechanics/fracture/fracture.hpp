@@ -84,7 +84,7 @@ class Fracture {
 
   std::vector<char> may_break_;                 // of blocks
   std::vector<char> may_fail_;                  // of blocks: their points may fail, and lose their bonds then
-  std::vector<double> block_of_;                // of owned points and ghosts
+  std::vector<int> block_of_;                   // of owned points and ghosts
   std::vector<double> limits_;                  // (1 + s_c)² of owned points and ghosts; infinite without
   bool by_time_ = false;                        // they change
   BondEnergies energies_;                       // what bonds hold, where that has a limit

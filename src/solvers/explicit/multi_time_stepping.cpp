@@ -135,10 +135,8 @@ FrequencyBounds frequency_bounds_of(const Body& body) {
 
 // The ghosts' too.
 void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) {
-  std::vector<double> values(numbers.begin(), numbers.end());
-  values.resize(body.domain.sites.size());
-  halo.exchange(values.data(), 1, 1);
-  numbers.assign(values.begin(), values.end());
+  numbers.resize(body.domain.sites.size());
+  halo.exchange(numbers);
 }
 
 // Points near those of level h are of level h − 1 at least. Few points are of level 2 and more: where no ghost is, each
@@ -234,7 +232,7 @@ void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
 
 template <class State>
 void exchange_states(Halo& halo, std::vector<State>& states) {
-  if (!states.empty()) halo.exchange_records(states);
+  if (!states.empty()) halo.exchange(states);
 }
 
 // What the far ends of the bonds of a cluster give to the forces on its points.
@@ -361,7 +359,7 @@ void MultiTimeStepping::set_moment_errors(const Body& body, Level& level) {
 StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
   Level& now = levels_[level - 1];
   StepReport report;
-  exchange_places(now.halo, body.domain.sites);
+  now.halo.exchange_places(body.domain.sites);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
     if (block.in_rigid_motion || now.stressed[b].places.empty()) continue;

@@ -59,7 +59,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
     ends[i] = {static_cast<double>(first + i), 0, body.domain.cloud.spacings[i], held.free_projection(i)};
   }
   Halo& halo = body.domain.halo;
-  halo.exchange_records(ends);
+  halo.exchange(ends);
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
@@ -68,7 +68,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
       ends[i].stiffness = 15 * std::max(now, smallest_share * elastic) / std::max(spread(body, ends, i), 1e-300);
     }
   }
-  halo.exchange_records(ends);
+  halo.exchange(ends);
   return ends;
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <ostream>
 #include <random>
@@ -74,10 +75,10 @@ double horizon_of(const Case& c, const PointCloud& whole, Id id) {
 
 // The ids of owned points and ghosts, by local index: what the halo brings says who a ghost is.
 std::vector<Id> ids_of(Domain& domain) {
-  std::vector<double> values(domain.owned + domain.ghosts, -1);
-  for (int i = 0; i < domain.owned; ++i) values[i] = static_cast<double>(domain.cloud.ids[i]);
-  domain.halo.exchange(values.data(), 1, 1);
-  return {values.begin(), values.end()};
+  std::vector<Id> values = domain.cloud.ids;
+  values.resize(domain.owned + domain.ghosts, -1);
+  domain.halo.exchange(values);
+  return values;
 }
 
 std::set<Pair> brute_force(const Case& c) {
@@ -207,25 +208,43 @@ TEST_P(DomainOf, SmallestAndLargestHorizonOfABlockAreThoseOfAllRanks) {
   }
 }
 
-// Two fields side by side: only the one that is asked for travels, owned values stay.
-TEST_P(DomainOf, HaloMovesTheColumnsAskedForAndNoOthers) {
-  constexpr int stride = 5, width = 3;
-  std::vector<double> values(static_cast<std::size_t>(stride) * (domain.owned + domain.ghosts), -7);
-  const auto value = [](Id id, int c, int round) { return 10.0 * static_cast<double>(id) + c + 0.5 * round; };
+// Of the sites' numbers only places travel, others stay.
+TEST_P(DomainOf, HaloMovesThePlacesAndNoOthers) {
+  const auto place = [](Id id, int round) { return Vector(static_cast<double>(id), 0.5 * round, -1); };
+  for (Site& site : domain.sites) site.current[3] = -7;
+  for (int i = 0; i < domain.owned; ++i) domain.sites[i].current[3] = 7;
   for (int round = 0; round < 3; ++round) {
-    for (int i = 0; i < domain.owned; ++i) {
-      for (int c = 0; c < width; ++c) values[stride * i + 1 + c] = value(ids[i], c, round);
-    }
-    domain.halo.start(values.data() + 1, stride, width);
-    domain.halo.finish(values.data() + 1, stride, width);
+    for (int i = 0; i < domain.owned; ++i) domain.sites[i].current.head<3>() = place(ids[i], round).array();
+    domain.halo.exchange_places(domain.sites);
     for (int i = 0; i < domain.owned + domain.ghosts; ++i) {
-      for (int c = 0; c < width; ++c) EXPECT_EQ(values[stride * i + 1 + c], value(ids[i], c, round));
-      EXPECT_EQ(values[stride * i], -7);
-      EXPECT_EQ(values[stride * i + 4], -7);
+      EXPECT_EQ(domain.current(i), place(ids[i], round));
+      EXPECT_EQ(domain.sites[i].horizon(), i < domain.owned ? 7 : -7);
     }
   }
   if (world.size() == 1) {
     EXPECT_EQ(domain.halo.bytes_sent(), 0);
+  }
+}
+
+// Values that are no whole number of doubles arrive whole.
+TEST_P(DomainOf, HaloMovesValuesOfAnySize) {
+  struct Mark {
+    Id id;
+    char letter;
+  };
+  std::vector<std::array<char, 3>> letters(domain.owned + domain.ghosts);
+  std::vector<Mark> marks(domain.owned + domain.ghosts);
+  const auto letter = [](Id id) { return static_cast<char>('a' + id % 26); };
+  for (int i = 0; i < domain.owned; ++i) {
+    letters[i] = {letter(ids[i]), letter(ids[i] + 1), letter(ids[i] + 2)};
+    marks[i] = {ids[i], letter(ids[i])};
+  }
+  domain.halo.exchange<unchanged>(letters);
+  domain.halo.exchange<unchanged>(marks);
+  for (int i = domain.owned; i < domain.owned + domain.ghosts; ++i) {
+    EXPECT_EQ(letters[i], (std::array{letter(ids[i]), letter(ids[i] + 1), letter(ids[i] + 2)}));
+    EXPECT_EQ(marks[i].id, ids[i]);
+    EXPECT_EQ(marks[i].letter, letter(ids[i]));
   }
 }
 

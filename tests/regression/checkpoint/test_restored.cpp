@@ -48,7 +48,9 @@ TEST_P(Restored, RunWritesTheSameRowAndFrame) {
   folder.world.barrier();
   EXPECT_TRUE(run(deck, folder.world, Start::continued));
   const std::string told = testing::internal::GetCapturedStdout();
-  if (folder.world.rank() == 0) EXPECT_NE(told.find("going on from"), std::string::npos) << told;
+  if (folder.world.rank() == 0) {
+    EXPECT_NE(told.find("going on from"), std::string::npos) << told;
+  }
   EXPECT_EQ(bytes_of(folder / "run.csv"), history);
   EXPECT_TRUE(bytes_of(folder / "run.e") == result);
 }

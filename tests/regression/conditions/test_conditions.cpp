@@ -292,7 +292,7 @@ TEST(Condition, NonReflectingEndIsOneLayerAndLeavesInertia) {
                       "along Normal, one of them at (0.0005, 0.0005, 0.0045) m; expected one layer"),
             std::string::npos)
       << error({"0 0 1"}, "z &gt; 4e-3");
-  for (const std::string& second : {"0 0 1", "0 0 -1"}) {
+  for (const char* second : {"0 0 1", "0 0 -1"}) {
     EXPECT_NE(error({"0 0 1", second}, "z &gt; 5e-3")
                   .find("16 points, one of them at (0.0005, 0.0005, 0.0055) m, are of "
                         "other ends, too, and together these leave nothing"),

@@ -60,7 +60,7 @@ TEST(Nodes, FamiliesAreSymmetricWhereHorizonsDiffer) {
   Domain& domain = run.scene.body.domain;
   std::vector<double> ids(domain.sites.size(), -1);
   for (int i = 0; i < domain.owned; ++i) ids[i] = static_cast<double>(domain.cloud.ids[i]);
-  domain.halo.exchange(ids.data(), 1, 1);
+  domain.halo.exchange(ids);
   std::vector<double> bonds;
   int one_sided = 0;  // bonds that a rule of one end alone would not have on both sides
   for (int i = 0; i < domain.owned; ++i) {
