@@ -38,7 +38,7 @@ struct Touch {
 
 PointPair pair_of(const Site& a, const Site& b, bool one_body) {
   return {{a.volume(), b.volume()},
-          0.5 * (a.horizon() + b.horizon()),
+          {a.horizon(), b.horizon()},
           (b.reference - a.reference).head<3>().matrix().norm(),
           one_body};
 }

@@ -11,7 +11,7 @@ namespace strut::contact {
 // Two points that are near each other, as a law sees them: the same from both.
 struct PointPair {
   double volumes[2];          // in the reference state, m³
-  double horizon;             // the mean of theirs, m
+  double horizons[2];         // m
   double reference_distance;  // m
   bool one_body;              // or two: then they are not bonded wherever they are
 };

@@ -1,5 +1,5 @@
 // The short-range penalty of Postek, Nowak & Pęcherski (2021), eq. 22: f = K_c (r − d) V₁ V₂, with d the distance of
-// two points and r the one from which they touch.
+// two points and r the one from which they touch; K_c is the mean of both points', as in Peridigm, where each pushes.
 #pragma once
 
 #include <numbers>
@@ -25,7 +25,10 @@ struct PenaltyLaw {
     return tangent_stiffness(pair, overlap) * overlap;
   }
   double tangent_stiffness(const PointPair& pair, double) const {
-    return penalty_stiffness(penalty, pair.horizon) * (pair.volumes[0] * pair.volumes[1]);
+    const double one = penalty_stiffness(penalty, pair.horizons[0]);
+    const bool are_equal = pair.horizons[0] == pair.horizons[1];
+    const double mean = are_equal ? one : 0.5 * (one + penalty_stiffness(penalty, pair.horizons[1]));
+    return mean * (pair.volumes[0] * pair.volumes[1]);
   }
   double stored_energy(const PointPair& pair, double overlap) const {
     return 0.5 * tangent_stiffness(pair, overlap) * overlap * overlap;

@@ -40,9 +40,14 @@ const std::map<std::string, std::string> missing_fields = {
     {"Temperature_Change", "there is none"},
 };
 
+// ½ m v⁻·v⁺ of the velocities before and after a force: that with the elastic energy it is conserved costs its sign.
+const std::string kinetic =
+    "Kinetic_Energy, by the velocities half a step before and after, which may be below zero where they turn round; "
+    "Peridigm's, by one of them, may not";
+
 // Numbers of the whole body, and the columns of every History that hold them.
 const std::map<std::string, std::string> global_columns = {
-    {"Global_Kinetic_Energy", "Kinetic_Energy"},
+    {"Global_Kinetic_Energy", kinetic},
     {"Global_Strain_Energy", "Elastic_Energy"},
     {"Global_Linear_Momentum", "Momentum_X, Momentum_Y, Momentum_Z"},
     {"Global_Angular_Momentum", ""},

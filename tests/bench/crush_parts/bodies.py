@@ -78,4 +78,4 @@ MM = 1e-3
 BODIES = {body.name: body for body in (
     Body("slender", "eight struts, L/d 4.3, crushed", 0.2 * MM, MM, False, 0, 0.08 * MM, 0.3, 1 / 500, (2, 3, 4, 6), 3.790e-3),
     Body("stubby", "eight struts, L/d 2.9, crushed", 0.3 * MM, MM, False, 0, 0.12 * MM, 0.3, 1 / 500, (2.1, 3, 3.9, 6), 10.37e-3),
-    Body("sheared", "four struts in a node, sheared", MM, 4 * MM, True, 0.51 * MM, 0, 0.1, 1 / 1000, (2, 3, 4, 6), 25.40e-3))}
+    Body("sheared", "four struts in a node, sheared", MM, 4 * MM, True, 0.51 * MM, 0, 0.1, 1 / 1000, (2, 3, 4, 6), 24.72e-3))}

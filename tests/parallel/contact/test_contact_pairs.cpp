@@ -260,8 +260,10 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
     for (int j = 0; j < count; ++j) {
       const double d = distance(all, id, j), r = touching(all, id, j);
       if (j == id || d >= r || !belong(all, id, j, a, b) || joined(all, id, j)) continue;
-      const double delta = 0.5 * (bonds[all.cloud.blocks[id]].horizon + bonds[all.cloud.blocks[j]].horizon);
-      const double k = 18 * law.penalty / (M_PI * std::pow(delta, 5)) * all.cloud.volumes[id] * all.cloud.volumes[j];
+      const auto of = [&](int n) {
+        return 18 * law.penalty / (M_PI * std::pow(bonds[all.cloud.blocks[n]].horizon, 5));
+      };
+      const double k = 0.5 * (of(id) + of(j)) * all.cloud.volumes[id] * all.cloud.volumes[j];
       expected += k * (r - d) * (all.places[id] - all.places[j]) / d;
       energy += 0.25 * k * (r - d) * (r - d);
     }

@@ -117,7 +117,7 @@ TEST(DialectOfPeridigm, CubesInContact) {
   const std::string ours =
       section("Discretization", mesh) +
       section("Materials", section("plastic", constants + key("Stabilization", "Silling") +
-                                                  key("Stabilization Coefficient", "0.04"))) +
+                                                  key("Stabilization Coefficient", "0.005"))) +
       section("Blocks", body("block_1") + body("block_2")) +
       section("Contact", section("Models", model) + section("Interactions", section("pair", pair))) +
       section("Boundary Conditions", trajectory) +

@@ -10,7 +10,9 @@ namespace {
 constexpr double round_off = 1e-15;  // a handful of products, relative
 
 // Two points 1 mm apart at first, with a horizon of 50 µm; of two bodies.
-PointPair pair_of(double one_volume, double other_volume) { return {{one_volume, other_volume}, 5e-5, 1e-3, false}; }
+PointPair pair_of(double one_volume, double other_volume) {
+  return {{one_volume, other_volume}, {5e-5, 5e-5}, 1e-3, false};
+}
 
 // Postek et al. (2021), eq. 22, with the numbers of their foam: K_p = 1e12 Pa, δ = 50 µm. By hand:
 // K_c = 18·1e12/(π·(5e-5)⁵) = 1.8334649444186343e34 Pa/m⁵.
@@ -20,6 +22,17 @@ TEST(PenaltyLaw, ForceIsThePublishedOne) {
   const PenaltyLaw law{.radius = 5.5e-5, .penalty = 1e12};
   const double force = law.normal_force(pair_of(3e-16, 4e-16), 1e-6);
   EXPECT_NEAR(force, 1.8334649444186343e34 * 1e-6 * 3e-16 * 4e-16, 10 * round_off * force);
+}
+
+// In Peridigm each point of a pair pushes by its own horizon: the mean of both, 33/2 of the softer one at 1 : 2.
+TEST(PenaltyLaw, IsTheMeanOfThoseOfBothHorizons) {
+  const PenaltyLaw law{.radius = 5.5e-5, .penalty = 1e12};
+  PointPair pair = pair_of(3e-16, 4e-16);
+  pair.horizons[1] = 1e-4;
+  const double softer = penalty_stiffness(1e12, 1e-4) * 3e-16 * 4e-16;
+  EXPECT_NEAR(law.tangent_stiffness(pair, 1e-6), 16.5 * softer, 1e-14 * 16.5 * softer);
+  std::swap(pair.horizons[0], pair.horizons[1]);
+  EXPECT_NEAR(law.tangent_stiffness(pair, 1e-6), 16.5 * softer, 1e-14 * 16.5 * softer);
 }
 
 // By hand: R₁ = 0.5 mm and R₂ = 1.5 mm, so R* = 0.375 mm; E* = 6e10 Pa and an overlap of 15 µm, √(R* o) = 75 µm:
@@ -62,7 +75,7 @@ template <class L>
 L some_law() {
   return L{2, 3};
 }
-const PointPair some_pair{{1.5, 0.5}, 1.2, 2, false};
+const PointPair some_pair{{1.5, 0.5}, {1.2, 1.3}, 2, false};
 
 TYPED_TEST(EveryLaw, NothingActsWithoutOverlap) {
   const auto law = some_law<TypeParam>();

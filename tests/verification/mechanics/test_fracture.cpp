@@ -404,6 +404,8 @@ TEST(Cracks, CutBondsOnce) {
   const std::int64_t small = bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 0.4e-3}});
   EXPECT_LT(small, whole);
   EXPECT_GT(small, halves);
+  // Those one column over pass half a spacing from its middle: through the rim, where they stay.
+  EXPECT_EQ(bonds({DiskCrack{Vector(3.5e-3, 3.5e-3, 5e-3), Vector(0, 0, 1), 0.5e-3}}), small);
 }
 
 // Points that are thrown about, so that bonds break anywhere: families of all shapes, with few, coplanar or no bonds

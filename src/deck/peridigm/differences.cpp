@@ -1,0 +1,122 @@
+// What a deck of Peridigm's asks for and this program means otherwise: told at the start of the run, and by how much.
+#include <algorithm>
+#include <set>
+
+#include "deck/numbers.hpp"
+#include "deck/peridigm/peridigm.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+bool has_any(const List& list, std::initializer_list<const char*> names) {
+  return std::ranges::any_of(list.parameters, [&](const Parameter& one) {
+    return std::ranges::any_of(names, [&](const char* name) { return one.name == name; });
+  });
+}
+
+bool any_section_has(List* lists, std::initializer_list<const char*> names) {
+  return lists && std::ranges::any_of(lists->lists, [&](const List& one) { return has_any(one, names); });
+}
+
+bool sets_are_parameters(List* conditions) {
+  return conditions && std::ranges::any_of(conditions->parameters, [](const Parameter& one) {
+           return one.name.find("Node Set") != std::string::npos;
+         });
+}
+
+class Differences {
+ public:
+  Differences(List& deck, Problems& problems) : deck_(deck), problems_(problems), blocks_(find_list(deck, "Blocks")) {}
+
+  void tell() {
+    List* damage = find_list(deck_, "Damage Models");
+    if (damage && !damage->lists.empty()) tell_of_damage();
+    if (values_of("Horizon").size() > 1 && !are_separate()) tell_of_horizons();
+    tell_of_contact();
+    if (has_loads()) {
+      for (const char* field : {"Force", "Force_Density"}) {
+        tell_of_field(field, "holds the loads of Body Force, too; Peridigm writes the internal force alone");
+      }
+    }
+  }
+
+ private:
+  // Of the sections of Blocks; "" where one has none.
+  std::set<std::string> values_of(const std::string& key) {
+    std::set<std::string> values;
+    if (!blocks_) return values;
+    for (const List& block : blocks_->lists) values.insert(value_of(block, key));
+    return values;
+  }
+
+  // All but one section at most: then no two of them have bonds.
+  bool are_separate() {
+    return std::ranges::count_if(
+               blocks_->lists, [](const List& one) { return to_boolean(value_of(one, "Separate Body")) != true; }) <= 1;
+  }
+
+  bool has_loads() {
+    const List* conditions = find_list(deck_, "Boundary Conditions");
+    return conditions && std::ranges::any_of(conditions->lists,
+                                             [](const List& one) { return value_of(one, "Type") == "Body Force"; });
+  }
+
+  void tell_of_damage() {
+    tell_of_field("Damage",
+                  "weighs each broken bond by the volume of its other end; Peridigm counts bonds: the same where all "
+                  "points of a family have one volume");
+    tell_of_field("Number_Of_Neighbors", "falls as bonds break; in Peridigm it stays");
+    const std::set<std::string> models = values_of("Damage Model");
+    if (models.contains("") && models.size() > 1) {
+      problems_.note("Blocks",
+                     "with a Damage Model have bonds to blocks without one, which break for both of their ends; in "
+                     "Peridigm for the end that has the model, and they go on pulling the other one");
+    }
+  }
+
+  void tell_of_horizons() {
+    problems_.note("Blocks",
+                   "have horizons of their own: points of two of them are neighbors below the mean of both, and feel "
+                   "each other's forces; in Peridigm each takes those within its own horizon");
+  }
+
+  void tell_of_contact() {
+    List* contact = find_list(deck_, "Contact");
+    List* models = contact ? find_list(*contact, "Models") : nullptr;
+    if (!models) return;
+    for (const List& model : models->lists) {
+      if (value_of(model, "Contact Model") != "Short Range Force") continue;
+      problems_.note("Contact > Models > " + model.name + " > Contact Radius",
+                     "is the distance from which points push each other; those of two bodies that start nearer do so "
+                     "from that distance on, in Peridigm from the radius on, so that they push at once");
+    }
+  }
+
+  void tell_of_field(const std::string& name, const std::string& what) {
+    List* output = find_list(deck_, "Output");
+    List* variables = output ? find_list(*output, "Output Variables") : nullptr;
+    if (variables && find_parameter(*variables, name)) problems_.note("Output > Output Variables > " + name, what);
+  }
+
+  List& deck_;
+  Problems& problems_;
+  List* blocks_;
+};
+
+}  // namespace
+
+bool is_peridigms(List& deck) {
+  const auto section = [&](const char* name) { return find_list(deck, name); };
+  List *mesh = section("Discretization"), *contact = section("Contact");
+  return section("Compute Class Parameters") || section("Output1") ||
+         sets_are_parameters(section("Boundary Conditions")) ||
+         (mesh && has_any(*mesh, {"NeighborhoodType", "Omit Bonds Between Blocks"})) ||
+         (contact && has_any(*contact, {"Search Radius", "Search Frequency"})) ||
+         any_section_has(section("Materials"),
+                         {"Hourglass Coefficient", "Apply Shear Correction Factor", "Enable Flaw"});
+}
+
+void tell_differences(List& deck, Problems& problems) { Differences(deck, problems).tell(); }
+
+}  // namespace strut::deck
