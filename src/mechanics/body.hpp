@@ -191,7 +191,8 @@ struct Body {
   std::vector<MaterialPoint> points;
   Deduplicated<Symmetric> shape_inverse;  // K⁻¹, 1/m⁵
   std::shared_ptr<QuadraticFits> fits;    // of owned points by quadratic correspondence, where there are any
-  std::vector<double> density;            // kg/m³
+  std::vector<double> density;            // of inertia, kg/m³
+  std::vector<double> mass_scale;         // what mass scaling made of it, times; empty: nothing
   std::vector<Vector> velocity;           // at mid-step, m/s
   std::vector<Vector> previous_velocity;  // at the mid-step before, m/s
   // N/m³ of reference volume. From a stress update to the sum of forces that follows: what the points' own states give,
@@ -224,7 +225,9 @@ struct Body {
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
   // What is its own of the inertia of its cell, 1 but where a condition takes a part for another body's.
-  double inertia_share(int i) const { return density[i] / block_of(i).material.density; }
+  double inertia_share(int i) const {
+    return density[i] / (block_of(i).material.density * (mass_scale.empty() ? 1 : mass_scale[i]));
+  }
   Vector current(int i) const { return domain.current(i); }
   // The law point of block.points[k] at the place q.
   const MaterialPoint& law_point(const MaterialBlock& block, std::size_t k, int q) const {

@@ -35,7 +35,8 @@ void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
             old.points,
             old.bonds,
             old.pieces,
-            old.tools};
+            old.tools,
+            old.highest_frequency};
   run.writers.reset();
   run.solver.reset();
   run.scene.reset();

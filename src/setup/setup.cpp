@@ -14,6 +14,7 @@
 #include "setup/cuts.hpp"
 #include "setup/families.hpp"
 #include "setup/filled_tools.hpp"
+#include "setup/mass_scaling.hpp"
 #include "setup/mesh.hpp"
 #include "setup/mirrors.hpp"
 #include "setup/outline.hpp"
@@ -69,6 +70,8 @@ Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& commun
   Scene scene = assembled(deck, std::move(kept.cloud), std::move(kept.cuts), communicator);
   scene.points = kept.points, scene.bonds = kept.bonds, scene.pieces = kept.pieces, scene.dropped = kept.dropped;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) *scene.tools[t].touched = *kept.tools[t].touched;
+  scene.highest_frequency = kept.highest_frequency;
+  scale_masses(scene.highest_frequency, scene.body);
   add_contact(deck, scene);
   return scene;
 }
@@ -117,6 +120,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.pieces = count_pieces(scene.body.domain);
   const std::vector<contact::Interaction> interactions = add_contact(deck, scene);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
+  scene.highest_frequency = scale_masses(deck, scene.body, scene.warnings);
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
   const std::vector<Trajectory> ways = trajectories(scene, start, duration);
   scene.outline = outline(scene, ways, start, duration);

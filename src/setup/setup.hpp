@@ -27,6 +27,7 @@ struct Kept {
   Dropped dropped;
   std::int64_t points = 0, bonds = 0, pieces = 0;
   std::vector<ToolOfScene> tools;
+  double highest_frequency = 0;
 };
 
 // Collective. The same scene on another partition, at its initial time; what it tells is not told again.

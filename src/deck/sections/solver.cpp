@@ -73,6 +73,18 @@ const BooleanKey subcycling(
      .meaning = "Points that limit the time step are subcycled: they take smaller steps of their own. "
                 "None do with a fixed step."});
 
+const OptionalKey<double> scaled_dt(
+    {.name = "Mass Scaling dt",
+     .unit = "s",
+     .range = positive,
+     .meaning = "Mass scaling: the points that would make the first step shorter get mass until it is so long; the run "
+                "tells how much. Contact and deformation may make it shorter later."});
+
+const RealKey most_added_mass({.name = "Most Added Mass",
+                               .range = {.low = 0, .with_low = false},
+                               .fallback = "0.05",
+                               .meaning = "With mass scaling: of the whole mass; more is an error."});
+
 const RealKey rebalance(
     {.name = "Rebalance",
      .range = {.low = 1, .with_low = false},
@@ -82,7 +94,7 @@ const RealKey rebalance(
 
 const Section verlet = {.name = "Verlet",
                         .meaning = "Explicit steps by central differences: a fixed step or a safety factor, not both.",
-                        .keys = {fixed_dt, safety_factor, subcycling, rebalance}};
+                        .keys = {fixed_dt, safety_factor, subcycling, scaled_dt, most_added_mass, rebalance}};
 
 const BooleanKey verbose(
     {.name = "Verbose",
@@ -132,6 +144,8 @@ Solver read_solver(const Values& deck, Problems& problems) {
                 .fixed_dt = steps[fixed_dt],
                 .safety_factor = steps[safety_factor],
                 .subcycling = steps[subcycling],
+                .scaled_dt = steps[scaled_dt],
+                .most_added_mass = steps[most_added_mass],
                 .rebalance = steps[rebalance]};
   if (values.has_section(quasi_static.name)) {
     solver.quasi_static = read_quasi_static(values.section(quasi_static.name));
@@ -140,6 +154,7 @@ Solver read_solver(const Values& deck, Problems& problems) {
     }
   }
   check_one_of(steps, fixed_dt, safety_factor, problems);
+  check_one_of(steps, fixed_dt, scaled_dt, problems);
   check_times(values, problems);
   return solver;
 }

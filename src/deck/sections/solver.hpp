@@ -23,7 +23,9 @@ struct Solver {
   std::optional<double> fixed_dt;           // s; else from the critical time step
   double safety_factor{};
   bool subcycling{};
-  double rebalance{};  // of the rank with most work beside the mean: above it the partition is made anew
+  std::optional<double> scaled_dt;  // s; that mass scaling makes of the step
+  double most_added_mass{};         // by it, of the whole mass
+  double rebalance{};               // of the rank with most work beside the mean: above it the partition is made anew
 
   double duration() const { return final_time - initial_time; }
 };

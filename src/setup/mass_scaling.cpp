@@ -1,0 +1,125 @@
+#include "setup/mass_scaling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "deck/numbers.hpp"
+#include "mechanics/frequency_bound.hpp"
+#include "mechanics/internal_force.hpp"
+#include "solvers/explicit/critical_time_step.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of owned points, 1/s.
+std::vector<double> bounds_of(const Body& body) {
+  std::vector<double> bounds(body.owned(), 0);
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      bounds[block.points[k]] = frequency_bound(body, block, static_cast<int>(k));
+    }
+  }
+  return bounds;
+}
+
+void scale(const std::vector<double>& densities, const std::vector<double>& bounds, double highest, Body& body) {
+  body.mass_scale.assign(body.owned(), 1);
+  for (int i = 0; i < body.owned(); ++i) {
+    body.mass_scale[i] = std::max(1.0, std::pow(bounds[i] / highest, 2));
+    body.density[i] = body.mass_scale[i] * densities[i];
+  }
+}
+
+// The highest bound of a point that a critical time step of `wanted` allows; 0 where it is that long without.
+double highest_for(double wanted, Body& body) {
+  constexpr int most_trials = 20;
+  constexpr double lower = 0.99;  // each trial a hundredth below what the one before calls for
+  const std::vector<double> densities = body.density, bounds = bounds_of(body);
+  advance_stress(body, 0, false);
+  CriticalTimeStep estimate;
+  double critical = estimate.estimate(body);
+  if (critical >= wanted) return 0;
+  double highest = body.domain.communicator.max(bounds.empty() ? 0.0 : *std::ranges::max_element(bounds));
+  for (int trial = 0; trial < most_trials && critical < wanted; ++trial) {
+    highest *= lower * critical / wanted;
+    scale(densities, bounds, highest, body);
+    critical = estimate.estimate(body);
+  }
+  return highest;
+}
+
+struct Added {
+  double mass = 0, added = 0, points = 0, scaled = 0;
+
+  double share() const { return mass > 0 ? added / mass : 0; }
+};
+
+// Of each block, and of all at last.
+std::vector<Added> added_to(const Body& body) {
+  const std::size_t blocks = body.blocks.size();
+  std::vector<double> sums(4 * (blocks + 1), 0);
+  for (int i = 0; i < body.owned(); ++i) {
+    const double mass = body.mass(i) / body.mass_scale[i];
+    for (const std::size_t b : {static_cast<std::size_t>(body.domain.cloud.blocks[i]), blocks}) {
+      double* of_block = &sums[4 * b];
+      of_block[0] += mass, of_block[1] += body.mass(i) - mass;
+      of_block[2] += 1, of_block[3] += body.mass_scale[i] > 1 ? 1 : 0;
+    }
+  }
+  body.domain.communicator.sum(sums);
+  std::vector<Added> all;
+  for (std::size_t b = 0; b <= blocks; ++b) {
+    all.push_back({sums[4 * b], sums[4 * b + 1], sums[4 * b + 2], sums[4 * b + 3]});
+  }
+  return all;
+}
+
+std::string percent(double share) {
+  std::ostringstream text;
+  text.precision(3);
+  text << 100 * share << " %";
+  return text.str();
+}
+
+std::string report_of(const Body& body, const std::vector<Added>& added, double wanted) {
+  std::ostringstream text;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (added[b].added == 0) continue;
+    text << "mass scaling for a step of " << wanted << " s: block '" << body.blocks[b].name << "' gets "
+         << added[b].added << " kg, " << percent(added[b].share()) << " of its own, on " << added[b].scaled << " of "
+         << added[b].points << " points\n";
+  }
+  text << "mass scaling: " << added.back().added << " kg in all, " << percent(added.back().share())
+       << "; inertia, momentum and kinetic energy are those of the larger mass\n";
+  return text.str();
+}
+
+}  // namespace
+
+void scale_masses(double highest, Body& body) {
+  if (highest > 0) scale(std::vector<double>(body.density), bounds_of(body), highest, body);
+}
+
+double scale_masses(const deck::Deck& deck, Body& body, std::string& report) {
+  if (!deck.solver.scaled_dt) return 0;
+  const double wanted = *deck.solver.scaled_dt;
+  const double highest = highest_for(wanted / deck.solver.safety_factor, body);
+  if (highest == 0) {
+    report += "mass scaling adds nothing: the step is " + deck::to_text(wanted) + " s or longer without\n";
+    return 0;
+  }
+  const std::vector<Added> added = added_to(body);
+  const double share = added.back().share(), most = deck.solver.most_added_mass;
+  raise_together(body.domain.communicator, share > most ? "Solver > Verlet > Mass Scaling dt: a step of " +
+                                                              deck::to_text(wanted) + " s takes " + percent(share) +
+                                                              " more mass; expected " + percent(most) +
+                                                              " at most (Most Added Mass): want a shorter step"
+                                                        : "");
+  report += report_of(body, added, wanted);
+  return highest;
+}
+
+}  // namespace strut
