@@ -28,15 +28,7 @@ Snapshot saved(const ExplicitRun& run, double time) {
 // All that has a place in memory, in the order in which one needs the other.
 void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
   const Communicator communicator = run.scene->body.domain.communicator;
-  Scene& old = *run.scene;
-  Kept kept{moved(whole_cloud(old.body.domain), ranks, communicator),
-            old.cuts,
-            old.dropped,
-            old.points,
-            old.bonds,
-            old.pieces,
-            old.tools,
-            old.highest_frequency};
+  Kept kept = kept_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));
   run.writers.reset();
   run.solver.reset();
   run.scene.reset();

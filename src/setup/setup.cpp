@@ -66,6 +66,11 @@ std::vector<contact::Interaction> add_contact(const deck::Deck& deck, Scene& sce
 
 }  // namespace
 
+Kept kept_of(const Scene& scene, PointCloud cloud) {
+  return {std::move(cloud), scene.cuts,   scene.dropped, scene.points,
+          scene.bonds,      scene.pieces, scene.tools,   scene.highest_frequency};
+}
+
 Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& communicator) {
   Scene scene = assembled(deck, std::move(kept.cloud), std::move(kept.cuts), communicator);
   scene.points = kept.points, scene.bonds = kept.bonds, scene.pieces = kept.pieces, scene.dropped = kept.dropped;

@@ -30,6 +30,8 @@ struct Kept {
   double highest_frequency = 0;
 };
 
+Kept kept_of(const Scene& scene, PointCloud cloud);
+
 // Collective. The same scene on another partition, at its initial time; what it tells is not told again.
 Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& communicator);
 

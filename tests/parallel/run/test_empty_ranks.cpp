@@ -12,14 +12,7 @@ Scene scene_of(const deck::Deck& deck, const Communicator& world, bool on_one_ra
   Scene scene = set_up(deck, world);
   if (!on_one_rank) return scene;
   const std::vector<int> ranks(scene.body.owned(), world.size() - 1);
-  Kept kept{moved(whole_cloud(scene.body.domain), ranks, world),
-            scene.cuts,
-            scene.dropped,
-            scene.points,
-            scene.bonds,
-            scene.pieces,
-            scene.tools};
-  return set_up_again(deck, std::move(kept), world);
+  return set_up_again(deck, kept_of(scene, moved(whole_cloud(scene.body.domain), ranks, world)), world);
 }
 
 // To an archive and back, which is where ranks meet that have no part in a group of points.
