@@ -170,4 +170,18 @@ std::optional<Passing> find_passing(const Domain& domain, const Contact& contact
   return std::nullopt;
 }
 
+std::vector<Overlap> overlapping_blocks(const Domain& domain) {
+  const int blocks = static_cast<int>(domain.blocks.size());
+  const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::reference);
+  std::vector<Overlap> all;
+  for (int a = 0; a < blocks; ++a) {
+    for (int b = a + 1; b < blocks; ++b) {
+      if (domain.blocks[a].body == domain.blocks[b].body) continue;
+      const Eigen::AlignedBox3d overlap = extents[a].box.intersection(extents[b].box);
+      if (!overlap.isEmpty()) all.push_back({a, b, points_inside(domain, a, b, overlap, &Domain::reference)});
+    }
+  }
+  return all;
+}
+
 }  // namespace strut::contact

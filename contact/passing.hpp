@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "contact/contact.hpp"
 #include "points/domain.hpp"
@@ -20,5 +21,15 @@ struct Passing {
 // points of the smaller one, are inside each other: where a point is as deep in the material of the other body as the
 // points of it that are nearest (docs/theory.md). Whose bounding boxes do not overlap costs a reduction only.
 std::optional<Passing> find_passing(const Domain& domain, const Contact& contact, double limit);
+
+// Two blocks of different bodies, and this rank's points of them that are inside of the other one in the reference
+// state.
+struct Overlap {
+  int first, second;
+  std::vector<int> points;
+};
+
+// Collective. Of all blocks whose bounding boxes overlap; `points` may be empty.
+std::vector<Overlap> overlapping_blocks(const Domain& domain);
 
 }  // namespace strut::contact

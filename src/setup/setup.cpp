@@ -18,6 +18,7 @@
 #include "setup/mesh.hpp"
 #include "setup/mirrors.hpp"
 #include "setup/outline.hpp"
+#include "setup/overlaps.hpp"
 #include "setup/tool_paths.hpp"
 #include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
@@ -133,6 +134,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += improbable_temperatures(scene.body);
   scene.warnings += mass_of_shared_nodes(scene.body, taken);
   scene.warnings += improbable_scales(scene, ways, start, duration);
+  scene.warnings += overlaps(scene.body);
   scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_tools(scene, ways, spacing, start, duration);
