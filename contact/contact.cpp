@@ -18,7 +18,8 @@ namespace {
 constexpr double skin_share = 0.08;
 
 // A search is due this many steps before a skin distance is used up, since the motion of the next step is a forecast.
-constexpr double forecast = 2;
+// What points may do in the step after that counts in the stiffness, too.
+constexpr double forecast = 3;
 
 // A search is made where a point has really used this part of its skin distance; by the bound it often only trembles.
 constexpr double most_used = 0.5;
@@ -73,6 +74,7 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   }
   contact_pair.used = 0;
   contact_pair.result = {};
+  contact_pair.loads.clear();
   contact_pair.friction.clear();
   ++searches_;
 }
@@ -165,7 +167,16 @@ std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair&
   return loads;
 }
 
-void Contact::add_normal_forces(const Kinematics& kinematics, ContactPair& contact_pair,
+// The same, where any of its points touches several blocks, else none; their springs together bound the step.
+std::vector<Load> Contact::joined_loads(const Domain& domain, ContactPair& contact_pair) const {
+  if (contact_pair.elsewhere.empty()) return {};
+  std::vector<Load> loads = loads_of_all(domain, contact_pair);
+  double& stiffness = contact_pair.result.stiffness;
+  for (const Load& load : loads) stiffness = std::max(stiffness, largest_eigenvalue(load.springs, stiffness));
+  return loads;
+}
+
+void Contact::add_normal_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
                                 std::vector<Vector>& force_density) {
   Pairs& pairs = contact_pair.pairs;
   if (contact_pair.surfaces) {
@@ -173,7 +184,7 @@ void Contact::add_normal_forces(const Kinematics& kinematics, ContactPair& conta
     contact_pair.result = contact_pair.surfaces->add_normal_forces(kinematics, law, pairs, force_density);
   } else {
     const auto& law = std::get<PairLaw>(contact_pair.model.law);
-    contact_pair.result = contact::add_normal_forces(kinematics, law, pairs, force_density, contact_pair.loads);
+    contact_pair.result = contact::add_normal_forces(kinematics, dt, law, pairs, force_density, contact_pair.loads);
   }
 }
 
@@ -200,13 +211,10 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, const Sliding&
     return !pair.pairs.empty() || pair.pairs.halo || pair.couples.any();
   };
   for (ContactPair& pair : contact_pairs_) {
-    if (may_touch(pair)) add_normal_forces(kinematics, pair, force_density);
+    if (may_touch(pair)) add_normal_forces(kinematics, dt, pair, force_density);
   }
   for (ContactPair& pair : contact_pairs_) {
-    std::vector<Load> of_all;
-    if (!pair.elsewhere.empty()) of_all = loads_of_all(kinematics.domain, pair);
-    double& stiffness = pair.result.stiffness;
-    for (const Load& load : of_all) stiffness = std::max(stiffness, largest_eigenvalue(load.springs, stiffness));
+    const std::vector<Load> of_all = joined_loads(kinematics.domain, pair);
     const bool rubs = pair.model.friction > 0 && (dt > 0 || sliding.is_trial);
     const std::vector<Load>& loads = of_all.empty() ? pair.loads : of_all;
     if (rubs && may_touch(pair)) add_friction(kinematics, dt, sliding, loads, pair, force_density);
@@ -217,6 +225,20 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Ve
   if (!any()) return;
   look_where_due(kinematics, dt);
   add_forces(kinematics, dt, {kinematics.velocities, dt}, force_density);
+}
+
+void Contact::foresee(const Kinematics& kinematics, double dt) {
+  std::vector<Vector> forces(kinematics.domain.owned, Vector::Zero());  // those at the present places are known
+  for (ContactPair& pair : contact_pairs_) {
+    const bool of_points = !pair.surfaces && (!pair.pairs.empty() || pair.pairs.halo);
+    if (of_points) add_normal_forces(kinematics, dt, pair, forces);
+  }
+  for (ContactPair& pair : contact_pairs_) {
+    if (pair.surfaces) continue;
+    joined_loads(kinematics.domain, pair);
+    stiffness_ = std::max(stiffness_, pair.result.stiffness);
+  }
+  if (any()) stiffness_ = kinematics.domain.communicator.max(stiffness_);
 }
 
 void Contact::add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way,
@@ -359,6 +381,20 @@ void Contact::add_where_touched(double amount, std::span<double> of_points) cons
     visit_normal_forces(contact_pair, [&](std::size_t k, const Vector& force) {
       if (!force.isZero(0)) of_points[contact_pair.pairs.owned[k]] += amount;
     });
+  }
+}
+
+void Contact::mark_touching(std::span<std::uint8_t> marks) const {
+  for (const ContactPair& pair : contact_pairs_) {
+    if (pair.surfaces) {
+      visit_normal_forces(pair, [&](std::size_t k, const Vector& force) {
+        if (!force.isZero(0)) marks[pair.pairs.owned[k]] = 1;
+      });
+    } else {
+      for (std::size_t k = 0; k < pair.loads.size(); ++k) {
+        if (pair.loads[k].springs.trace() > 0 || pair.loads[k].contacts > 0) marks[pair.pairs.owned[k]] = 1;
+      }
+    }
   }
 }
 

@@ -38,7 +38,11 @@ class Contact {
   // here (s), 0 at the start.
   void add_forces(const Kinematics& kinematics, double dt, std::vector<Vector>& force_density);
 
-  // The same for a trial of an equilibrium: friction (of surfaces) starts where the last commit was; `way`: of the
+  // Collective, after the forces at the start. What comes to touch in a first step of dt (s) by the velocities of
+  // `kinematics` counts in stiffness().
+  void foresee(const Kinematics& kinematics, double dt);
+
+  // add_forces for a trial of an equilibrium: friction (of surfaces) starts where the last commit was; `way`: of the
   // owned points since then, m.
   void add_trial_forces(const Kinematics& kinematics, std::span<const Vector> way, std::vector<Vector>& force_density);
   // Before the last trial is committed: the work of friction since the last time, on this rank's points, J.
@@ -80,6 +84,9 @@ class Contact {
   // one.
   void add_where_touched(double amount, std::span<double> of_points) const;
 
+  // Those that touch, or come to in a step like the last, of points; of surfaces those that feel a force.
+  void mark_touching(std::span<std::uint8_t> marks) const;
+
   int searches() const { return searches_; }  // so far, of all interactions
 
  private:
@@ -119,13 +126,14 @@ class Contact {
   // Collective.
   void look_where_due(const Kinematics& kinematics, double dt);
   void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, std::vector<Vector>& force_density);
-  static void add_normal_forces(const Kinematics& kinematics, ContactPair& contact_pair,
+  static void add_normal_forces(const Kinematics& kinematics, double dt, ContactPair& contact_pair,
                                 std::vector<Vector>& force_density);
   static void add_friction(const Kinematics& kinematics, double dt, const Sliding& sliding,
                            const std::vector<Load>& loads, ContactPair& contact_pair,
                            std::vector<Vector>& force_density);
   void find_points_of_several();
   std::vector<Load> loads_of_all(const Domain& domain, const ContactPair& contact_pair) const;
+  std::vector<Load> joined_loads(const Domain& domain, ContactPair& contact_pair) const;
 
   std::vector<ContactPair> contact_pairs_;
   // How many bonds of each owned point had broken when ranks last agreed. Points whose bond breaks in a step touch

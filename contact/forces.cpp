@@ -19,7 +19,7 @@ constexpr double just = 1 + 1e-9;
 // The stiffness that bounds the next step is that of so many times the present overlap.
 constexpr double growth = 2;
 
-// A pair that touches.
+// A pair that touches, or comes to in a step like the last.
 template <ContactLaw L>
 struct Touch {
   const L& law;
@@ -27,14 +27,37 @@ struct Touch {
   int partner;
   Vector direction;  // from the point to its partner, unit length
   double distance, touching;
+  double distance_to_come;
 
+  bool is_now() const { return distance * distance < just * touching * touching; }
   double overlap() const { return std::max(0.0, touching - distance); }
   double penetration() const { return 1 - distance / touching; }
   double force() const { return law.normal_force(pair, overlap()); }
   double energy() const { return law.stored_energy(pair, overlap()); }
   double stiffness() const { return law.tangent_stiffness(pair, overlap()); }
-  double stiffness_to_come() const { return law.tangent_stiffness(pair, growth * overlap()); }
+  double stiffness_to_come() const {
+    return law.tangent_stiffness(pair, std::max(growth * overlap(), touching - distance_to_come));
+  }
 };
+
+// How far the sites of pairs went in the last step, m; empty: there was none.
+struct Ways {
+  std::vector<Vector> of = {};
+  double most = 0;  // that two of them may have come nearer to each other
+};
+
+// By velocities, so that they do not depend on when a search has found the pairs.
+Ways ways_of(const Kinematics& kinematics, double dt, Pairs& pairs) {
+  Ways ways;
+  if (dt == 0) return ways;
+  ways.of.assign(pairs.sites.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways.of[k] = dt * kinematics.velocities[pairs.owned[k]];
+  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(ways.of.data()), 3, 3);
+  Eigen::AlignedBox3d box;
+  for (const Vector& way : ways.of) box.extend(way);
+  if (!ways.of.empty()) ways.most = box.diagonal().norm();
+  return ways;
+}
 
 PointPair pair_of(const Site& a, const Site& b, bool one_body) {
   return {{a.volume(), b.volume()},
@@ -43,24 +66,32 @@ PointPair pair_of(const Site& a, const Site& b, bool one_body) {
           one_body};
 }
 
-// Calls visit(Touch) for the partners of owned[k] that touch it.
+// Calls visit(Touch) for the partners of owned[k] that touch it, or come to.
 template <ContactLaw L, class Visit>
-void for_each_touch(const Pairs& pairs, const L& law, std::size_t k, Visit&& visit) {
+void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size_t k, Visit&& visit) {
   const Site& here = pairs.sites[k];
-  const double radius2 = just * law.radius * law.radius;
+  const double reach = law.radius + ways.most, reach2 = just * reach * reach;
   for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
-    const Site& there = pairs.sites[pairs.partners[p]];
+    const int partner = pairs.partners[p];
+    const Site& there = pairs.sites[partner];
     const Vector eta = (there.current - here.current).head<3>().matrix();
     const double distance2 = eta.squaredNorm();
-    if (!(distance2 < radius2)) continue;
+    if (!(distance2 < reach2)) continue;
     const PointPair pair = pair_of(here, there, pairs.one_body);
-    const double touching = law.touching_distance(pair);
-    if (!(distance2 < just * touching * touching)) continue;
+    const double touching = law.touching_distance(pair), seen = touching + ways.most;
+    if (!(distance2 < just * seen * seen)) continue;
     const double distance = std::sqrt(distance2);
+    const double to_come = ways.of.empty() ? distance : (eta + ways.of[partner] - ways.of[k]).norm();
     // Two points at the same place have no direction: nothing parts them in this step.
     const Vector direction = distance > 0 ? Vector(eta / distance) : Vector::Zero();
-    visit(Touch<L>{law, pair, pairs.partners[p], direction, distance, touching});
+    const Touch<L> touch{law, pair, partner, direction, distance, touching, to_come};
+    if (touch.is_now() || to_come < touching) visit(touch);
   }
+}
+
+template <ContactLaw L, class Visit>
+void for_each_touch(const Pairs& pairs, const L& law, std::size_t k, Visit&& visit) {
+  for_each_near(pairs, Ways(), law, k, visit);
 }
 
 // What the partners of a point must know of it for friction.
@@ -111,20 +142,21 @@ Vector surface_normal(const Slider& here, const Slider& there, const Vector& dir
 }
 
 template <ContactLaw L>
-ForceResult normal_forces(const L& law, const Pairs& pairs, std::vector<Vector>& force_density,
+ForceResult normal_forces(const L& law, const Pairs& pairs, const Ways& ways, std::vector<Vector>& force_density,
                           std::vector<Load>& loads) {
   ForceResult result;
   loads.resize(pairs.owned.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Load load;
-    for_each_touch(pairs, law, k, [&](const Touch<L>& touch) {
+    for_each_near(pairs, ways, law, k, [&](const Touch<L>& touch) {
+      const double mass = pairs.masses[k];
+      const double weight = touch.stiffness_to_come() * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
+      load.springs += weight * touch.direction * touch.direction.transpose();
+      if (!touch.is_now()) return;
       load.push -= touch.force() * touch.direction;
       load.contacts += 1;
       result.deepest.take({touch.penetration(), pairs.owned[k]});
       result.energy += 0.5 * touch.energy();
-      const double mass = pairs.masses[k];
-      const double weight = touch.stiffness_to_come() * (1 / mass + 1 / std::sqrt(mass * pairs.masses[touch.partner]));
-      load.springs += weight * touch.direction * touch.direction.transpose();
     });
     force_density[pairs.owned[k]] += load.push / pairs.sites[k].volume();
     result.stiffness = std::max(result.stiffness, largest_eigenvalue(load.springs, result.stiffness));
@@ -180,10 +212,11 @@ void for_each_spring(const PairLaw& law, const Pairs& pairs, const Visit& visit)
 
 }  // namespace
 
-ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, Pairs& pairs,
+ForceResult add_normal_forces(const Kinematics& kinematics, double dt, const PairLaw& law, Pairs& pairs,
                               std::vector<Vector>& force_density, std::vector<Load>& loads) {
   bring_to_present(kinematics, pairs);
-  return std::visit([&](const auto& one) { return normal_forces(one, pairs, force_density, loads); }, law);
+  const Ways ways = ways_of(kinematics, dt, pairs);
+  return std::visit([&](const auto& one) { return normal_forces(one, pairs, ways, force_density, loads); }, law);
 }
 
 void add_friction(const Kinematics& kinematics, const PairLaw& law, double coefficient, double dt, Pairs& pairs,

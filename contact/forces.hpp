@@ -27,10 +27,9 @@ struct ForceResult {
   DeepestPenetration deepest;
   double energy = 0;  // stored by the pairs that touch, J: half of each
   // A bound of ω² of the touching points, 1/s²: the largest eigenvalue of any Σ k (1/m_i + 1/√(m_i m_j)) n⊗n. For a
-  // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)². With k that of twice the present
-  // overlap, so that it holds in the next step too: two points that approach by v Δt a step have done so since they
-  // touch. Only the step after the one within which a touch began may turn out too long for a law that stiffens; a
-  // touch that begins within a step is not foreseen for any law.
+  // pair (n·(x_i − x_j))² ≤ (1 + √(m_i/m_j)) (n·x_i)² + (1 + √(m_j/m_i)) (n·x_j)². With k so that it holds in the next
+  // step too: that of twice the present overlap, or of the one after another step like the last, where it is more.
+  // Pairs that come to touch in such a step count.
   double stiffness = 0;
 };
 
@@ -42,8 +41,8 @@ struct Load {
 };
 
 // Collective. Brings the pairs to the present places and adds their normal forces to force_density (N/m³); loads[k] is
-// that of pairs.owned[k].
-ForceResult add_normal_forces(const Kinematics& kinematics, const PairLaw& law, Pairs& pairs,
+// that of pairs.owned[k]. dt: the length of the last step (s); 0: there was none.
+ForceResult add_normal_forces(const Kinematics& kinematics, double dt, const PairLaw& law, Pairs& pairs,
                               std::vector<Vector>& force_density, std::vector<Load>& loads);
 
 // Collective, after add_normal_forces. Adds Coulomb friction to force_density; friction[k] is its force on

@@ -97,6 +97,7 @@ struct ViscousPoint {
   double pressure = 0;  // J q of the last step, Pa
   double work = 0;      // taken so far, J per m³ of reference volume
   double damping = 0;   // part of the critical damping of the fastest wave between points
+  double edge = 0;      // of a cube as large as the whole cell, of which a node on a symmetry plane has a part, m
 };
 
 // Artificial viscosity of von Neumann & Richtmyer (1950) and Landshoff (1955): where the volume shrinks at the rate D,

@@ -1,6 +1,7 @@
 #include "mechanics/make_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "mechanics/formulation/quadratic_fit.hpp"
@@ -9,6 +10,7 @@
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "points/parallel_for.hpp"
+#include "points/planes_through.hpp"
 
 namespace strut {
 
@@ -151,6 +153,15 @@ void set_what_blocks_feel(Body& body) {
   }
 }
 
+void set_viscous(const Domain& domain, MaterialBlock& block) {
+  block.viscous.resize(block.law_points());
+  for (std::size_t k = 0; k < block.points.size(); ++k) {
+    const int i = block.points[k];
+    const double edge = std::cbrt(coincident_images(domain, i) * domain.volume(i));
+    for (int q = 0; q < block.places_a_point(); ++q) block.viscous[block.place(k, q)].edge = edge;
+  }
+}
+
 }  // namespace
 
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials) {
@@ -186,7 +197,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
     if (block.material.formulation != Formulation::correspondence && block.lattice >= 0) {
       throw std::logic_error("a block that is not by correspondence must ask for lists");
     }
-    if (block.material.viscosity.any()) block.viscous.resize(block.law_points());
+    if (block.material.viscosity.any()) set_viscous(body.domain, block);
   }
   set_shapes(body);
   set_what_blocks_feel(body);

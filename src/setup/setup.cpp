@@ -22,6 +22,7 @@
 #include "setup/tool_paths.hpp"
 #include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
+#include "setup/unheld_bodies.hpp"
 #include "setup/weak_contact.hpp"
 
 namespace strut {
@@ -144,6 +145,9 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += noisy_cracks(scene.body);
   scene.warnings += bonded_contacts(deck, scene.body.domain);
   scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
+  if (scene.quasi_static) {
+    scene.warnings += unheld_bodies(scene, interactions, start, duration / scene.quasi_static->load_steps);
+  }
   scene.warnings += weak_contacts(deck, scene, interactions, ways, spacing);
   return scene;
 }

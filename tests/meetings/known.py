@@ -42,32 +42,10 @@ def pushed_between_substeps(case, name, problem):
     return result.status == 0 and not any("out of nothing" in line for line in result.warnings)
 
 
-def viscous_half_cells(case, name, problem):
-    scene = case.scene
-    return name == "half of it" and scene.mesh.at_nodes and any("Viscosity" in key for m in scene.deck["Materials"].values() for key in m)
-
-
-def pushed_along(case, name, problem):
-    """A pair of blocks has touched, and nothing but round-off of its force is left beside what acts elsewhere."""
-    scene, rows = case.scene, case.base.history
-    if scene.explicit or not contact_models(scene) or name not in ("on three ranks", "broken off"):
-        return False
-    pairs, most = {}, 0.0
-    for column, values in rows.items():
-        if column.startswith("Contact_Force"):
-            pair = column[column.index("("):]
-            pairs[pair] = max(pairs.get(pair, 0.0), np.abs(values).max())
-        elif column.startswith("Reaction"):
-            most = max(most, np.abs(values).max())
-    return any(0 < force < 1e-6 * most for force in pairs.values())
-
-
 KNOWN = {
     "the step follows the stiffness of contact only once points touch: the first touch lies in a step that is too long for it": touched_in_a_long_step,
     "the step changes while the highest modes ring, which gives them energy": changed_its_step,
     "contact, and tools with a mass, push points that take substeps once a step, which feeds their vibrations": pushed_between_substeps,
-    "a body that contact pushes along, and nothing holds, comes to rest in an equilibrium anywhere short of a force, and nothing is told": pushed_along,
-    "nodes on a symmetry plane have the artificial viscosity of the half cell that is there": viscous_half_cells,
 }
 
 

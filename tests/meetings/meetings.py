@@ -43,6 +43,7 @@ from schema import schema_of
 from shrink import shrunk
 
 RELATIONS_A_SCENE = 5  # in the short run
+VERBOSE = bool(os.environ.get("MEETINGS_VERBOSE"))
 ATTEMPTS = 40  # to draw a scene that is not refused
 
 
@@ -101,7 +102,7 @@ class Worker:
             problem, reason = failure_of(case, name)
             (report["asked"] if reason is None else report["left out"]).append((name, reason))
             if problem and known(case, name, problem):
-                report["known"].append(known(case, name, problem))
+                report["known"].append((known(case, name, problem), name, problem))
             elif problem:
                 report["failures"].append((name, problem, self.kept(case, name, problem)))
         return report
@@ -195,7 +196,10 @@ def main():
         left.update(report["left out"])
         refusals.update(text[:110] for text in report["refusals"])
         errors += bool(report["error"])
-        faults.update(report["known"])
+        for sentence, name, problem in report["known"]:
+            faults[sentence] += 1
+            if VERBOSE:
+                print(f"known: seed {report['seed']}, {name}: {problem} ({sentence})", flush=True)
         for name, problem, folder in report["failures"]:
             failures.append(name)
             print(f"FAILED: seed {report['seed']}, {name}: {problem} [{report['about']}]" + (f" ({folder})" if folder else ""), flush=True)
@@ -208,7 +212,7 @@ def main():
         print(f"  {name}: asked of {asked[name]}, {failures.count(name)} failed")
     for sentence, count in faults.most_common():
         print(f"  known: {count}: {sentence}")
-    if os.environ.get("MEETINGS_VERBOSE"):
+    if VERBOSE:
         for (name, reason), count in left.most_common():
             print(f"  left out {count}: {name}: {reason}")
         for text, count in refusals.most_common(12):

@@ -217,12 +217,12 @@ struct LawUpdate {
         continue;
       }
       const double D = now.rates.c[0][l] + now.rates.c[1][l] + now.rates.c[2][l], c = std::sqrt(speed2[l]);
-      const double length = std::cbrt(body.domain.volume(g.group.i[l])) / std::sqrt(steepness2[l]);
+      const double length = point.edge / std::sqrt(steepness2[l]);
       const double jump = length * std::max(0.0, -D), by_speed = linear * c + quadratic * quadratic * jump;
       viscous.pressure[l] = block.material.density / now.J[l] * jump * by_speed;
       const double pressure = now.J[l] * viscous.pressure[l];
       viscous.work[l] = 0.5 * (point.pressure + pressure) * -D * dt[l];
-      point = {pressure, point.work + viscous.work[l], jump > 0 ? by_speed / c : 0};
+      point = {pressure, point.work + viscous.work[l], jump > 0 ? by_speed / c : 0, point.edge};
     }
     return viscous;
   }

@@ -79,20 +79,6 @@ double released(const PointAccount& before, const PointAccount& after) {
   return 0.5 * (before.work + after.work) - (after.energy - before.energy);
 }
 
-// How many images of a point are where it is, itself counted: on a symmetry plane 2, each with half of a cell.
-int coincident_images(const Domain& domain, int i) {
-  const std::vector<Mirror> planes = planes_through(domain, i);
-  std::vector<Tensor> turns{Tensor::Identity()};
-  for (std::size_t n = 0; n < turns.size(); ++n) {
-    for (const Mirror& plane : planes) {
-      const Tensor turn = Reflection::by(plane).turn * turns[n];
-      const auto is_it = [&turn](const Tensor& other) { return (other - turn).norm() < 1e-6; };  // round-off is 1e-16
-      if (std::none_of(turns.begin(), turns.end(), is_it)) turns.push_back(turn);
-    }
-  }
-  return static_cast<int>(turns.size());
-}
-
 bool fails(const MaterialBlock& block) {
   const auto may_fail = []<class L>(const L&) { return materials::has_changing_moduli<L>; };
   return block.material.damage && std::visit(may_fail, block.material.law);

@@ -54,8 +54,20 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
   largest_energy_ = energy_of_round_off(body_);
+  start({});
+  const double first = control_.fixed_dt > 0 ? control_.fixed_dt : control_.safety_factor * critical_time_step();
+  if (!std::isfinite(first)) return;
+  const std::vector<Vector> velocities = predicted_velocities(conditions_, time_, first, body_);
+  contact_.foresee({body_.domain, velocities, body_.density}, first);
+  // What touches at the start, or in the first step, has its levels and its step from the start.
+  const std::vector<std::uint8_t> marks = pushed(velocities, first);
+  if (body_.domain.communicator.max(any_exposed(marks) ? 1.0 : 0.0) > 0) start(marks);
+}
+
+void CentralDifference::start(const std::vector<std::uint8_t>& pushed) {
+  body_.time_levels.clear();
   StepReport report = advance_stress(body_, 0, true);
-  reassign_levels(report);
+  reassign_levels(report, pushed);
   sum_forces(body_, true);
   mirror_forces_ = mirror_forces(body_);
   contact_.add_forces(kinematics(), 0, body_.force_density);
@@ -77,16 +89,51 @@ void CentralDifference::estimate_step() {
 }
 
 // The points that limit the step are chosen anew.
-void CentralDifference::reassign_levels(StepReport& report) {
+void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
   levels_due_ = false;
   estimate_due_ = true;
   if (!control_.subcycling || control_.fixed_dt > 0) return;
   const double safety = control_.safety_factor;
   report.frequency_bound = multi_stepping_.choose(
-      body_, safety, {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay() / safety});
+      body_, safety, {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay() / safety}, pushed);
   restrict_conditions();
   levels_anew_ = multi_stepping_.anew();
   if (levels_anew_) bound_of_step_ = multi_stepping_.bound();
+}
+
+// Whether contact, or a tool with a mass, acts on an owned point or is about to: once a step, on both alike. Empty
+// where there is neither. A tool meets points between steps, too, by these velocities before the levels of the next
+// step but one are there.
+std::vector<std::uint8_t> CentralDifference::pushed(std::span<const Vector> velocities, double dt) const {
+  constexpr double steps = 2, near = 0.05;  // so many spacings besides, for what changes meanwhile
+  std::vector<std::uint8_t> marks(body_.owned(), 0);
+  contact_.mark_touching(marks);
+  bool any = contact_.any();
+  for (const RigidTool& tool : tools_of(conditions_)) {
+    if (!tool.free) continue;
+    any = true;
+    const Vector offset = tool.offset(time_);
+    for (const int i : tool.points) {
+      const Vector place = body_.current(i) - offset;
+      const Surface at = std::visit([&](const auto& shape) { return tool.met_by(i, shape, place); }, tool.shape);
+      const double closing = std::max(0.0, at.normal.dot(tool.free->velocity - velocities[i]));
+      if (at.gap < steps * dt * closing + near * body_.domain.cloud.spacings[i]) marks[i] = 1;
+    }
+  }
+  return any ? marks : std::vector<std::uint8_t>();
+}
+
+bool CentralDifference::pushes_exposed_points() const {
+  return !multi_stepping_.exposed().empty() && any_exposed(pushed(body_.velocity, dt_));
+}
+
+bool CentralDifference::any_exposed(const std::vector<std::uint8_t>& marks) const {
+  const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
+  if (exposed.empty()) return false;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] && exposed[i]) return true;
+  }
+  return false;
 }
 
 void CentralDifference::restrict_conditions() {
@@ -107,7 +154,8 @@ void CentralDifference::choose_step(double final_time) {
   const double growth = control_.fixed_dt > critical_time_step() ? 1.01 : renewal_growth;
   const bool estimated = estimate_due_;
   if (estimated) estimate_step();
-  levels_due_ = frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps;
+  levels_due_ =
+      frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps || exposed_are_pushed_;
   if (control_.fixed_dt > 0) {
     // What round-off leaves after the last full step is no step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
@@ -292,7 +340,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
   move_points();
   StepReport report = advance_stress(body_, dt_, with_diagnostics, time_);
   take_worse(between.failure, report.failure);
-  if (levels_due_) reassign_levels(report);
+  if (levels_due_) reassign_levels(report, pushed(body_.velocity, dt_));
   sum_forces(body_, with_diagnostics);
   mirror_forces_ = mirror_forces(body_);
   contact_.add_forces(kinematics(), dt_, body_.force_density);
@@ -317,7 +365,8 @@ void CentralDifference::move_points() {
 void CentralDifference::check(const StepReport& report) {
   const std::string no_number = conditions_.first_not_finite();
   std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
-                             static_cast<double>(request_), report.frequency_bound, report.damping};
+                             static_cast<double>(request_), report.frequency_bound, report.damping,
+                             pushes_exposed_points() ? 1.0 : 0.0};
   const std::size_t own = agreed.size();
   contact_.append_to_agree(kinematics(), agreed);
   {
@@ -329,6 +378,7 @@ void CentralDifference::check(const StepReport& report) {
   request_ = Request::none;
   frequency_bound_ = agreed[2];
   damping_ = std::max(agreed[3], linear_viscosity(body_));
+  exposed_are_pushed_ = agreed[4] > 0;
   contact_.take_agreed(std::span(agreed).subspan(own), dt_);
   const auto severity = static_cast<Severity>(agreed[0]);
   went_on_ = severity == passable;
@@ -368,6 +418,7 @@ void CentralDifference::serialize(Archive& archive) {
   archive.number("regroup_due", levels_due_);
   archive.number("estimate_due", estimate_due_);
   archive.number("levels_anew", levels_anew_);
+  archive.number("exposed_are_pushed", exposed_are_pushed_);
   archive.number("least_chosen", least_chosen_);
   archive.number("bound_of_step", bound_of_step_);
   archive.number("step_of_bound", step_of_bound_);

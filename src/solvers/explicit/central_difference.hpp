@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "conditions/conditions.hpp"
 #include "conditions/mid_steps.hpp"
@@ -75,6 +76,7 @@ class CentralDifference {
   void serialize(Archive& archive);
 
  private:
+  void start(const std::vector<std::uint8_t>& pushed);
   contact::Kinematics kinematics() const;
   void choose_load_times(double final_time);
   void add_loads();
@@ -89,8 +91,11 @@ class CentralDifference {
   double longest_stay() const;
   double longest_step(bool estimated);
   void estimate_step();
-  void reassign_levels(StepReport& report);
+  void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
+  std::vector<std::uint8_t> pushed(std::span<const Vector> velocities, double dt) const;
+  bool any_exposed(const std::vector<std::uint8_t>& marks) const;
+  bool pushes_exposed_points() const;
   void serialize_work(Archive& archive);
   StepReport substeps();
   StepReport substep(int level, double t);
@@ -125,7 +130,7 @@ class CentralDifference {
   double initial_energy_ = 0, largest_energy_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0, most_substeps_ = 1;
   double updates_ = 0;
-  bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
+  bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false, exposed_are_pushed_ = false;
   std::string warning_;
   bool went_on_ = false;
   Request request_ = Request::none, agreed_request_ = Request::none;

@@ -29,6 +29,10 @@ constexpr double cost_of_substep = 1.5;
 // Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
 constexpr int families_between_levels = 2;
 
+// Contact acts once a step, on points of level 1 at the most and no nearer than this to those of higher levels: an
+// impulse a step is in resonance with what is faster than most_turn allows there (docs/theory.md, Multi-time-stepping).
+constexpr int families_around_contact = 3;
+
 constexpr double worth_while = 0.75;    // of the cost of a run without
 constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays as it is
 
@@ -134,7 +138,7 @@ FrequencyBounds frequency_bounds_of(const Body& body) {
 }
 
 // The ghosts' too.
-void exchange(const Body& body, Halo& halo, std::vector<std::uint8_t>& numbers) {
+void exchange(const Body& body, const Halo& halo, std::vector<std::uint8_t>& numbers) {
   numbers.resize(body.domain.sites.size());
   halo.exchange(numbers);
 }
@@ -160,6 +164,27 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
+// All that is so many families from a marked point at the most.
+void spread(const Body& body, int families, std::vector<std::uint8_t>& marks) {
+  exchange(body, body.domain.halo, marks);
+  for (int n = 0; n < families; ++n) {
+    const std::vector<std::uint8_t> before = marks;
+    for (int i = 0; i < body.owned(); ++i) {
+      body.domain.families.for_each(i, [&](int j) { marks[i] = std::max(marks[i], before[j]); });
+    }
+    marks.resize(body.owned());
+    exchange(body, body.domain.halo, marks);
+  }
+}
+
+// The frequency bound of level 0 that leaves the marked points level 1.
+double floor_of_pushed(const Body& body, const FrequencyBounds& bounds, double margin,
+                       const std::vector<std::uint8_t>& marks) {
+  double most = 0;
+  for (int i = 0; i < body.owned(); ++i) most = std::max(most, marks[i] ? bounds.values[i] : 0);
+  return body.domain.communicator.max(most) / (2 * margin);
+}
+
 // Of owned points and ghosts, empty of none; for steps that points of the frequency bound `bound` and below can have;
 // and the work of a step.
 struct Levels {
@@ -173,14 +198,14 @@ double work_of_step(const Body& body, const std::vector<std::uint8_t>& levels) {
   return body.domain.communicator.sum(work);
 }
 
-// `before`: the levels so far, if any.
+// `before`: the levels so far, if any, that points keep which nothing pushes.
 Levels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
-                  const std::vector<std::uint8_t>& before) {
+                  const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& pushed) {
   std::vector<std::uint8_t> levels(body.owned(), 0);
   over_points(body, [&](int i, bool may) {
     if (!may) return;
     levels[i] = level_of(bounds.values[i], bound, margin);
-    if (before.empty() || before[i] <= levels[i]) return;
+    if (before.empty() || before[i] <= levels[i] || (!pushed.empty() && pushed[i])) return;
     levels[i] = std::max<int>(levels[i], std::min<int>(before[i], level_of(slack * bounds.values[i], bound, margin)));
   });
   exchange(body, body.domain.halo, levels);
@@ -197,7 +222,7 @@ Levels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin)
   const double bound = std::max(histogram.best(), bounds.floor);
   Levels none{{}, bounds.largest, work_of_step(body, {})};
   if (!(bound < bounds.largest)) return none;
-  Levels some = levels_for(body, bounds, bound, margin, {});
+  Levels some = levels_for(body, bounds, bound, margin, {}, {});
   return some.work * bound < worth_while * none.work * none.bound ? some : none;
 }
 
@@ -252,14 +277,18 @@ small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster,
 
 }  // namespace
 
-double MultiTimeStepping::choose(Body& body, double safety_factor, const PresentStep& present) {
+double MultiTimeStepping::choose(Body& body, double safety_factor, const PresentStep& present,
+                                 const std::vector<std::uint8_t>& pushed) {
   const std::vector<std::uint8_t> before = std::move(body.time_levels);
   const double margin = std::min(1.0, most_turn / safety_factor), bearable = present.slack * present.bound;
-  const FrequencyBounds bounds = frequency_bounds_of(body);
+  FrequencyBounds bounds = frequency_bounds_of(body);
+  std::vector<std::uint8_t> around = pushed;
+  if (!pushed.empty()) spread(body, families_around_contact, around);
+  if (!pushed.empty()) bounds.floor = std::max(bounds.floor, floor_of_pushed(body, bounds, margin, around));
   Levels best = cheapest_levels(body, bounds, margin);
   anew_ = true;
   if (present.bound > 0 && bearable >= bounds.floor) {
-    Levels kept = levels_for(body, bounds, bearable, margin, before);
+    Levels kept = levels_for(body, bounds, bearable, margin, before, around);
     const bool of_none = levels_.empty() && best.bound == bounds.largest && bearable >= bounds.largest;
     anew_ = !of_none && best.work * best.bound < worth_a_change * kept.work * present.bound;
     if (!anew_) best = std::move(kept);
@@ -281,6 +310,7 @@ double MultiTimeStepping::choose(Body& body, double safety_factor, const Present
 void MultiTimeStepping::make_levels(Body& body) {
   levels_.clear();
   motion_levels_.clear();
+  exposed_.clear();
   updates_ = 1;
   double agreed[] = {0};  // the most time-step levels of any point
   for (const std::uint8_t h : body.time_levels) agreed[0] = std::max<double>(agreed[0], h);
@@ -291,6 +321,10 @@ void MultiTimeStepping::make_levels(Body& body) {
   std::vector<std::uint8_t> everywhere = motion_levels_;
   exchange(body, body.domain.halo, everywhere);
   for (int m = 1; m <= count; ++m) levels_.push_back(make_level(body, everywhere, m));
+  if (count > 1) {
+    for (int i = 0; i < body.owned(); ++i) exposed_.push_back(body.time_levels[i] > 1);
+    spread(body, families_around_contact, exposed_);
+  }
   double updates[] = {0, static_cast<double>(body.owned())};
   for (int i = 0; i < body.owned(); ++i) updates[0] += 1 << body.time_levels[i];
   body.domain.communicator.sum(updates);

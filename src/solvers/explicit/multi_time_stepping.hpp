@@ -21,11 +21,15 @@ class MultiTimeStepping {
   // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
   // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
   // the step will be such a part of the stable one. The present step stays as it is, unless another is much better.
+  // `pushed`: whether contact acts on an owned point; empty on all ranks where there is none.
   struct PresentStep {
     double bound;  // 1/s, the frequency bound that it was chosen for; 0: there is none
     double slack;  // so many times as much is bearable
   };
-  double choose(Body& body, double safety_factor, const PresentStep& present);
+  double choose(Body& body, double safety_factor, const PresentStep& present, const std::vector<std::uint8_t>& pushed);
+
+  // Whether an owned point is too near to such of several substeps for contact to push it. Empty: no point is.
+  const std::vector<std::uint8_t>& exposed() const { return exposed_; }
 
   // Of the last choice: whether the step is to be chosen anew, and for which frequency bound.
   bool anew() const { return anew_; }
@@ -69,7 +73,7 @@ class MultiTimeStepping {
   Level make_level(const Body& body, const std::vector<std::uint8_t>& motion_levels, int level) const;
 
   std::vector<Level> levels_;
-  std::vector<std::uint8_t> motion_levels_;
+  std::vector<std::uint8_t> motion_levels_, exposed_;
   double updates_ = 1, bound_ = 0;
   bool anew_ = false;
 };

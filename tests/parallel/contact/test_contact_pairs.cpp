@@ -251,7 +251,7 @@ TEST_P(ContactOfBlocks, ForcesAreThoseOfBruteForceAndAddUpToNothing) {
   Pairs pairs = part.pairs(a, b);
   std::vector<Vector> density(part.domain.owned, Vector::Zero()), friction;
   std::vector<Load> loads;
-  const ForceResult result = add_normal_forces(part.kinematics(), law, pairs, density, loads);
+  const ForceResult result = add_normal_forces(part.kinematics(), 0, law, pairs, density, loads);
   double energy = 0, scale = 0;
   std::vector<double> sums(11, 0);
   for (int i = 0; i < part.domain.owned; ++i) {
@@ -305,7 +305,7 @@ TEST(Contact, BoundOfTheStiffnessHolds) {
   Pairs pairs = part.pairs(0, 0);
   std::vector<Vector> density(part.domain.owned, Vector::Zero());
   std::vector<Load> loads;
-  const double bound = world.max(add_normal_forces(part.kinematics(), law, pairs, density, loads).stiffness);
+  const double bound = world.max(add_normal_forces(part.kinematics(), 0, law, pairs, density, loads).stiffness);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(count, count);  // block 0 has every third point
   for (int i = 0; i < count; i += 3) {
     for (int j = 0; j < count; j += 3) {

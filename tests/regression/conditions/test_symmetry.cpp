@@ -128,6 +128,7 @@ Tensor turned_in_space() {
 }
 
 const std::string plastic = key("Yield Stress", "200e6");
+const std::string viscous = key("Linear Viscosity", "0.1") + key("Quadratic Viscosity", "1.2");
 
 // Copper with more keys, the first of which may be its model.
 std::string material(const std::string& model, const std::string& keys) {
@@ -174,7 +175,9 @@ INSTANTIATE_TEST_SUITE_P(By, Quarter,
                                               "Elements", key("Horizon", "3.015e-3")},
                                          Case{"Ordinary", material("Elastic", ""), "Elements",
                                               key("Horizon Factor", "2.01"), 10},
-                                         Case{"Nodes", material("Elastic Plastic Correspondence", plastic), "Nodes"}),
+                                         Case{"Nodes", material("Elastic Plastic Correspondence", plastic), "Nodes"},
+                                         Case{"ViscousNodes",  // the distance of points is that of whole cells
+                                              material("Elastic Plastic Correspondence", plastic + viscous), "Nodes"}),
                          [](const auto& info) { return info.param.name; });
 
 // The four places of a cell by quadratic correspondence are no mirror images of each other: there the second order in
