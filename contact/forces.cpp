@@ -52,7 +52,7 @@ Ways ways_of(const Kinematics& kinematics, double dt, Pairs& pairs) {
   if (dt == 0) return ways;
   ways.of.assign(pairs.sites.size(), Vector::Zero());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways.of[k] = dt * kinematics.velocities[pairs.owned[k]];
-  if (pairs.halo) pairs.halo->exchange(reinterpret_cast<double*>(ways.of.data()), 3, 3);
+  if (pairs.halo) pairs.halo->exchange<unchanged>(ways.of);
   Eigen::AlignedBox3d box;
   for (const Vector& way : ways.of) box.extend(way);
   if (!ways.of.empty()) ways.most = box.diagonal().norm();

@@ -25,7 +25,7 @@ constexpr int width_of_record = sizeof(Record) / sizeof(double);
 // near to it that one of its points might be at their place.
 class Cells {
  public:
-  explicit Cells(double edge) : width_(0.2 * edge), longest_(4 * edge) {}
+  explicit Cells(double edge) : width_(0.5 * edge), longest_(4 * edge) {}
 
   // visit(cell, whether the point itself is in it)
   template <class Visit>

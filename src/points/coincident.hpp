@@ -10,8 +10,10 @@
 
 namespace strut {
 
-// Nearer to each other than this, in the edge of a cube of the smaller one's volume, two points are at one place.
-constexpr double at_one_place = 0.01;
+// Nearer to each other than this, in the edge of a cube of the smaller one's volume, two points are at one place: most
+// of the one's cell is in the other's. Cells that lie side by side are so near where they are 30 times as wide as
+// thick.
+constexpr double at_one_place = 0.1;
 
 // Collective, of a cloud that is spread over the ranks in any way. `allowed`: whether points of these two blocks may be
 // at one place. "" where no others are; else a sentence, the same on all ranks, that names the first two by the order

@@ -19,6 +19,7 @@
 #include "setup/mirrors.hpp"
 #include "setup/outline.hpp"
 #include "setup/overlaps.hpp"
+#include "setup/overruled.hpp"
 #include "setup/tool_paths.hpp"
 #include "setup/trajectories.hpp"
 #include "setup/undeclared_contact.hpp"
@@ -140,6 +141,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_tools(scene, ways, spacing, start, duration);
   scene.warnings += apart_tools(scene, start, duration);
+  scene.warnings += overruled_motions(deck, scene, start, duration);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
   scene.warnings += noisy_cracks(scene.body);

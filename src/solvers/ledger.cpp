@@ -14,13 +14,14 @@ void Ledger::balance(double held, double put_in, double& largest_so_far) {
 }
 
 double energy_of_round_off(const Body& body) {
-  constexpr double strain = 1e-12;
+  constexpr double strain = 1e-12, of_quadratic = 1e-11;  // whose terms that cancel are larger
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
     const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);
-    for (const int i : block.points) sum += modulus * body.domain.volume(i);
+    const double squared = std::pow(block.is_quadratic() ? of_quadratic : strain, 2);
+    for (const int i : block.points) sum += squared * modulus * body.domain.volume(i);
   }
-  return 0.5 * strain * strain * body.domain.communicator.sum(sum);
+  return 0.5 * body.domain.communicator.sum(sum);
 }
 
 }  // namespace strut

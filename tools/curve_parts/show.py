@@ -7,6 +7,11 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+# How the tables begin.
+CURVE = ["Time (s)", "Strain (1)"]
+MEASURES = ["Measure", "Value", "Unit", "Definition"]
+FRONT = ["Distance from the end that is hit (m)", "Arrival of the front (s)"]
+
 
 def say(about, found):
     for what, text in about.items():
@@ -26,17 +31,17 @@ def rows_to(path, header, rows):
 
 def write_curve(path, times, strain, names, stresses):
     W = np.concatenate([[0], np.cumsum(0.5 * (stresses[0][1:] + stresses[0][:-1]) * np.diff(strain))])
-    header = ["Time (s)", "Strain (1)", *[f"Stress (Pa) of {name}" for name in names[:2]], "Energy (J/m3)"]
+    header = [*CURVE, *[f"Stress (Pa) of {name}" for name in names[:2]], "Energy (J/m3)"]
     rows_to(path, header, [[f"{x:.9g}" for x in row] for row in zip(times, strain, *stresses, W)])
 
 
 def write_measures(path, found):
-    rows_to(path, ["Measure", "Value", "Unit", "Definition"],
+    rows_to(path, MEASURES,
             [[m.name, "" if m.value is None else f"{m.value:.9g}", m.unit, m.said()] for m in found])
 
 
 def write_front(path, front):
-    rows_to(path, ["Distance from the end that is hit (m)", "Arrival of the front (s)"],
+    rows_to(path, FRONT,
             [[f"{x:.9g}", f"{t:.9g}"] for x, t in zip(front.places, front.arrivals)])
 
 

@@ -124,14 +124,22 @@ def check_output(path, *read):
                  f"{path} is read: expected another file to write")
 
 
-def own_file(folder, name, *read):
+def own_file(folder, name, *read, is_ours=None):
     """The path of a file that a tool names by itself, ready to be written: what is there is no file that is read, and if it is
-    a link to anything, that stays."""
+    a link to anything, that stays. `is_ours`: whether what is there is by this tool; else it is the user's, and stays, too."""
     path = os.path.join(folder, name)
     check_output(path, *read)
+    if is_ours and os.path.isfile(path) and not os.path.islink(path) and not is_ours(path):
+        fail(f"{path} is there and was not written by this tool, which would replace it: expected another folder, or that it is "
+             "removed")
     if os.path.islink(path) or (os.path.isfile(path) and os.stat(path).st_nlink > 1):
         os.unlink(path)
     return path
+
+
+def begins(path, text):
+    with open(path, "rb") as file:
+        return file.read(len(text)) in (text.encode(), b"")
 
 
 # Libraries that crash, and those that print

@@ -47,6 +47,9 @@ def read(path, converge=None):
             take(study, f"{path}, line {number}", *(part.strip() for part in line.partition("=")[::2]))
     if not study.deck or not (study.vary or converge):
         fail(f"{path}: expected a line 'deck = …' and at least one 'vary NAME = …'")
+    for names, _ in study.vary:
+        if not any(re.search(rf"{{[^}}]*\b{name}\b", value) for name in names for _, _, value in study.sets):
+            fail(f"{path}: '{', '.join(names)}' varies, and no line 'set' has {{{names[0]}}}: all runs would be the same")
     if converge and study.curve is None and not study.collect:
         fail(f"{path}: expected a line 'curve =' or 'collect = …': nothing is read off the runs that could converge")
     study.deck = os.path.join(os.path.dirname(path), study.deck)
@@ -60,13 +63,19 @@ def take(study, where, key, value):
         take_vary(study, where, [name.strip() for name in rest.split(",")], value)
     elif kind == "set" and rest:
         recipe, _, line = rest.partition(" ")
-        study.sets.append((True, line.strip(), value) if recipe == "recipe" and line else (False, rest, value))
+        in_recipe = recipe == "recipe" and bool(line)
+        name = line.strip() if in_recipe else " > ".join(part.strip() for part in rest.split(">"))
+        if any((in_recipe, name) == (a, b) for a, b, _ in study.sets):
+            fail(f"{where}: '{key}' again: expected one value")
+        study.sets.append((in_recipe, name, value))
     elif key == "plot":
         match = re.fullmatch(r"(\S+) (\S+)(?: by (\S+))?(?: beside (.+))?", value)
         if not match:
             fail(f"{where}: expected 'plot = X Y [by NAME] [beside EXPRESSION]', found '{value}'")
         study.plots.append(Plot(*match.groups()))
     elif key in ("deck", "curve"):
+        if getattr(study, key):
+            fail(f"{where}: '{key}' again: expected one value")
         setattr(study, key, value)
     elif key == "collect":
         study.collect += value.split()

@@ -1,20 +1,22 @@
-"""Files of voxels -> an array (z, y, x) and the spacing (x, y, z). Formats are left to libraries: tifffile and VTK."""
+"""Files of voxels -> an array (z, y, x) and the spacing (x, y, z). Formats are left to libraries, tifffile and VTK, but for NRRD
+and Scanco's."""
 import glob
 import os
 import re
-import zlib
 from dataclasses import dataclass
 
 import numpy as np
 
+import byte_order
+import nrrd
 import points
 import scanco
 import units
 from strut_tools import captured, fail, nearest
 
-VTK_READERS = {".nrrd": ("vtkIOImage", "vtkNrrdReader"), ".nhdr": ("vtkIOImage", "vtkNrrdReader"),
-               ".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImage", "vtkMetaImageReader"),
+VTK_READERS = {".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImage", "vtkMetaImageReader"),
                ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
+NRRD = (".nrrd", ".nhdr")
 TIFF = (".tif", ".tiff")
 TEXT = (".pts", ".txt", ".xyz", ".dat")
 SCANCO = (".aim", ".isq")
@@ -28,7 +30,7 @@ class Raw:
     """A file of bare numbers: x runs fastest."""
     shape: list             # voxels along x, y, z
     type: str               # of RAW_TYPES
-    order: str = "little"   # of bytes
+    order: str | None = "little"  # of bytes; None: not said, little where nothing speaks against it
     header: int = 0         # bytes before the numbers
 
 
@@ -74,12 +76,17 @@ def read(path, raw=None, array=None, unit=None):
         return Image(values, spacing, "Scanco's")
     if ending in TIFF:
         return Image(tiff(path), None, "TIFF")
+    if ending in NRRD:
+        return checked(path, *nrrd.read(path), ending, unit)
     if ending in VTK_READERS:
-        return checked(path, *by_vtk(path, *VTK_READERS[ending], array), ending, unit)
+        values, image = by_vtk(path, *VTK_READERS[ending], array)
+        if ending in byte_order.META_IMAGE:
+            byte_order.check_meta_image(path, values)
+        return checked(path, values, image.GetSpacing(), ending, unit)
     if ending in TEXT:
         solid, spacing = points.lattice(path)
         return Image(solid, spacing, "list of points")
-    known = [*VTK_READERS, *TIFF, *SCANCO, *TEXT]
+    known = [*NRRD, *VTK_READERS, *TIFF, *SCANCO, *TEXT]
     fail(f"{path}: '{ending}' is not a format that is known{nearest(ending, known)}; there are {' '.join(known)} "
          "(lists of points also .gz), and any file with --shape and --type")
 
@@ -96,7 +103,8 @@ def sorted_naturally(names):
 
 
 def bare(path, raw):
-    kind = np.dtype(BYTE_ORDERS[raw.order] + RAW_TYPES[raw.type])
+    order = raw.order or "little"
+    kind = np.dtype(BYTE_ORDERS[order] + RAW_TYPES[raw.type])
     size = raw.header + int(np.prod(raw.shape)) * kind.itemsize
     found = os.path.getsize(path)
     if found != size:
@@ -104,7 +112,10 @@ def bare(path, raw):
         more = "" if found < size else f"; is there a header? --header {found - size + raw.header}"
         fail(f"{path} has {found} bytes, expected {size}: {' x '.join(map(str, raw.shape))} numbers of type {raw.type}{after}{more}")
     values = np.fromfile(path, kind, offset=raw.header).reshape(raw.shape[::-1])
-    return Image(values.astype(kind.newbyteorder("="), copy=False), None, f"raw {raw.type}, {raw.order}-endian")
+    values = values.astype(kind.newbyteorder("="), copy=False)
+    if raw.order is None and byte_order.sounds_swapped(values):
+        fail(f"{path} reads like an image in the other order of bytes: expected --byte-order big, or little where it is so")
+    return Image(values, None, f"raw {raw.type}, {order}-endian")
 
 
 # TIFF: a page is a layer in z, a row of it runs along x, rows follow each other in y
@@ -170,47 +181,17 @@ def shape_text(values):
     return " x ".join(map(str, values.shape[::-1]))
 
 
-# NRRD, MetaImage and VTK's own
+# MetaImage and VTK's own
 
 
 def check_whole(path, ending):
-    """What VTK's readers do not see: the XML one takes what is there of an image that is cut off, and the one of NRRD
-    waits for ever for the rest of a gzip stream."""
+    """What VTK's reader of XML does not see, which takes what is there of an image that is cut off."""
+    if ending != ".vti":
+        return
     with open(path, "rb") as file:
-        if ending == ".vti":
-            file.seek(max(0, os.path.getsize(path) - 64))
-            if b"</VTKFile>" not in file.read():
-                fail(f"{path} is damaged: it does not end with </VTKFile>")
-        if ending not in (".nrrd", ".nhdr"):
-            return
-        header = []
-        while (line := file.readline(10000)).strip() and len(header) < 1000:
-            header.append(line.decode(errors="replace").strip())
-        if not line and ending == ".nrrd":
-            fail(f"{path} is damaged: its header does not end with an empty line")
-        fields = dict(line.split(": ", 1) for line in header if ": " in line)
-        if fields.get("encoding") not in ("gzip", "gz"):
-            return
-        data = fields.get("data file", fields.get("datafile"))
-        if not data:
-            return check_gzip(path, file)
-    data = os.path.join(os.path.dirname(path), data)
-    if not os.path.isfile(data):
-        fail(f"{path}: its data file {data} does not exist")
-    with open(data, "rb") as file:
-        check_gzip(data, file)
-
-
-def check_gzip(path, file):
-    unpacker = zlib.decompressobj(31)
-    try:
-        while not unpacker.eof:
-            part = file.read(2**20)
-            if not part:
-                fail(f"{path} is damaged: its gzip stream is cut off")
-            unpacker.decompress(part)
-    except zlib.error as error:
-        fail(f"{path} is damaged: {error}")
+        file.seek(max(0, os.path.getsize(path) - 64))
+        if b"</VTKFile>" not in file.read():
+            fail(f"{path} is damaged: it does not end with </VTKFile>")
 
 
 def by_vtk(path, module, name, array):
@@ -255,10 +236,13 @@ def array_of(path, image, name):
     return vtk_to_numpy(found).reshape(shape[::-1])
 
 
-def checked(path, values, image, ending, unit):
+def checked(path, values, spacing, ending, unit):
     factor = units.factor_of(unit, "--units") if unit else units.of_file(path, ending)
-    spacing = tuple(abs(s) * (factor or 1) for s in image.GetSpacing())
+    kind = ending[1:].upper() + (f", lengths of {factor:g} m" if factor else "")
+    # VTK says 1 where a file says nothing; a voxel of 1 m is none.
+    if spacing is None or tuple(abs(s) * (factor or 1) for s in spacing) == (1, 1, 1):
+        return Image(values, None, kind)
+    spacing = tuple(abs(s) * (factor or 1) for s in spacing)
     if not all(0 < s < np.inf for s in spacing):
         fail(f"{path}: spacing {spacing}, expected three numbers > 0")
-    # VTK says 1 where a file says nothing; a voxel of 1 m is none.
-    return Image(values, None if spacing == (1, 1, 1) else spacing, ending[1:].upper() + (f", lengths of {factor:g} m" if factor else ""))
+    return Image(values, spacing, kind)

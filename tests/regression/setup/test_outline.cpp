@@ -192,6 +192,24 @@ TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
             std::string::npos);
 }
 
+// Tools act last: what a condition holds along their normal is moved all the same, here by 0.1 mm and more in 10 µs.
+TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
+  const auto told = [](const std::string& conditions, const std::string& travel) {
+    return told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Travel Z", travel),
+                        conditions, "1e-5");
+  };
+  const auto motion = [](const std::string& axes, const std::string& velocity) {
+    return along("foot", "Prescribed Velocity", "foot", axes, velocity);
+  };
+  expect_told(told(motion("z", "-10"), "0"),
+              {"WARNING: the tool 'tool' runs into 16 points that 'foot' holds along its normal"});
+  expect_told(told(motion("xyz", "0"), "10*t"), {"16 points that 'foot' holds", "tools have the last word"});
+  expect_told(told(plane("cut", "Symmetry Plane", "foot", "0 0 0", "0 0 1"), "10*t"), {"16 points that 'cut' holds"});
+  EXPECT_EQ(told(motion("xy", "0"), "10*t").find("last word"), std::string::npos) << "held across the normal";
+  EXPECT_EQ(told(motion("z", "10"), "10*t").find("last word"), std::string::npos) << "one path";
+  EXPECT_EQ(told(motion("xyz", "0"), "0").find("last word"), std::string::npos) << "it stands";
+}
+
 // A bar of four by four points of ordinary bonds, in whose E a third and more is not the material's.
 TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
   const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 30});

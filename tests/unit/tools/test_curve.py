@@ -310,6 +310,17 @@ class Runs(InFolder):
         other = self.made("block.csv", *given)  # by the distance of the outer layers, which a shock shortens to the same
         self.assertAlmostEqual(other["largest_strain"], 0.95 * V / U, delta=0.06)  # half a layer at each end
 
+    def test_files_that_are_not_its_own_stay(self):
+        self.history({"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)})
+        for name in ("block-curve.csv", "block-measures.csv", "block-curve.png"):
+            mine = self.folder / name
+            mine.write_text("strain,measured by me\n")
+            self.assertIn(f"{name} is there and was not written by this tool", self.error("block.xml"))
+            self.assertEqual(mine.read_text(), "strain,measured by me\n")
+            mine.unlink()
+        for _ in range(2):  # its own are replaced
+            self.made("block.xml")
+
     def test_errors_are_one_line_that_helps(self):
         columns = {"Time": STRAIN, "Reaction_Z(top)": stress_at(STRAIN)}
         self.assertIn("block.csv does not exist: --results names", self.error("block.xml"))

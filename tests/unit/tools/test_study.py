@@ -311,6 +311,9 @@ class Studies(InFolder):
         self.assertIn("no section 'Solvr' (did you mean 'Solver'?)", error("Solver", "Solvr"))
         self.assertIn("'{sped}' is no number of what varies (did you mean 'speed'?)", error("{speed}", "{sped}"))
         self.assertIn("no line 'spacng' (did you mean 'spacing'?)", error("recipe spacing", "recipe spacng"))
+        self.assertIn("'flow' varies, and no line 'set' has {flow}: all runs would be the same", error("vary spacing", "vary flow = 1 2\nvary spacing"))
+        self.assertIn("line 7: 'set Solver>Final Time' again: expected one value", error("set recipe", "set Solver>Final Time = 1\nset recipe"))
+        self.assertIn("line 4: 'deck' again: expected one value", error("vary speed = 10 20", "vary speed = 10 20\ndeck = other.xml"))
         self.assertIn("expected 'plot = X Y", error("plot = speed", "plot ="))
         self.assertIn("no 'Mean_Velocity_Y' to collect (did you mean 'Mean_Velocity_Z'?)",
                       error("collect = Mean_Displacement_Z Mean_Velocity_Z", "collect = Mean_Velocity_Y"))

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """tools/voxels and tools/tetrahedra, run as a user runs them: images with known answers, every format, damaged files.
 STRUT_MESH names strut-mesh; STRUT_CT_FOAM the CT foam (default <repository>/../shared/data/ct-foam.pts.gz)."""
+import bz2
 import gzip
 import importlib.util
 import itertools
@@ -393,6 +394,15 @@ class Cells(ToolTest):
                                 (("--density", 0.1, "--coarsen", 2), "--density takes the voxels as they are")):
             self.refused("voxels", expected, self.path("a.tif"), "--voxel-size", 1e-3, *words)
 
+    def test_levels_in_the_wrong_order_are_refused(self):
+        tifffile.imwrite(self.path("a.tif"), np.linspace(0, 100, 512).reshape(8, 8, 8).astype("u1"), photometric="minisblack")
+        self.refused("voxels", "expected the level of void first", self.path("a.tif"), "--voxel-size", 1e-3, "--cells", 2, "--grey", 100, 0)
+
+    def test_what_coarsening_does_to_the_volume_is_told(self):
+        """A wall of two voxels that is off the grid of pairs is half of two pairs, and becomes both: twice the volume."""
+        said, _ = self.voxels(box((8, 8, 8), (0, 8), (0, 8), (3, 5)), "--coarsen", 2)
+        self.assertIn("+100.00 % of the volume that it had before --coarsen", said["sampled"])
+
 
 class CtFoam(ToolTest):
     @unittest.skipUnless(os.path.exists(CT_FOAM), f"the CT foam is not there: {CT_FOAM}")
@@ -447,13 +457,15 @@ def written(writer, path, image, **words):
     return path
 
 
-def nrrd(values, encoding="raw"):
-    kinds = {"uint8": "uint8", "uint16": "uint16", "float32": "float"}
+def nrrd(values, encoding="raw", order="little"):
+    kinds = {"uint8": "uint8", "int16": "short", "uint16": "uint16", "float32": "float"}
     sizes = " ".join(map(str, values.shape[::-1]))
     header = (f"NRRD0004\ntype: {kinds[values.dtype.name]}\ndimension: 3\nsizes: {sizes}\nspacings: 0.001 0.002 0.003\n"
-              f"endian: little\nencoding: {encoding}\n\n")
-    data = values.tobytes()
-    return header.encode() + (gzip.compress(data) if encoding == "gzip" else data)
+              f"endian: {order}\nencoding: {encoding}\n\n")
+    data = values.astype(values.dtype.newbyteorder("<" if order == "little" else ">")).tobytes()
+    as_text = {"ascii": lambda: " ".join(map(str, values.ravel().tolist())).encode(), "hex": lambda: data.hex().encode()}
+    packed = {"raw": lambda: data, "gzip": lambda: gzip.compress(data), "bzip2": lambda: bz2.compress(data), **as_text}
+    return header.encode() + packed[encoding]()
 
 
 def vax(x):
@@ -528,6 +540,40 @@ class Formats(ToolTest):
     def test_nrrd(self):
         for kind, encoding in itertools.product(("u1", "u2", "f4"), ("raw", "gzip")):
             self.check(self.write("a.nrrd", nrrd(self.image.astype(kind), encoding)))
+
+    def test_nrrd_in_all_encodings_and_orders_of_bytes(self):
+        values = np.arange(-60, 60).reshape(3, 8, 5)  # an axis of five is no color
+        for kind, encoding, order in itertools.product(("i2", "f4"), ("raw", "gzip", "bzip2", "ascii", "hex"), ("little", "big")):
+            found = images.read(self.write("a.nrrd", nrrd(values.astype(kind), encoding, order)))
+            np.testing.assert_array_equal(found.values, values, err_msg=f"{kind} {encoding} {order}")
+            self.assertEqual(found.spacing, (0.001, 0.002, 0.003))
+
+    def test_nrrd_with_directions(self):
+        turned = nrrd(self.image).replace(b"spacings: 0.001 0.002 0.003", b"space directions: (0,1e-3,0) (2e-3,0,0) (0,0,-3e-3)")
+        self.check(self.write("a.nrrd", turned))
+        sheared = turned.replace(b"(0,1e-3,0)", b"(1e-4,1e-3,0)")  # voxels would have the volume of boxes
+        self.refused("voxels", "not at right angles", self.write("a.nrrd", sheared))
+
+    def test_nrrd_with_several_data_files(self):
+        head, data = nrrd(self.image).split(b"\n\n", 1)
+        for z in range(8):
+            self.write(f"{z:02d}.raw", data[120 * z:120 * (z + 1)])
+        self.check(self.write("a.nhdr", head + b"\ndata file: %02d.raw 0 7 1\n"))
+        self.check(self.write("a.nhdr", head + b"\ndata file: LIST\n" + b"".join(b"%02d.raw\n" % z for z in range(8))))
+
+    def test_bytes_in_the_other_order(self):
+        noise = np.random.default_rng(1).normal(0, 20, self.image.shape)
+        for kind, (code, values) in {"int16": ("i2", 300 + 10.0 * self.image + noise), "int32": ("i4", self.image),
+                                     "float32": ("f4", self.image + 0.01 * noise)}.items():
+            path = self.write("a.raw", values.astype(">" + code).tobytes())
+            words = ("--shape", 12, 10, 8, "--type", kind, "--voxel-size", *self.spacing)
+            self.refused("voxels", "expected --byte-order big", path, *words)
+            words += ("--threshold", 1000 if code == "i2" else 100)
+            self.works("voxels", path, *words, "--byte-order", "big")
+            self.works("voxels", self.write("a.raw", values.astype("<" + code).tobytes()), *words)
+        head = "ObjectType = Image\nNDims = 3\nDimSize = 12 10 8\nElementType = MET_SHORT\nElementDataFile = LOCAL\n"
+        self.refused("voxels", "BinaryDataByteOrderMSB = True", self.write("a.mha", head.encode() + self.image.astype(">i2").tobytes()),
+                     "--size", 1)
 
     def test_nrrd_with_detached_data(self):
         head, data = nrrd(self.image, "gzip").split(b"\n\n", 1)
@@ -769,6 +815,8 @@ class Damaged(ToolTest):
         self.refused("voxels", "exclude", path, "--size", 1, "--otsu", "--threshold", 2)
         self.refused("voxels", "expected 1 or 3 numbers", path, "--size", 1, 2)
         self.refused("voxels", "> 0", path, "--size", 0)
+        self.refused("voxels", "both say how large", path, "--size", 1, "--voxel-size", 1e-3)
+        self.refused("voxels", "both say how large", path, "--size", 1, 2, 3, "--voxel-size", 1, 2, 3)
         self.refused("voxels", "whole number", path, "--size", 1, "--coarsen", 1.5)
         self.refused("voxels", "no voxel in x", path, "--size", 1, "--crop", 0.5, 0.5, 0, 1, 0, 1)
         self.refused("voxels", "no solid voxel", path, "--size", 1, "--crop", 0.9, 1, 0, 1, 0, 1)
@@ -913,6 +961,9 @@ class Tetrahedra(ToolTest):
         flat = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]])
         meshio.Mesh(flat, [("tetra", [[0, 1, 2, 3]])]).write(self.path("a.vtk"))
         self.refused("tetrahedra", "1 tetrahedra have no volume", self.path("a.vtk"))
+        twice = np.concatenate([self.nodes, self.nodes[5:6, [1, 2, 0, 3]]])  # as gmsh writes what is in two groups
+        meshio.Mesh(self.points, [("tetra", twice)]).write(self.path("a.vtu"))
+        self.refused("tetrahedra", "number 6 and 163 are at one place", self.path("a.vtu"))
         self.refused("tetrahedra", "does not exist", self.path("none.msh"))
         self.refused("tetrahedra", "folder", self.folder)
         self.refused("tetrahedra", "did you mean", self.write("a.vtux", "x"))
