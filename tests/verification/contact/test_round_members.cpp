@@ -1,0 +1,301 @@
+// Where round members touch: bodies of partly filled cells, with volumes, moments and surfaces as a mesh has them, moved
+// towards each other as they are. What they overlap by at the first force, of the smooth surfaces that they stand for,
+// in spacings: late where positive. STRUT_TOUCH_TABLE=n prints a table of n positions each.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "contact/search/search.hpp"
+#include "contact/surfaces.hpp"
+#include "mesh/cells.hpp"
+#include "points/partition.hpp"
+
+namespace strut::contact {
+namespace {
+
+constexpr double h = 1e-3, far = 40;  // the spacing, m; in spacings, from where the second body is placed
+
+using Inside = std::function<bool(const Vector&)>;
+
+// Lengths in spacings h from here on.
+struct Solid {
+  Inside holds;
+  Vector middle, extent;  // half of its box's edges
+  double spacing = 1;
+};
+
+Vector half_box(const Vector& axis, double length, double diameter) {
+  const Eigen::Array3d a = axis.array();
+  return a.abs() * length / 2 + (1 - a.square()).max(0).sqrt() * diameter / 2;
+}
+
+Solid strut_along(const Vector& axis, const Vector& middle, double diameter, double length) {
+  return {[=](const Vector& x) {
+            const double along = (x - middle).dot(axis);
+            return std::abs(along) <= length / 2 &&
+                   (x - middle).squaredNorm() - along * along <= diameter * diameter / 4;
+          },
+          middle, half_box(axis, length, diameter)};
+}
+
+Solid sphere(const Vector& middle, double diameter) {
+  return {[=](const Vector& x) { return (x - middle).norm() <= diameter / 2; }, middle,
+          Vector::Constant(diameter / 2)};
+}
+
+// `frame`: its edges' directions as columns.
+Solid box(const Tensor& frame, const Vector& middle, const Vector& size) {
+  return {[=](const Vector& x) {
+            return ((frame.transpose() * (x - middle)).array().abs() <= size.array() / 2).all();
+          },
+          middle, Vector(frame.cwiseAbs() * size / 2)};
+}
+
+// The cells of a solid on the lattice of whole spacings, eight small cubes along an edge of each.
+std::vector<io::PartialCell> cells_of(const Solid& solid) {
+  constexpr int factor = 8;
+  const double edge = solid.spacing / factor;
+  const Eigen::Array3d low = ((solid.middle - solid.extent).array() / solid.spacing - 1e-9).floor() * solid.spacing;
+  const Eigen::Array3d high = ((solid.middle + solid.extent).array() / solid.spacing + 1e-9).ceil() * solid.spacing;
+  const Eigen::Array3i cubes = ((high - low) / edge).round().cast<int>();
+  const mesh::VoxelGrid grid{Vector(high - low), cubes};
+  std::vector<int> filled;
+  for (int n = 0; n < static_cast<int>(grid.count()); ++n) {
+    if (solid.holds(Vector(low + (grid.cell(n).cast<double>() + 0.5) * edge))) filled.push_back(n);
+  }
+  std::vector<io::PartialCell> cells = mesh::gathered(filled, {}, grid, {.factor = factor}).parts;
+  for (io::PartialCell& cell : cells) cell.centroid += low.matrix();
+  return cells;
+}
+
+Domain domain_of(const std::array<Solid, 2>& solids, const Communicator& world) {
+  PointCloud cloud;
+  cloud.block_names = {"first", "second"};
+  std::int64_t id = 0;
+  for (int b = 0; b < 2; ++b) {
+    for (const io::PartialCell& cell : cells_of(solids[b])) {
+      if (id++ % world.size() != world.rank()) continue;
+      cloud.ids.push_back(id - 1);
+      cloud.element_ids.push_back(id);
+      cloud.positions.push_back(h * (cell.centroid + Vector(0, 0, far * b)));
+      cloud.volumes.push_back(h * h * h * cell.volume);
+      cloud.spacings.push_back(h * solids[b].spacing);
+      cloud.blocks.push_back(b);
+      cloud.sets.push_back(0);
+      cloud.shapes.push_back({Vector::Zero(), h * h * cell.moments, h * h * cell.surface,
+                              h * h * h * cell.surface_moments});
+    }
+  }
+  const double horizons[] = {1.75 * h * solids[0].spacing, 1.75 * h * solids[1].spacing};
+  return make_domain(partitioned(std::move(cloud), world), {{horizons[0], 0}, {horizons[1], 1}}, world);
+}
+
+// Two solids, the second of which comes to `place` + t `along`; their surfaces touch at t = `touch`.
+struct Meeting {
+  std::array<Solid, 2> solids;
+  Vector place, along;
+  double touch;
+};
+
+class Scene {
+ public:
+  explicit Scene(const Meeting& meeting) : meeting_(meeting), domain_(domain_of(meeting.solids, world_)) {
+    law_.modulus = 1e11;
+    law_.spacing = h * std::max(meeting.solids[0].spacing, meeting.solids[1].spacing);
+    law_.radius = reach_in_spacings * law_.spacing;
+    for (int i = 0; i < domain_.owned; ++i) blocks_.points.push_back(i);
+    surfaces_.emplace(domain_, blocks_, law_);
+    at_rest_.assign(domain_.owned, Vector::Zero());
+    densities_.assign(domain_.owned, 8000);
+  }
+
+  // The overlap of the smooth surfaces at the first force, to 0.001.
+  double overlap() {
+    double apart = meeting_.touch + 1;
+    while (!touches(apart)) {
+      apart -= 0.1;
+      if (apart < meeting_.touch - 2) return 2;
+    }
+    double nearer = apart;
+    for (double step = 0.05; step > 5e-4; step /= 2) nearer += touches(nearer + step) ? step : 0;
+    return meeting_.touch - nearer;
+  }
+
+  bool touches(double t) { return place(t).energy > 0; }
+
+  // Force on a body (N) and the moment of all (N m) at a place; the energy (J).
+  struct Balance {
+    double energy = 0;
+    Vector first = Vector::Zero(), second = Vector::Zero(), moment = Vector::Zero();
+  };
+  Balance place(double t) {
+    const Vector shift = h * (meeting_.place + t * meeting_.along - Vector(0, 0, far));
+    for (int i = 0; i < domain_.owned; ++i) {
+      if (domain_.cloud.blocks[i] == 1) domain_.sites[i].current.head<3>() = (domain_.reference(i) + shift).array();
+    }
+    const Kinematics kinematics{domain_, at_rest_, densities_};
+    SkinDistances none{std::vector<float>(blocks_.points.size(), 0), 0};
+    Pairs pairs = find_pairs(kinematics, blocks_, law_.radius, none);
+    surfaces_->take(blocks_, pairs);
+    std::vector<Vector> density(domain_.owned, Vector::Zero());
+    Balance balance{.energy = surfaces_->add_normal_forces(kinematics, law_, pairs, density).energy};
+    for (int i = 0; i < domain_.owned; ++i) {
+      const Vector force = domain_.volume(i) * density[i];
+      (domain_.cloud.blocks[i] == 0 ? balance.first : balance.second) += force;
+      balance.moment += domain_.current(i).cross(force);
+    }
+    balance.energy = world_.sum(balance.energy);
+    for (Vector* sum : {&balance.first, &balance.second, &balance.moment}) world_.sum(std::span(sum->data(), 3));
+    return balance;
+  }
+
+ private:
+  Communicator world_;
+  Meeting meeting_;
+  Domain domain_;
+  SurfaceLaw law_;
+  BlockPair blocks_{0, 1, false, true, {}};
+  std::optional<Surfaces> surfaces_;
+  std::vector<Vector> at_rest_;
+  std::vector<double> densities_;
+};
+
+// Numbers from 0 to 1 that are the same everywhere.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double number() { return engine_() / 4294967296.0; }
+  Vector place() {
+    const double x = number(), y = number(), z = number();
+    return {x, y, z};
+  }
+  // Any direction is as likely as another (Shoemake).
+  Tensor frame() {
+    const double u = number(), v = 2 * M_PI * number(), w = 2 * M_PI * number();
+    return Eigen::Quaterniond(std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v), std::sqrt(1 - u) * std::cos(v),
+                              std::sqrt(u) * std::sin(w))
+        .toRotationMatrix();
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+// At random against the lattice, in a random direction; the first position of all has the lattice's own directions.
+using Make = std::function<Meeting(const Tensor& frame, Random& random, double diameter)>;
+
+Meeting crossing(double degrees, const Tensor& frame, Random& random, double diameter) {
+  const double angle = degrees * M_PI / 180;
+  const Vector first = frame.col(0), second = std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1);
+  const Vector a = random.place(), b = random.place();
+  const Vector beside = (random.number() - 0.5) * first + (random.number() - 0.5) * second;
+  return {{strut_along(first, a, diameter, 7), strut_along(second, b, diameter, 7)}, a - b + beside, frame.col(2),
+          diameter};
+}
+
+Meeting along_each_other(const Tensor& frame, Random& random, double diameter) {
+  const Vector a = random.place(), b = random.place();
+  return {{strut_along(frame.col(0), a, diameter, 7), strut_along(frame.col(0), b, diameter, 7)},
+          a - b + (random.number() - 0.5) * frame.col(0), frame.col(2), diameter};
+}
+
+Meeting end_on_end(const Tensor& frame, Random& random, double diameter) {
+  const Vector a = random.place(), b = random.place();
+  return {{strut_along(frame.col(0), a, diameter, 5), strut_along(frame.col(0), b, diameter, 5)},
+          a - b + 0.3 * (random.number() - 0.5) * frame.col(1), frame.col(0), 5};
+}
+
+Meeting end_on_side(const Tensor& frame, Random& random, double diameter) {
+  const Vector a = random.place(), b = random.place();
+  return {{strut_along(frame.col(0), a, diameter, 7), strut_along(frame.col(2), b, diameter, 5)},
+          a - b + (random.number() - 0.5) * frame.col(0), frame.col(2), diameter / 2 + 2.5};
+}
+
+Meeting on_plate(const Solid& solid, const Tensor& frame, Random& random, double height) {
+  const Vector a = random.place();
+  return {{box(frame, a, {11, 11, 4}), solid},
+          a - solid.middle + (random.number() - 0.5) * frame.col(0) + (random.number() - 0.5) * frame.col(1),
+          frame.col(2), 2 + height};
+}
+
+Meeting strut_on_plate(const Tensor& frame, Random& random, double diameter) {
+  const Vector axis = std::cos(0.4) * frame.col(0) + std::sin(0.4) * frame.col(1);
+  return on_plate(strut_along(axis, random.place(), diameter, 7), frame, random, diameter / 2);
+}
+
+Meeting sphere_on_plate(const Tensor& frame, Random& random, double diameter) {
+  return on_plate(sphere(random.place(), diameter), frame, random, diameter / 2);
+}
+
+Meeting block_on_plate(const Tensor& frame, Random& random, double) {
+  return on_plate(box(frame, random.place(), {5, 5, 4}), frame, random, 2);
+}
+
+// A block of whole cells on a wall of cells half as large, `thick` of them; then their own spacing is the larger one.
+Meeting coarse_on_wall(const Tensor&, Random& random, double thick) {
+  const Tensor frame = Tensor::Identity();
+  Solid wall = box(frame, {0, 0, thick / 4}, {8, 8, thick / 2}), block = box(frame, {0, 0, 2}, {4, 4, 4});
+  wall.spacing = 0.5;
+  return {{wall, block},
+          wall.middle - block.middle + (random.number() - 0.5) * Vector::UnitX() +
+              (random.number() - 0.5) * Vector::UnitY(),
+          Vector::UnitZ(), 2 + thick / 4};
+}
+
+// By positions.
+std::vector<double> overlaps(const Make& make, double diameter, int positions) {
+  std::vector<double> all;
+  for (int k = 0; k < positions; ++k) {
+    Random random(100 * k + static_cast<int>(10 * diameter) + 1);
+    const Tensor frame = k == 0 ? Tensor(Tensor::Identity()) : random.frame();
+    all.push_back(Scene(make(frame, random, diameter)).overlap());
+  }
+  return all;
+}
+
+struct Spread {
+  double mean = 0, least = 1e9, largest = -1e9;
+};
+Spread spread(const std::vector<double>& all) {
+  Spread of;
+  for (const double one : all) {
+    of.mean += one / static_cast<double>(all.size());
+    of.least = std::min(of.least, one), of.largest = std::max(of.largest, one);
+  }
+  return of;
+}
+
+const std::vector<std::pair<const char*, Make>> round_members = {
+    {"crossing at 90 degrees", [](const Tensor& frame, Random& random, double diameter) { return crossing(90, frame, random, diameter); }},
+    {"crossing at 50 degrees", [](const Tensor& frame, Random& random, double diameter) { return crossing(50, frame, random, diameter); }},
+    {"parallel", along_each_other},
+    {"end on end", end_on_end},
+    {"end on side", end_on_side},
+    {"strut on plate", strut_on_plate},
+    {"sphere on plate", sphere_on_plate}};
+
+TEST(RoundMembers, Table) {
+  const char* positions = std::getenv("STRUT_TOUCH_TABLE");
+  if (positions == nullptr) GTEST_SKIP() << "prints what STRUT_TOUCH_TABLE=positions asks for";
+  const auto print = [&](const char* name, double diameter, const Make& make) {
+    const Spread of = spread(overlaps(make, diameter, std::atoi(positions)));
+    std::printf("%-24s %g  mean %+.3f  from %+.3f to %+.3f\n", name, diameter, of.mean, of.least, of.largest);
+  };
+  for (const auto& [name, make] : round_members) {
+    for (const double diameter : {2, 3, 4, 6}) print(name, diameter, make);
+  }
+  print("block on plate", 5, block_on_plate);
+  for (const double thick : {1, 2, 4}) print("coarse block on wall", thick, coarse_on_wall);
+}
+
+}  // namespace
+}  // namespace strut::contact
