@@ -18,18 +18,19 @@ namespace strut::contact {
 namespace {
 
 // Lengths in spacings of the point's own body.
-constexpr double least_area = 0.1;     // of a cell, that its surface have a direction
-constexpr double edge = 0.2;           // a surface whose normals spread it so far has an edge of the body
-constexpr double around = 1.6;         // what of the surface tells its curvature
-constexpr double alike = 0.3;          // the cosine between the normals of these
-constexpr double sharpest = 0.5;       // mean curvature, of a strut of two cells
+constexpr double least_area = 0.1;  // of a cell, that its surface have a direction
+constexpr double smooth = 0.2;      // what the surface of a cell may spread along its normals to be taken for a plane
+constexpr double rim = 0.55;        // from here on it has an edge of the body
+constexpr double around = 1.6;      // what of the surface tells its curvature
+constexpr double alike = 0.1;       // the cosine between the normals of these
+constexpr double sharpest = 0.5;    // mean curvature, of a strut of two cells
 constexpr double planes_within = 1.8;  // the surface that a point lies below
-constexpr double deepest = 0.8;        // points farther below it do not feel for another body
+constexpr double deepest = 0.8;        // what lies farther below, without a surface of its own, feels for none
 
 // In those of the reach of ρ: where points of the other body are when they touch, and how far a piece of the surface
 // tells what is missing.
 constexpr double before = 0.4, tells = 2;
-constexpr double least_missing = 0.8, most_missing = 4;
+constexpr double least_missing = 0.7, most_missing = 4;  // with less the body goes on before it, or behind a plane
 
 // The surface of a cell as a plane: a record as it travels.
 struct Piece {
@@ -37,13 +38,13 @@ struct Piece {
   double area;           // m²
   double spread;         // of its places along its normals, m: none of a plane
   double curvature = 0;  // the mean of both principal ones, 1/m
-  double missing = 1;    // ρ before a flat face over that before the piece
+  double missing = 1;    // ρ before a flat face over that before the piece; 0: it is no free surface
   double spacing;        // m
   std::int64_t body, id;
 
   Vector at() const { return {place[0], place[1], place[2]}; }
   Vector out() const { return {normal[0], normal[1], normal[2]}; }
-  bool is_smooth() const { return spread < edge * spacing; }
+  bool is_smooth() const { return spread < smooth * spacing && missing > 0; }
 };
 
 // A point as it adds to ρ.
@@ -117,8 +118,8 @@ void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
                     .id = domain.id(i)});
 }
 
-// Collective. The curvature κ is the mean over directions, from Σ Δn·Δx = κ Σ Δx². A bent surface has its summit by a twelfth of
-// its area times κ above its mean height.
+// Collective. The curvature κ is the mean over directions, from Σ Δn·Δx = κ Σ Δx². A bent surface has its summit by a
+// twelfth of its area times κ above its mean height.
 void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   Eigen::AlignedBox3d mine;
   for (const Piece& piece : own) mine.extend(piece.at());
@@ -126,7 +127,7 @@ void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   for (Piece& piece : own) {
     double turned = 0, way = 0;
     all.over(piece.at(), around * piece.spacing, piece.body, [&](const Piece& other, const Vector& apart) {
-      if (other.id == piece.id || !(other.out().dot(piece.out()) > alike)) return;
+      if (other.id == piece.id || !other.is_smooth() || !(other.out().dot(piece.out()) > alike)) return;
       turned += apart.dot(other.out() - piece.out());
       way += apart.squaredNorm();
     });
@@ -153,8 +154,8 @@ Images images_of(const Domain& domain, double reach) {
   return {domain.mirrors, boxes, reach};
 }
 
-// Collective. What ρ is in front of a flat face, over what it is in front of each smooth piece. Points of another body lie
-// a spacing apart, so that those nearest to the summit of a bent surface miss it by κ h²/24 in the mean.
+// Collective. What ρ is in front of a flat face, over what it is in front of each smooth piece. Points of another body
+// lie a spacing apart, so that those nearest to the summit of a bent surface miss it by κ h²/12 in the mean.
 void compare_with_face(const Domain& domain, const BlockPair& blocks, double reach, std::vector<Piece>& own) {
   const double unit = reach / reach_in_spacings, ahead = before * unit;
   const auto in_front = [ahead](const Piece& piece) { return Vector(piece.at() + ahead * piece.out()); };
@@ -179,20 +180,23 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
     };
     add(in_front(piece));
     for (const int image : images.of_body(static_cast<int>(piece.body))) add(images[image](in_front(piece)));
-    const double wanted = Face{reach, piece.spacing, true}.share(ahead - piece.curvature * unit * unit / 24);
-    piece.missing = std::clamp(wanted / share, least_missing, most_missing);
+    const double wanted = Face{reach, piece.spacing, true}.share(ahead - piece.curvature * unit * unit / 12);
+    const double missing = wanted / share;
+    piece.missing = missing < least_missing ? 0 : std::min(missing, most_missing);
   }
 }
 
-// The mean of what is missing around a point.
+// The mean of what is missing around a point, as of inverse powers, which leans to the least: before an edge of the
+// body more is missing, which no volume should make up for, and of an edge itself nothing is.
 double scale(const Near<Piece>& pieces, const Vector& X, int body, double within) {
+  constexpr double power = -8;
   double weight = 0, sum = 0;
   pieces.over(X, within, body, [&](const Piece& piece, const Vector& apart) {
-    if (!piece.is_smooth()) return;
+    if (!piece.is_smooth() && piece.spread < rim * piece.spacing) return;
     const double part = piece.area * std::pow(1 - apart.squaredNorm() / (within * within), 2);
-    weight += part, sum += part * piece.missing;
+    weight += part, sum += part * std::pow(piece.missing, power);
   });
-  return weight > 0 ? sum / weight : 1;
+  return weight > 0 ? std::pow(sum / weight, 1 / power) : 1;
 }
 
 // How far a point lies below the planes of smooth pieces beside it; infinite where there are none.
@@ -227,10 +231,10 @@ void look_at(const Domain& domain, const BlockPair& blocks, double reach, const 
     const double below = depth_below(pieces, X, body, spacing);
     std::vector<Piece> piece;
     add_piece(domain, i, piece);
-    surface.may_touch[k] = !piece.empty() || below < deepest * spacing;
-    if (!surface.may_touch[k]) continue;
-    const bool is_edge = !piece.empty() && !piece[0].is_smooth();
-    surface.depths[k] = is_edge ? std::min(surface.depths[k], below) : below;
+    if (piece.empty() && !(below < deepest * spacing)) continue;
+    surface.may_touch[k] = true;
+    const bool is_told = below < std::numeric_limits<double>::infinity() && (piece.empty() || piece[0].is_smooth());
+    surface.depths[k] = is_told ? below : std::min(surface.depths[k], below);
   }
 }
 
@@ -245,7 +249,6 @@ OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double rea
   }
   const bool is_told = domain.cloud.at == PointsAt::elements && !domain.cloud.shapes.empty();
   if (!(domain.communicator.max(is_told ? 1.0 : 0.0) > 0)) return surface;
-  if (std::getenv("OLD")) return surface;
   Eigen::AlignedBox3d mine;
   std::vector<Piece> own;
   double spacing = 0;

@@ -1,14 +1,16 @@
-// Where round members touch: bodies of partly filled cells, with volumes, moments and surfaces as a mesh has them, moved
-// towards each other as they are. What they overlap by at the first force, of the smooth surfaces that they stand for,
-// in spacings: late where positive. STRUT_TOUCH_TABLE=n prints a table of n positions each.
+// Where round members touch: bodies of partly filled cells, with volumes, moments and surfaces as a mesh has them,
+// moved towards each other as they are. What they overlap by at the first force, of the smooth surfaces that they stand
+// for, in spacings: late where positive. STRUT_TOUCH_TABLE=n prints a table of n positions each.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <map>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
@@ -47,16 +49,13 @@ Solid strut_along(const Vector& axis, const Vector& middle, double diameter, dou
           middle, half_box(axis, length, diameter)};
 }
 
-Solid sphere(const Vector& middle, double diameter) {
-  return {[=](const Vector& x) { return (x - middle).norm() <= diameter / 2; }, middle,
-          Vector::Constant(diameter / 2)};
+Solid ball(const Vector& middle, double diameter) {
+  return {[=](const Vector& x) { return (x - middle).norm() <= diameter / 2; }, middle, Vector::Constant(diameter / 2)};
 }
 
 // `frame`: its edges' directions as columns.
 Solid box(const Tensor& frame, const Vector& middle, const Vector& size) {
-  return {[=](const Vector& x) {
-            return ((frame.transpose() * (x - middle)).array().abs() <= size.array() / 2).all();
-          },
+  return {[=](const Vector& x) { return ((frame.transpose() * (x - middle)).array().abs() <= size.array() / 2).all(); },
           middle, Vector(frame.cwiseAbs() * size / 2)};
 }
 
@@ -91,8 +90,8 @@ Domain domain_of(const std::array<Solid, 2>& solids, const Communicator& world) 
       cloud.spacings.push_back(h * solids[b].spacing);
       cloud.blocks.push_back(b);
       cloud.sets.push_back(0);
-      cloud.shapes.push_back({Vector::Zero(), h * h * cell.moments, h * h * cell.surface,
-                              h * h * h * cell.surface_moments});
+      cloud.shapes.push_back(
+          {Vector::Zero(), h * h * cell.moments, h * h * cell.surface, h * h * h * cell.surface_moments});
     }
   }
   const double horizons[] = {1.75 * h * solids[0].spacing, 1.75 * h * solids[1].spacing};
@@ -131,6 +130,7 @@ class Scene {
   }
 
   bool touches(double t) { return place(t).energy > 0; }
+  const Meeting& meeting() const { return meeting_; }
 
   // Force on a body (N) and the moment of all (N m) at a place; the energy (J).
   struct Balance {
@@ -180,9 +180,9 @@ class Random {
   }
   // Any direction is as likely as another (Shoemake).
   Tensor frame() {
-    const double u = number(), v = 2 * M_PI * number(), w = 2 * M_PI * number();
-    return Eigen::Quaterniond(std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v), std::sqrt(1 - u) * std::cos(v),
-                              std::sqrt(u) * std::sin(w))
+    const double u = number(), v = 2 * std::numbers::pi * number(), w = 2 * std::numbers::pi * number();
+    return Eigen::Quaterniond(std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v),
+                              std::sqrt(1 - u) * std::cos(v), std::sqrt(u) * std::sin(w))
         .toRotationMatrix();
   }
 
@@ -194,37 +194,46 @@ class Random {
 using Make = std::function<Meeting(const Tensor& frame, Random& random, double diameter)>;
 
 Meeting crossing(double degrees, const Tensor& frame, Random& random, double diameter) {
-  const double angle = degrees * M_PI / 180;
+  const double angle = degrees * std::numbers::pi / 180;
   const Vector first = frame.col(0), second = std::cos(angle) * frame.col(0) + std::sin(angle) * frame.col(1);
   const Vector a = random.place(), b = random.place();
   const Vector beside = (random.number() - 0.5) * first + (random.number() - 0.5) * second;
-  return {{strut_along(first, a, diameter, 7), strut_along(second, b, diameter, 7)}, a - b + beside, frame.col(2),
+  return {{strut_along(first, a, diameter, 7), strut_along(second, b, diameter, 7)},
+          a - b + beside,
+          frame.col(2),
           diameter};
 }
 
 Meeting along_each_other(const Tensor& frame, Random& random, double diameter) {
   const Vector a = random.place(), b = random.place();
   return {{strut_along(frame.col(0), a, diameter, 7), strut_along(frame.col(0), b, diameter, 7)},
-          a - b + (random.number() - 0.5) * frame.col(0), frame.col(2), diameter};
+          a - b + (random.number() - 0.5) * frame.col(0),
+          frame.col(2),
+          diameter};
 }
 
 Meeting end_on_end(const Tensor& frame, Random& random, double diameter) {
   const Vector a = random.place(), b = random.place();
   return {{strut_along(frame.col(0), a, diameter, 5), strut_along(frame.col(0), b, diameter, 5)},
-          a - b + 0.3 * (random.number() - 0.5) * frame.col(1), frame.col(0), 5};
+          a - b + 0.3 * (random.number() - 0.5) * frame.col(1),
+          frame.col(0),
+          5};
 }
 
 Meeting end_on_side(const Tensor& frame, Random& random, double diameter) {
   const Vector a = random.place(), b = random.place();
   return {{strut_along(frame.col(0), a, diameter, 7), strut_along(frame.col(2), b, diameter, 5)},
-          a - b + (random.number() - 0.5) * frame.col(0), frame.col(2), diameter / 2 + 2.5};
+          a - b + (random.number() - 0.5) * frame.col(0),
+          frame.col(2),
+          diameter / 2 + 2.5};
 }
 
 Meeting on_plate(const Solid& solid, const Tensor& frame, Random& random, double height) {
   const Vector a = random.place();
   return {{box(frame, a, {11, 11, 4}), solid},
           a - solid.middle + (random.number() - 0.5) * frame.col(0) + (random.number() - 0.5) * frame.col(1),
-          frame.col(2), 2 + height};
+          frame.col(2),
+          2 + height};
 }
 
 Meeting strut_on_plate(const Tensor& frame, Random& random, double diameter) {
@@ -232,8 +241,8 @@ Meeting strut_on_plate(const Tensor& frame, Random& random, double diameter) {
   return on_plate(strut_along(axis, random.place(), diameter, 7), frame, random, diameter / 2);
 }
 
-Meeting sphere_on_plate(const Tensor& frame, Random& random, double diameter) {
-  return on_plate(sphere(random.place(), diameter), frame, random, diameter / 2);
+Meeting ball_on_plate(const Tensor& frame, Random& random, double diameter) {
+  return on_plate(ball(random.place(), diameter), frame, random, diameter / 2);
 }
 
 Meeting block_on_plate(const Tensor& frame, Random& random, double) {
@@ -248,7 +257,8 @@ Meeting coarse_on_wall(const Tensor&, Random& random, double thick) {
   return {{wall, block},
           wall.middle - block.middle + (random.number() - 0.5) * Vector::UnitX() +
               (random.number() - 0.5) * Vector::UnitY(),
-          Vector::UnitZ(), 2 + thick / 4};
+          Vector::UnitZ(),
+          2 + thick / 4};
 }
 
 // By positions.
@@ -274,27 +284,75 @@ Spread spread(const std::vector<double>& all) {
   return of;
 }
 
-const std::vector<std::pair<const char*, Make>> round_members = {
-    {"crossing at 90 degrees", [](const Tensor& frame, Random& random, double diameter) { return crossing(90, frame, random, diameter); }},
-    {"crossing at 50 degrees", [](const Tensor& frame, Random& random, double diameter) { return crossing(50, frame, random, diameter); }},
-    {"parallel", along_each_other},
-    {"end on end", end_on_end},
-    {"end on side", end_on_side},
-    {"strut on plate", strut_on_plate},
-    {"sphere on plate", sphere_on_plate}};
+// Late or early by less than this in the mean, and nowhere by more. Measured (STRUT_TOUCH_TABLE=10), in the mean and at
+// worst: struts 0.06 and 0.14 with two cells, 0.04 and 0.10 with three to six; their ends 0.09 and 0.19 with two and
+// three cells, 0.04 and 0.08 with more; balls of three cells and more 0.05 and 0.12; flat faces at any angle to the
+// lattice 0.04 and 0.11. Before, round members were late by 0.25 and 0.31, 0.15 and 0.22, 0.10 and 0.13, 0.06 and 0.12
+// with 2, 3, 4, 6 cells, flat faces early by 0.11 and 0.17.
+struct Kind {
+  const char* name;
+  Make make;
+  std::vector<double> diameters;
+  double mean, worst;
+};
 
-TEST(RoundMembers, Table) {
-  const char* positions = std::getenv("STRUT_TOUCH_TABLE");
-  if (positions == nullptr) GTEST_SKIP() << "prints what STRUT_TOUCH_TABLE=positions asks for";
-  const auto print = [&](const char* name, double diameter, const Make& make) {
-    const Spread of = spread(overlaps(make, diameter, std::atoi(positions)));
-    std::printf("%-24s %g  mean %+.3f  from %+.3f to %+.3f\n", name, diameter, of.mean, of.least, of.largest);
-  };
-  for (const auto& [name, make] : round_members) {
-    for (const double diameter : {2, 3, 4, 6}) print(name, diameter, make);
+Meeting crossing_square(const Tensor& frame, Random& random, double diameter) {
+  return crossing(90, frame, random, diameter);
+}
+Meeting crossing_askew(const Tensor& frame, Random& random, double diameter) {
+  return crossing(50, frame, random, diameter);
+}
+
+const std::vector<Kind> kinds = {{"crossing at 90 degrees", crossing_square, {2}, 0.09, 0.16},
+                                 {"crossing at 90 degrees", crossing_square, {3, 4, 6}, 0.05, 0.12},
+                                 {"crossing at 50 degrees", crossing_askew, {2}, 0.09, 0.16},
+                                 {"crossing at 50 degrees", crossing_askew, {3, 4, 6}, 0.05, 0.12},
+                                 {"parallel", along_each_other, {2, 3, 4, 6}, 0.05, 0.12},
+                                 {"end on end", end_on_end, {2, 3}, 0.12, 0.22},
+                                 {"end on end", end_on_end, {4, 6}, 0.06, 0.12},
+                                 {"end on side", end_on_side, {2, 3, 4, 6}, 0.06, 0.18},
+                                 {"strut on plate", strut_on_plate, {2, 3, 4, 6}, 0.05, 0.12},
+                                 {"ball on plate", ball_on_plate, {3, 4, 6}, 0.06, 0.14},
+                                 {"block on plate", block_on_plate, {5}, 0.05, 0.12},
+                                 {"coarse block on wall", coarse_on_wall, {1, 2, 4}, 0.05, 0.05}};
+
+TEST(RoundMembers, TouchWhereTheirSmoothSurfacesDo) {
+  const char* table = std::getenv("STRUT_TOUCH_TABLE");
+  for (const Kind& kind : kinds) {
+    for (const double diameter : kind.diameters) {
+      const Spread of = spread(overlaps(kind.make, diameter, table == nullptr ? 4 : std::atoi(table)));
+      if (table != nullptr) {
+        std::printf("%-24s %g  mean %+.3f  from %+.3f to %+.3f\n", kind.name, diameter, of.mean, of.least, of.largest);
+        continue;
+      }
+      EXPECT_LT(std::abs(of.mean), kind.mean) << kind.name << " " << diameter;
+      EXPECT_LT(of.largest, kind.worst) << kind.name << " " << diameter;
+      EXPECT_GT(of.least, -kind.worst) << kind.name << " " << diameter;
+    }
   }
-  print("block on plate", 5, block_on_plate);
-  for (const double thick : {1, 2, 4}) print("coarse block on wall", thick, coarse_on_wall);
+}
+
+// Forces are equal and opposite, and turn nothing, to round-off of sums of some hundred points: volumes that count more
+// in ρ than in mass are in the forces of both sides.
+TEST(RoundMembers, ForcesAndTorquesAddUpToNothing) {
+  Random random(3);
+  Scene scene(crossing_askew(random.frame(), random, 3));
+  const Scene::Balance balance = scene.place(scene.meeting().touch - 0.2);
+  const double force = balance.second.norm(), epsilon = std::numeric_limits<double>::epsilon();
+  ASSERT_GT(force, 0);
+  EXPECT_LT((balance.first + balance.second).norm(), 1e3 * epsilon * force);
+  EXPECT_LT(balance.moment.norm(), 1e3 * epsilon * force * 20 * h);
+}
+
+// By central differences over 2 Δ: off by Δ² times a third derivative and by kinks where a point begins to touch, 1e-3
+// of the force.
+TEST(RoundMembers, ForceIsTheSlopeOfTheEnergy) {
+  Random random(3);
+  Scene scene(crossing_askew(random.frame(), random, 3));
+  const double at = scene.meeting().touch - 0.2, step = 1e-4;
+  const double slope = (scene.place(at + step).energy - scene.place(at - step).energy) / (2 * step * h);
+  const double force = scene.place(at).second.dot(scene.meeting().along);
+  EXPECT_NEAR(-slope, force, 1e-3 * force);
 }
 
 }  // namespace
