@@ -5,11 +5,10 @@
 #include <limits>
 #include <numbers>
 
-#include "contact/at_surface.hpp"
 #include "contact/largest_eigenvalue.hpp"
 #include "contact/laws/friction.hpp"
+#include "contact/own_surface.hpp"
 #include "contact/search/search.hpp"
-#include "points/cell_reach.hpp"
 
 namespace strut::contact {
 
@@ -24,29 +23,21 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // ∫ |W'| dV is 6.3/R, and material may be denser than it was.
 constexpr double steepest_share = 10;
 
-// By how much the cell of a point reaches beyond it towards the surface of its body, m; where that has no direction, as
-// in a thin plate, the mean of all.
-double reach_to_surface(const PointCloud& cloud, double volume, int i) {
-  if (cloud.shapes.empty()) return reach_of_cell(cloud, volume, i, Vector::Zero());
-  const Vector& surface = cloud.shapes[i].surface;
-  const double area = surface.norm();
-  if (!(area > 0.1 * std::pow(cloud.spacings[i], 2))) return std::sqrt(trace(cloud.shapes[i].moments));
-  return reach_of_cell(cloud, volume, i, surface / area);
-}
-
-SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other) {
+// `depth`: below the surface of its body, m.
+SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other, double depth, bool may_touch) {
   const PointCloud& cloud = domain.cloud;
-  const double volume = domain.volume(i), spacing = cloud.spacings[i];
+  const double spacing = cloud.spacings[i];
   const double reach = reach_in_spacings * std::max(spacing, spacing_of_other);
-  const double beyond = std::min(reach_to_surface(cloud, volume, i), 0.5 * reach);  // farther out ρ tells nothing
+  const double beyond = std::min(depth, 0.5 * reach);  // farther out ρ tells nothing
   const bool nodes = cloud.at == PointsAt::nodes;
   const Face other{reach, spacing_of_other, !nodes};
   return {.reach = reach,
           .threshold = other.share(beyond),
           .slope = other.slope(beyond),
-          .area = (nodes ? 1 : 0.5) * volume / spacing,
+          .area = (nodes ? 1 : 0.5) * domain.volume(i) / spacing,
           .spacing = spacing,
-          .is_at_surface = is_at_surface(domain, i)};
+          .volume = domain.volume(i),
+          .is_at_surface = may_touch};
 }
 
 // From how far a point sees another: within a body, if they were near each other, from a share of that distance only.
@@ -71,10 +62,13 @@ struct Surfaces::Felt {
 };
 
 Surfaces::Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law) {
-  for (const int i : blocks.points) {
-    const int other = domain.cloud.blocks[i] == blocks.first ? blocks.second : blocks.first;
-    points_.push_back(surface_point(domain, i, domain.blocks[other].spacing));
+  const double spacing = std::max(domain.blocks[blocks.first].spacing, domain.blocks[blocks.second].spacing);
+  OwnSurface own = own_surface(domain, blocks, reach_in_spacings * spacing);
+  for (std::size_t k = 0; k < blocks.points.size(); ++k) {
+    const int i = blocks.points[k], other = domain.cloud.blocks[i] == blocks.first ? blocks.second : blocks.first;
+    points_.push_back(surface_point(domain, i, domain.blocks[other].spacing, own.depths[k], own.may_touch[k]));
   }
+  volumes_ = std::move(own.volumes);
   overlaps_.assign(points_.size(), 0);
   slips_.assign(points_.size(), Vector::Zero());
   slips_before_ = slips_;
@@ -85,7 +79,7 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   const std::vector<Vector> at_rest(domain.owned, Vector::Zero());
   const std::vector<double> densities(domain.owned, 1);
   SkinDistances none{std::vector<float>(blocks.points.size(), 0), 0};
-  const Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
+  Pairs pairs = find_pairs({domain, at_rest, densities}, blocks, law.radius, none);
   take(blocks, pairs);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     double& threshold = points_[places_[k]].threshold;
@@ -93,7 +87,7 @@ void Surfaces::subtract_start(const Domain& domain, const BlockPair& blocks, con
   }
 }
 
-void Surfaces::take(const BlockPair& blocks, const Pairs& pairs) {
+void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
   places_.clear();
   due_.clear();
   std::vector<Vector> slips(blocks.points.size(), Vector::Zero());
@@ -113,6 +107,15 @@ void Surfaces::take(const BlockPair& blocks, const Pairs& pairs) {
   gradient_.assign(pairs.owned.size(), Vector::Zero());
   seen_.clear();
   set_smallest_reaches(pairs);
+  set_volumes(pairs);
+}
+
+// Those that ρ is made of.
+void Surfaces::set_volumes(Pairs& pairs) const {
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) pairs.sites[k].reference[3] = volumes_[places_[k]];
+  if (!pairs.halo) return;
+  double* first = pairs.sites.empty() ? nullptr : pairs.sites.data()->reference.data() + 3;
+  pairs.halo->exchange(first, sizeof(Site) / sizeof(double), 1);
 }
 
 void Surfaces::set_smallest_reaches(const Pairs& pairs) {
@@ -258,7 +261,7 @@ ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const Surf
   note_touching();
   if (!any_touches_) return result;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
-    const double root = std::sqrt(pairs.masses[k]), volume = pairs.sites[k].volume();
+    const double root = std::sqrt(pairs.masses[k]), volume = points_[places_[k]].volume;
     Tensor springs = Tensor::Zero();
     Vector force = Vector::Zero();
     over_gradients(pairs, k, [&](const Facing& felt_by, const Vector& gradient) {
@@ -359,7 +362,7 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
       friction[k] += pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].reaction(-eta);
     });
-    force_density[pairs.owned[k]] += friction[k] / pairs.sites[k].volume();
+    force_density[pairs.owned[k]] += friction[k] / points_[places_[k]].volume;
   }
 }
 

@@ -28,6 +28,7 @@ struct SurfacePoint {
   double slope = 0;      // of ρ with the distance there, 1/m
   double area = 0;       // half of its share of the surface, m²: the other body's points have the other half
   double spacing = 0;    // m
+  double volume = 0;     // m³
   bool is_at_surface = false;
 };
 
@@ -46,7 +47,7 @@ class Surfaces {
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
   // After a search.
-  void take(const BlockPair& blocks, const Pairs& pairs);
+  void take(const BlockPair& blocks, Pairs& pairs);
 
   // As forces.hpp has them for pairs of points. `penetration`: the overlap in spacings of the point.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
@@ -100,6 +101,7 @@ class Surfaces {
   template <class MotionOf>
   Vector slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, bool turns, const MotionOf& motion) const;
   void set_smallest_reaches(const Pairs& pairs);
+  void set_volumes(Pairs& pairs) const;
   void take_broken(const Domain& domain, const Pairs& pairs);
   void note_touching();
   void advance_travel(const Pairs& pairs);
@@ -109,6 +111,7 @@ class Surfaces {
   void subtract_start(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
   std::vector<SurfacePoint> points_;          // of blocks.points
+  std::vector<double> volumes_;               // of blocks.points: V of ρ, m³ (own_surface.hpp)
   std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
   std::vector<Vector> slips_, slips_before_;  // of blocks.points: the springs of friction; a step before, m
   std::vector<Vector> friction_before_;       // of blocks.points, N: as of the last commit

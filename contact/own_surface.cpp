@@ -1,0 +1,269 @@
+#include "contact/own_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contact/at_surface.hpp"
+#include "contact/laws/surface.hpp"
+#include "points/bounding_box.hpp"
+#include "points/cell_reach.hpp"
+#include "points/mirror.hpp"
+#include "points/nearby_ranks.hpp"
+#include "points/neighbors/cell_grid.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+// Lengths in spacings of the point's own body.
+constexpr double least_area = 0.1;  // of a cell, that its surface have a direction
+constexpr double smooth = 0.2;      // what the surface of a cell may spread along its normals to be taken for a plane
+constexpr double rim = 0.55;        // from here on it has an edge of the body
+constexpr double around = 1.6;      // what of the surface tells its curvature
+constexpr double alike = 0.1;       // the cosine between the normals of these
+constexpr double sharpest = 0.5;    // mean curvature, of a strut of two cells
+constexpr double planes_within = 1.8;  // the surface that a point lies below
+constexpr double deepest = 0.8;        // what lies farther below, without a surface of its own, feels for none
+
+// In those of the reach of ρ: where points of the other body are when they touch, and how far a piece of the surface
+// tells what is missing.
+constexpr double before = 0.4, tells = 2;
+constexpr double least_missing = 0.7, most_missing = 4;  // with less the body goes on before it, or behind a plane
+
+// The surface of a cell as a plane: a record as it travels.
+struct Piece {
+  double place[3], normal[3];
+  double area;           // m²
+  double spread;         // of its places along its normals, m: none of a plane
+  double curvature = 0;  // the mean of both principal ones, 1/m
+  double missing = 1;    // ρ before a flat face over that before the piece; 0: it is no free surface
+  double spacing;        // m
+  std::int64_t body, id;
+
+  Vector at() const { return {place[0], place[1], place[2]}; }
+  Vector out() const { return {normal[0], normal[1], normal[2]}; }
+  bool is_smooth() const { return spread < smooth * spacing && missing > 0; }
+};
+
+// A point as it adds to ρ.
+struct Grain {
+  double place[3], volume;
+  std::int64_t body, id;
+
+  Vector at() const { return {place[0], place[1], place[2]}; }
+};
+
+// Records near this rank's points, of all ranks, in the order of ids: sums over them are the same on any number of
+// ranks.
+template <class Record>
+class Near {
+ public:
+  Near(std::vector<Record> own, const Eigen::AlignedBox3d& mine, double reach, const Communicator& communicator)
+      : all_(with_others(std::move(own), mine, reach, communicator)), grid_(places(all_), reach) {}
+
+  // Calls visit(record, its place from x) for those of a body within `reach` of x.
+  template <class Visit>
+  void over(const Vector& x, double reach, std::int64_t body, const Visit& visit) const {
+    found_.clear();
+    grid_.visit_near(x, [&](int n, const Vector& y) {
+      if (all_[n].body == body && (y - x).squaredNorm() < reach * reach) found_.push_back(n);
+    });
+    std::sort(found_.begin(), found_.end());
+    for (const int n : found_) visit(all_[n], Vector(all_[n].at() - x));
+  }
+
+ private:
+  static std::vector<Record> with_others(std::vector<Record> own, const Eigen::AlignedBox3d& mine, double reach,
+                                         const Communicator& communicator) {
+    const std::vector<Record> others =
+        from_nearby_ranks(mine, places(own), std::span<const Record>(own), reach, communicator);
+    own.insert(own.end(), others.begin(), others.end());
+    std::sort(own.begin(), own.end(), [](const Record& a, const Record& b) { return a.id < b.id; });
+    return own;
+  }
+  static std::vector<Vector> places(const std::vector<Record>& records) {
+    std::vector<Vector> places;
+    for (const Record& record : records) places.push_back(record.at());
+    return places;
+  }
+
+  std::vector<Record> all_;
+  CellGrid grid_;
+  mutable std::vector<int> found_;
+};
+
+std::int64_t body_of(const Domain& domain, int i) { return domain.blocks[domain.cloud.blocks[i]].body; }
+
+bool is_of(const Domain& domain, const BlockPair& blocks, int i) {
+  const std::int64_t body = body_of(domain, i);
+  return body == domain.blocks[blocks.first].body || body == domain.blocks[blocks.second].body;
+}
+
+// n·M n is the mean height of the cell's surface over its projection along n, and the trace that over the surface, each
+// place along its own normal: they are the same where it is a plane.
+void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
+  const CellShape& shape = domain.cloud.shapes[i];
+  const double spacing = domain.cloud.spacings[i], area = shape.surface.norm();
+  if (!(area > least_area * spacing * spacing)) return;
+  const Vector out = shape.surface / area, at = domain.reference(i) + shape.surface_moments.transpose() * out / area;
+  const double spread = (shape.surface_moments.trace() - out.dot(shape.surface_moments * out)) / area;
+  pieces.push_back({.place = {at[0], at[1], at[2]},
+                    .normal = {out[0], out[1], out[2]},
+                    .area = area,
+                    .spread = spread,
+                    .spacing = spacing,
+                    .body = body_of(domain, i),
+                    .id = domain.id(i)});
+}
+
+// Collective. The curvature κ is the mean over directions, from Σ Δn·Δx = κ Σ Δx². A bent surface has its summit by a
+// twelfth of its area times κ above its mean height.
+void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
+  Eigen::AlignedBox3d mine;
+  for (const Piece& piece : own) mine.extend(piece.at());
+  const Near<Piece> all(own, mine, around * spacing, domain.communicator);
+  for (Piece& piece : own) {
+    double turned = 0, way = 0;
+    all.over(piece.at(), around * piece.spacing, piece.body, [&](const Piece& other, const Vector& apart) {
+      if (other.id == piece.id || !other.is_smooth() || !(other.out().dot(piece.out()) > alike)) return;
+      turned += apart.dot(other.out() - piece.out());
+      way += apart.squaredNorm();
+    });
+    const double limit = sharpest / piece.spacing;
+    if (way > 0) piece.curvature = std::clamp(turned / way, -limit, limit);
+  }
+  for (Piece& piece : own) {
+    const double summit = piece.is_smooth() ? piece.area * piece.curvature / 12 : 0;
+    for (int c = 0; c < 3; ++c) piece.place[c] += summit * piece.normal[c];
+  }
+}
+
+// Collective. The images of the bodies that go on behind symmetry planes: contact does not see them, and ρ is to be as
+// it would be with them.
+Images images_of(const Domain& domain, double reach) {
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Mirror& mirror : domain.mirrors) {
+    Eigen::AlignedBox3d box;
+    for (int i = 0; i < domain.owned; ++i) {
+      if (body_of(domain, i) == mirror.body) box.extend(domain.reference(i));
+    }
+    boxes.push_back(common_box(box, domain.communicator));
+  }
+  return {domain.mirrors, boxes, reach};
+}
+
+// Collective. What ρ is in front of a flat face, over what it is in front of each smooth piece. Points of another body
+// lie a spacing apart, so that those nearest to the summit of a bent surface miss it by κ h²/12 in the mean.
+void compare_with_face(const Domain& domain, const BlockPair& blocks, double reach, std::vector<Piece>& own) {
+  const double unit = reach / reach_in_spacings, ahead = before * unit;
+  const auto in_front = [ahead](const Piece& piece) { return Vector(piece.at() + ahead * piece.out()); };
+  Eigen::AlignedBox3d mine;
+  for (const Piece& piece : own) mine.extend(in_front(piece));
+  std::vector<Grain> grains;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!is_of(domain, blocks, i)) continue;
+    const Vector X = domain.reference(i);
+    grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), body_of(domain, i), domain.id(i)});
+  }
+  const Near<Grain> material(std::move(grains), mine, reach, domain.communicator);
+  const Images images = images_of(domain, reach);
+  const Smoothing smoothing(reach);
+  for (Piece& piece : own) {
+    if (!piece.is_smooth()) continue;
+    double share = 0;
+    const auto add = [&](const Vector& x) {
+      material.over(x, reach, piece.body, [&](const Grain& grain, const Vector& apart) {
+        share += grain.volume * smoothing.value(apart.squaredNorm());
+      });
+    };
+    add(in_front(piece));
+    for (const int image : images.of_body(static_cast<int>(piece.body))) add(images[image](in_front(piece)));
+    const double wanted = Face{reach, piece.spacing, true}.share(ahead - piece.curvature * unit * unit / 12);
+    const double missing = wanted / share;
+    piece.missing = missing < least_missing ? 0 : std::min(missing, most_missing);
+  }
+}
+
+// The mean of what is missing around a point, as of inverse powers, which leans to the least: before an edge of the
+// body more is missing, which no volume should make up for, and of an edge itself nothing is.
+double scale(const Near<Piece>& pieces, const Vector& X, int body, double within) {
+  constexpr double power = -8;
+  double weight = 0, sum = 0;
+  pieces.over(X, within, body, [&](const Piece& piece, const Vector& apart) {
+    if (!piece.is_smooth() && piece.spread < rim * piece.spacing) return;
+    const double part = piece.area * std::pow(1 - apart.squaredNorm() / (within * within), 2);
+    weight += part, sum += part * std::pow(piece.missing, power);
+  });
+  return weight > 0 ? std::pow(sum / weight, 1 / power) : 1;
+}
+
+// How far a point lies below the planes of smooth pieces beside it; infinite where there are none.
+double depth_below(const Near<Piece>& pieces, const Vector& X, int body, double spacing) {
+  double depth = std::numeric_limits<double>::infinity();
+  pieces.over(X, planes_within * spacing, body, [&](const Piece& piece, const Vector& apart) {
+    const double below = piece.out().dot(apart);
+    if (piece.is_smooth() && below > 0) depth = std::min(depth, below);
+  });
+  return depth;
+}
+
+// By how much the cell of a point reaches beyond it towards the surface of its body, m; where that has no direction, as
+// in a thin plate, the mean of all.
+double reach_to_surface(const Domain& domain, int i) {
+  const PointCloud& cloud = domain.cloud;
+  if (cloud.shapes.empty()) return reach_of_cell(cloud, domain.volume(i), i, Vector::Zero());
+  const Vector& surface = cloud.shapes[i].surface;
+  const double area = surface.norm();
+  if (!(area > least_area * std::pow(cloud.spacings[i], 2))) return std::sqrt(trace(cloud.shapes[i].moments));
+  return reach_of_cell(cloud, domain.volume(i), i, surface / area);
+}
+
+// What the pieces around tell of this rank's points of both blocks.
+void look_at(const Domain& domain, const BlockPair& blocks, double reach, const Near<Piece>& pieces,
+             OwnSurface& surface) {
+  for (std::size_t k = 0; k < blocks.points.size(); ++k) {
+    const int i = blocks.points[k], body = static_cast<int>(body_of(domain, i));
+    const Vector X = domain.reference(i);
+    const double spacing = domain.cloud.spacings[i];
+    surface.volumes[k] *= scale(pieces, X, body, tells / reach_in_spacings * reach);
+    const double below = depth_below(pieces, X, body, spacing);
+    std::vector<Piece> piece;
+    add_piece(domain, i, piece);
+    if (piece.empty() && !(below < deepest * spacing)) continue;
+    surface.may_touch[k] = true;
+    const bool is_told = below < std::numeric_limits<double>::infinity() && (piece.empty() || piece[0].is_smooth());
+    surface.depths[k] = is_told ? below : std::min(surface.depths[k], below);
+  }
+}
+
+}  // namespace
+
+OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double reach) {
+  OwnSurface surface;
+  for (const int i : blocks.points) {
+    surface.depths.push_back(reach_to_surface(domain, i));
+    surface.volumes.push_back(domain.volume(i));
+    surface.may_touch.push_back(is_at_surface(domain, i));
+  }
+  const bool is_told = domain.cloud.at == PointsAt::elements && !domain.cloud.shapes.empty();
+  if (!(domain.communicator.max(is_told ? 1.0 : 0.0) > 0)) return surface;
+  Eigen::AlignedBox3d mine;
+  std::vector<Piece> own;
+  double spacing = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (!is_of(domain, blocks, i)) continue;
+    mine.extend(domain.reference(i));
+    spacing = std::max(spacing, domain.cloud.spacings[i]);
+    add_piece(domain, i, own);
+  }
+  spacing = domain.communicator.max(spacing);
+  bend(domain, spacing, own);
+  compare_with_face(domain, blocks, reach, own);
+  const double within = std::max(tells / reach_in_spacings * reach, planes_within * spacing);
+  look_at(domain, blocks, reach, Near<Piece>(std::move(own), mine, within, domain.communicator), surface);
+  return surface;
+}
+
+}  // namespace strut::contact
