@@ -112,10 +112,10 @@ void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
 
 // Those that ρ is made of.
 void Surfaces::set_volumes(Pairs& pairs) const {
-  for (std::size_t k = 0; k < pairs.owned.size(); ++k) pairs.sites[k].reference[3] = volumes_[places_[k]];
-  if (!pairs.halo) return;
-  double* first = pairs.sites.empty() ? nullptr : pairs.sites.data()->reference.data() + 3;
-  pairs.halo->exchange(first, sizeof(Site) / sizeof(double), 1);
+  std::vector<double> volumes(pairs.sites.size());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) volumes[k] = volumes_[places_[k]];
+  if (pairs.halo) pairs.halo->exchange(volumes);
+  for (std::size_t k = 0; k < pairs.sites.size(); ++k) pairs.sites[k].reference[3] = volumes[k];
 }
 
 void Surfaces::set_smallest_reaches(const Pairs& pairs) {
