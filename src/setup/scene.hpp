@@ -33,9 +33,9 @@ struct Scene {
   std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
   Dropped dropped;
   std::vector<ToolOfScene> tools = {};  // as tools_of(conditions)
-  double highest_frequency = 0;         // 1/s, that mass scaling leaves to a point; 0: any
   std::string outline;                  // box, mass, wave speeds, speeds: what slips of units change
   std::string warnings;                 // what may be meant otherwise, a line each
+  double highest_frequency = 0;         // 1/s, that mass scaling leaves to a point; 0: any
 };
 
 }  // namespace strut

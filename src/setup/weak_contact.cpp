@@ -58,7 +58,7 @@ struct Strength {
 
 Strength strength(const contact::PairLaw& law, const Side& a, const Side& b) {
   const double r = contact::radius_of(law), sphere = 4 * std::numbers::pi / 3 * r * r * r;
-  const contact::PointPair pair{{a.volume(), b.volume()}, 0.5 * (a.horizon + b.horizon), 2 * r, false};
+  const contact::PointPair pair{{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * r, false};
   const double partners = std::min(a.points * (1 + sphere / b.volume()), b.points * (1 + sphere / a.volume()));
   return std::visit(
       [&](const contact::ContactLaw auto& one) {
