@@ -53,6 +53,12 @@ Log::Log(const std::filesystem::path& file, const Communicator& communicator)
     : terminal_out_(std::cout.rdbuf()), terminal_errors_(std::cerr.rdbuf()) {
   run_on_root(communicator, [&] {
     if (const std::string why = obstacle(file, FileKind::log); !why.empty()) throw Error("--log: " + why);
+    try {
+      const bool is_device = std::filesystem::exists(file) && !std::filesystem::is_regular_file(file);
+      if (!is_device) lock_.emplace(file);
+    } catch (const Error& error) {
+      throw Error(std::string("--log: ") + error.what());
+    }
     errno = 0;
     if (!(std::ofstream(file) << log_of_strut() << std::flush)) {
       throw Error("--log: '" + file.string() + "': cannot create it: " + std::strerror(errno));

@@ -5,8 +5,10 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/parallel/communicator.hpp"
+#include "io/file_lock.hpp"
 
 namespace strut {
 
@@ -14,8 +16,8 @@ namespace strut {
 // has not ended.
 class Log {
  public:
-  // Collective. Replaces the file, if it is a log; throws Error on all ranks where it is something else or cannot be
-  // created.
+  // Collective. Replaces the file, if it is a log; throws Error on all ranks where it is something else, cannot be
+  // created, or is that of a run which goes on.
   Log(const std::filesystem::path& file, const Communicator& communicator);
   ~Log();
   Log(const Log&) = delete;
@@ -24,6 +26,7 @@ class Log {
  private:
   class Both;
   std::ofstream file_;
+  std::optional<io::FileLock> lock_;  // on rank 0
   std::unique_ptr<Both> out_, errors_;
   std::streambuf *terminal_out_, *terminal_errors_;
 };

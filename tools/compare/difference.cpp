@@ -96,6 +96,28 @@ std::string time_problem(const Series& a, const Series& b, const Tolerance& tole
   return "";
 }
 
+// Where a body stands is not in its variables.
+std::string place_problem(const Series& a, const Series& b, const Tolerance& tolerance) {
+  double extent = 0;
+  for (const Series* one : {&a, &b}) {
+    for (const std::vector<double>& x : one->places) {
+      const auto [low, high] = std::minmax_element(x.begin(), x.end());
+      if (low != x.end()) extent = std::max(extent, *high - *low);
+    }
+  }
+  for (std::size_t i = 0; i < std::min(a.places[0].size(), b.places[0].size()); ++i) {
+    double gap = 0;
+    for (int c = 0; c < 3; ++c) gap = std::max(gap, distance(a.places[c][i], b.places[c][i]));
+    if (gap <= std::max(tolerance.absolute, tolerance.relative * extent)) continue;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "node %zu is at (%.9g, %.9g, %.9g) m and at (%.9g, %.9g, %.9g) m before anything moves", i + 1,
+                  a.places[0][i], a.places[1][i], a.places[2][i], b.places[0][i], b.places[1][i], b.places[2][i]);
+    return text;
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<Difference> differences(const Series& a, const Series& b, const Tolerance& tolerance) {
@@ -119,6 +141,8 @@ std::vector<std::string> mismatches(const Series& a, const Series& b, const Tole
   }
   const std::string times = time_problem(a, b, tolerance);
   if (!times.empty()) problems.push_back(times);
+  const std::string places_differ = place_problem(a, b, tolerance);
+  if (!places_differ.empty()) problems.push_back(places_differ);
   for (const Variable& variable : a.variables) {
     const Variable* other = find(b, variable);
     if (other == nullptr) {

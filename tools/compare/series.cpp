@@ -59,7 +59,7 @@ Series read_history(const std::filesystem::path& path) {
 
 Series read_exodus(const std::filesystem::path& path) {
   io::ExodusResult result = io::read_result(path);
-  Series series{std::move(result.times), {}};
+  Series series{std::move(result.times), std::move(result.places), {}};
   for (std::size_t v = 0; v < result.nodal.size(); ++v) {
     series.variables.push_back({result.nodal_names[v], "node", std::move(result.nodal[v])});
   }

@@ -1,6 +1,7 @@
 // What two results are compared by: named variables with a value per frame and place.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct Variable {
 
 struct Series {
   std::vector<double> times;  // of the frames; none where a frame has no time
+  // x, y, z of the undeformed nodes, m; none of a history.
+  std::array<std::vector<double>, 3> places = {};
   std::vector<Variable> variables;
 };
 

@@ -23,11 +23,21 @@ def history(path):
             text = file.read()
         lines = text[:text.rfind("\n") + 1].splitlines()
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-        table = np.array([[float(x) for x in row] for row in rows[1:] if len(row) == len(rows[0])])
+        odd = next((row for row in rows[1:] if len(row) != len(rows[0])), None)
+        if odd is not None:
+            fail(f"{path} is damaged: the row of t = {(odd or ['?'])[0]} has {len(odd)} values, expected {len(rows[0])} as in its head")
+        table = np.array([[float(x) for x in row] for row in rows[1:]])
     except (UnicodeDecodeError, ValueError, IndexError) as error:
         fail(f"{path} is not a history: {error}")
     if not rows or "Time" not in rows[0] or len(table) < 2:
         fail(f"{path} is not a history, or has not yet two rows")
+    twice = next((name for name in rows[0] if rows[0].count(name) > 1), None)
+    if twice:
+        fail(f"{path} has two columns '{twice}', expected each once")
+    times = table[:, rows[0].index("Time")]
+    back = np.flatnonzero(~(np.diff(times) > 0))
+    if len(back):
+        fail(f"{path}: its times do not rise from row to row, from {times[back[0]]:g} to {times[back[0] + 1]:g} s (two runs in one file?)")
     return {name: table[:, i] for i, name in enumerate(rows[0])}
 
 
@@ -59,6 +69,11 @@ def forces(table, words):
     if not along:
         fail(f"the history has no force along {axis}: add e.g. Reaction_{axis.upper()}(top) or "
              f"Contact_Force_{axis.upper()}(foam:plate) to History > Variables, or name a column by --force")
+    if words.force and words.force == words.other:
+        fail(f"--force and --other are one column, '{words.force}': expected the two ends")
+    for name in along[:2]:
+        if not np.isfinite(table[name]).all():
+            fail(f"the column '{name}' of the history is no number at t = {table['Time'][~np.isfinite(table[name])][0]:g} s")
     return along, "xyz".index(axis)
 
 

@@ -73,6 +73,7 @@ class ExodusWriter {
 // What a finished result holds, for comparison and tests. On rank 0 only (serial use).
 struct ExodusResult {
   std::vector<double> times;
+  std::array<std::vector<double>, 3> places;  // of the nodes, x, y, z, m
   std::vector<std::string> nodal_names, element_names;
   // [variable][time][point in file order]; element variables in element order (block by block).
   std::vector<std::vector<std::vector<double>>> nodal, element;

@@ -12,6 +12,7 @@ ExodusResult read_whole(const std::filesystem::path& path) {
   const ExodusFile file = ExodusFile::open(path);
   ExodusResult result;
   result.times = file.times();
+  result.places = file.coordinates(0, file.sizes().nodes);
   result.nodal_names = file.variable_names(ExodusFile::On::nodes);
   result.element_names = file.variable_names(ExodusFile::On::elements);
   const int steps = static_cast<int>(result.times.size());

@@ -43,5 +43,21 @@ TEST(Log, HasAllLinesAlsoOneThatHasNotEnded) {
   folder.world.barrier();  // before the folder goes
 }
 
+TEST(Log, OfARunThatGoesOnIsNotReplaced) {
+  const RunFolder folder;
+  {
+    const Log log(folder / "log", folder.world);
+    try {
+      const Log other(folder / "log", folder.world);
+      FAIL() << "two runs would write to it";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("--log: "), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("another run is writing to it"), std::string::npos) << error.what();
+    }
+  }
+  folder.world.barrier();
+  const Log later(folder / "log", folder.world);  // that of one which has ended is
+}
+
 }  // namespace
 }  // namespace strut::regression

@@ -11,11 +11,11 @@ namespace {
 using Columns = std::vector<std::vector<double>>;
 
 // Three points in two blocks with two frames: a vector, a scalar.
-PointCloud cloud() {
+PointCloud cloud(double x = 0) {
   PointCloud points;
   points.ids = {0, 1, 2};
   points.element_ids = {1, 2, 3};
-  points.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  points.positions = {{x, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   points.volumes = {1, 1, 1};
   points.blocks = {0, 0, 1};
   points.sets = {0, 0, 0};
@@ -48,6 +48,16 @@ TEST_F(CompareTool, EqualResults) {
   const testing::Outcome outcome = compare(result("a.e"), result("b.e"), "--relative 0");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   expect_text(outcome, "the same");
+}
+
+// The second body is longer by 1e-6 of its length, and has the same fields.
+TEST_F(CompareTool, BodiesThatStandElsewhereDiffer) {
+  const std::string a = result("a.e"), b = path("b.e");
+  io::ExodusWriter(b, Communicator(), cloud(-2e-6), {{"Displacement", 3, true}, {"Damage", 1, false}});
+  const testing::Outcome outcome = compare(a, b);
+  EXPECT_EQ(outcome.status, 1);
+  expect_text(outcome, "node 1 is at (0, 0, 0) m and at (-2e-06, 0, 0) m before anything moves");
+  EXPECT_EQ(compare(a, b, "--relative 1.1e-6").text.find("before anything moves"), std::string::npos);
 }
 
 TEST_F(CompareTool, ADifferenceIsMeasuredAgainstTheQuantityAndLocated) {

@@ -336,6 +336,16 @@ class Runs(InFolder):
         (self.folder / "block.xml").write_text(DECK)
         self.assertIn("--area: expected a number > 0", self.error("block.xml", "--area", 0))
         self.assertIn("unknown option '--heigt' (did you mean '--height'?)", self.error("block.xml", "--heigt", 1))
+        whole = ("block.csv", "--area", 1, "--height", 1, "--shortening")
+        self.assertIn("is shortened by 2.4 times its height of 1 m", self.error(*whole, "4*t"))
+        self.assertIn("are one column, 'Reaction_Z(top)'", self.error(*whole, "t", "--force", "Reaction_Z(top)", "--other", "Reaction_Z(top)"))
+        self.history({"Time": STRAIN, "Reaction_Z(top)": np.where(STRAIN > 0.3, np.nan, 1)})
+        self.assertIn("the column 'Reaction_Z(top)' of the history is no number at t = 0.3001 s", self.error(*whole, "t"))
+        self.history({"Time": np.minimum(STRAIN, 0.2), "Reaction_Z(top)": STRAIN})
+        self.assertIn("its times do not rise from row to row, from 0.2 to 0.2 s", self.error(*whole, "t"))
+        for text, words in (("Time,A,A\n0,1,2\n1,2,3\n", "has two columns 'A'"), ("Time,A\n0,1\n1,2,3\n2,3\n", "the row of t = 1 has 3 values, expected 2")):
+            (self.folder / "block.csv").write_text(text)
+            self.assertIn(words, self.error(*whole, "t"))
         (self.folder / "block.xml").write_text(DECK.replace("History", "Histry"))
         self.assertIn("has no history", self.error("block.xml"))
 
