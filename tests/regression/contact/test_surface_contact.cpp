@@ -233,11 +233,10 @@ Turning turning(Simulation& run, const Motion& motion) {
 
 // A ball of voxels that rolls down a slope, from 20 m/s on, over 11 spacings. A ball of whole voxels has flat places,
 // whose edges throw it up; that of cells which know what is in them trembles by some hundredths of a spacing.
-// Rolling: v = ω r with r from the middle to the points that feel the other body, where friction acts: half a spacing
-// below the plate's top, or above the ball's lowest place (measured: 0.44 spacings below the top: it is those of the
-// plate that feel most, at a touch; half of them each would be 0, by chance). And a = g sin α/(1 + I/(m r²)), 5/7 g sin
-// α of a sphere, but for what trembling takes (measured: 3.5 %; 3 to 5 % on other slopes, with other stiffnesses).
-// Sliding it would have 7/5 of this.
+// Rolling: v = ω r with r from the middle to the points that feel the other body, where friction acts: between half a
+// spacing above the ball's lowest place and half a spacing below the plate's top (measured: 0.44 below it, as the
+// plate's points feel first). And a = g sin α/(1 + I/(m r²)), 5/7 g sin α of a sphere, but for what trembling takes,
+// less than 5 %. Sliding it would have 7/5 of this.
 TEST(SurfaceContact, BallOfVoxelsRollsDownASlope) {
   const RunFolder folder;
   if (folder.world.size() > 1)
