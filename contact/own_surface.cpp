@@ -119,7 +119,8 @@ void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
 }
 
 // Collective. The curvature κ is the mean over directions, from Σ Δn·Δx = κ Σ Δx². A bent surface has its summit by a
-// twelfth of its area times κ above its mean height.
+// twelfth of its area times κ above its mean height. As much again is missed by points that lie a spacing apart, and
+// half of it is made good: of two bodies' points those that come first touch.
 void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   Eigen::AlignedBox3d mine;
   for (const Piece& piece : own) mine.extend(piece.at());
@@ -135,7 +136,8 @@ void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
     if (way > 0) piece.curvature = std::clamp(turned / way, -limit, limit);
   }
   for (Piece& piece : own) {
-    const double summit = piece.is_smooth() ? piece.area * piece.curvature / 12 : 0;
+    const double bent = piece.area / 12 + piece.spacing * piece.spacing / 24;
+    const double summit = piece.is_smooth() ? bent * piece.curvature : 0;
     for (int c = 0; c < 3; ++c) piece.place[c] += summit * piece.normal[c];
   }
 }
@@ -154,8 +156,7 @@ Images images_of(const Domain& domain, double reach) {
   return {domain.mirrors, boxes, reach};
 }
 
-// Collective. What ρ is in front of a flat face, over what it is in front of each smooth piece. Points of another body
-// lie a spacing apart, so that those nearest to the summit of a bent surface miss it by κ h²/12 in the mean.
+// Collective. What ρ is in front of a flat face, over what it is in front of each smooth piece.
 void compare_with_face(const Domain& domain, const BlockPair& blocks, double reach, std::vector<Piece>& own) {
   const double unit = reach / reach_in_spacings, ahead = before * unit;
   const auto in_front = [ahead](const Piece& piece) { return Vector(piece.at() + ahead * piece.out()); };
@@ -180,7 +181,7 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
     };
     add(in_front(piece));
     for (const int image : images.of_body(static_cast<int>(piece.body))) add(images[image](in_front(piece)));
-    const double wanted = Face{reach, piece.spacing, true}.share(ahead - piece.curvature * unit * unit / 12);
+    const double wanted = Face{reach, piece.spacing, true}.share(ahead);
     const double missing = wanted / share;
     piece.missing = missing < least_missing ? 0 : std::min(missing, most_missing);
   }

@@ -1,8 +1,9 @@
 // Contact between surfaces. What is around a place is told by a smooth share of the other body's material,
 //   ρ(x) = Σ V_j W(|y_j − x|),  W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶,  whose integral is 1:
-// it goes from 0 to 1 across a flat face, and hardly shows the lattice behind it. A point touches where ρ exceeds what
-// a face has at the distance e, by which the point's own cell reaches beyond it. The overlap g is that excess over the
-// slope of ρ, and the pressure
+// it goes from 0 to 1 across a flat face, and hardly shows the lattice behind it; V_j is such that it does so across a
+// curved one, too (contact/own_surface.hpp). A point touches where ρ exceeds what a face has at the distance e, by
+// which the point lies below the surface of its own body. The overlap g is that excess over the slope of ρ, and the
+// pressure
 //   p(g) = K g, or K g/(1 − g/g_l), where there is a largest overlap g_l,
 // is the derivative of an energy a face, so that forces derive from it too (contact/surfaces.hpp).
 #pragma once

