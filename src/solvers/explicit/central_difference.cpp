@@ -61,7 +61,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   contact_.foresee({body_.domain, velocities, body_.density}, first);
   // What touches in the first step, or is so near that it soon may, has its levels and its step from the start: a change
   // once bodies vibrate gives energy.
-  std::vector<std::uint8_t> marks = pushed(velocities, first);
+  constexpr double soon = 10;  // steps
+  std::vector<std::uint8_t> marks = pushed(velocities, soon * first);
   contact_.mark_near(marks);
   if (body_.domain.communicator.max(any_exposed(marks) ? 1.0 : 0.0) > 0) start(marks);
 }
