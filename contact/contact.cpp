@@ -398,6 +398,12 @@ void Contact::mark_touching(std::span<std::uint8_t> marks) const {
   }
 }
 
+void Contact::mark_near(std::span<std::uint8_t> marks) const {
+  for (const ContactPair& pair : contact_pairs_) {
+    for (const int i : pair.pairs.owned) marks[i] = 1;
+  }
+}
+
 Vector Contact::force(const Domain& domain, int first, int second) const {
   Vector sum = Vector::Zero();
   for (const ContactPair& contact_pair : contact_pairs_) {

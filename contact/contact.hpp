@@ -86,6 +86,8 @@ class Contact {
 
   // Those that touch, or come to in a step like the last, of points; of surfaces those that feel a force.
   void mark_touching(std::span<std::uint8_t> marks) const;
+  // Those that the last search has found near others.
+  void mark_near(std::span<std::uint8_t> marks) const;
 
   int searches() const { return searches_; }  // so far, of all interactions
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "deck/problems.hpp"
@@ -19,7 +20,8 @@ constexpr double widest_gap = 1 / std::numbers::sqrt2;
 struct Side {
   std::string name;
   double spacing = 0, horizon = 0;  // m, the means
-  double impedance = 0;             // of longitudinal waves, kg/(m² s)
+  double modulus = 0;               // of longitudinal waves, Pa
+  double impedance = 0;             // of these, kg/(m² s)
   double points = 0, mass = 0;      // over all ranks; kg
   double yields = 0;                // Pa, the flow stress at the start; infinite where it never yields
 
@@ -45,7 +47,8 @@ std::vector<Side> sides_of(const Body& body, const std::vector<double>& spacings
     const BlockHorizons& horizons = body.domain.blocks[b];
     const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
     sides.push_back({body.domain.cloud.block_names[b], spacings[b], 0.5 * (horizons.smallest + horizons.largest),
-                     std::sqrt(modulus * material.density), sums[2 * b], sums[2 * b + 1], flow_stress(material)});
+                     modulus, std::sqrt(modulus * material.density), sums[2 * b], sums[2 * b + 1],
+                     flow_stress(material)});
   }
   return sides;
 }
@@ -139,6 +142,41 @@ std::string weakness(const contact::Law& law, const Side& a, const Side& b, cons
   return text.str();
 }
 
+// Its spring between two points that overlap by a tenth of a spacing, in those of the stiffer block, M h.
+double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side& b) {
+  const contact::PointPair pair{
+      {a.volume(), b.volume()}, 0.5 * (a.horizon + b.horizon), 2 * contact::radius_of(law), false};
+  const double overlap = 0.1 * std::min(a.spacing, b.spacing);
+  const double spring =
+      std::visit([&](const contact::ContactLaw auto& one) { return one.tangent_stiffness(pair, overlap); }, law);
+  return spring / std::max(a.modulus * a.spacing, b.modulus * b.spacing);
+}
+
+// Where points meet at the pace of contact, not of the bodies, a touch lasts a step or two, which see little of it.
+std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, const Side& b) {
+  constexpr double much = 10;
+  const auto* of_points = std::get_if<contact::PairLaw>(&law);
+  const double ratio = of_points ? relative_stiffness(*of_points, a, b) : 0;
+  if (!(ratio > much)) return "";
+  const auto [key, value] = std::visit(
+      []<class Law>(const Law& one) {
+        if constexpr (std::is_same_v<Law, contact::HertzLaw>) {
+          return std::pair("an Effective Modulus", one.effective_modulus);
+        } else {
+          return std::pair("a Spring Constant", one.penalty);
+        }
+      },
+      *of_points);
+  std::ostringstream text;
+  text.precision(2);
+  text
+      << of_blocks(a, b) << " is " << ratio
+      << " times as stiff as the stiffer block: the time step falls with it, and a touch lasts a few steps only, which "
+      << "may cost or give as much energy as the points had; as stiff as that block is " << key << " of "
+      << value / ratio << " Pa";
+  return text.str();
+}
+
 // Whether a tool or a third block that either of both may touch could stop them.
 bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>& interactions, int a, int b) {
   const auto with_another = [a, b](const contact::Interaction& one) {
@@ -185,6 +223,7 @@ std::string weak_contacts(const deck::Deck& deck, const Scene& scene,
       text = weakness(model.law, a, b, approach(ways[first], ways[second], duration), surely);
     if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second))
       problems.add("Contact", text);
+    if (text.empty() && !scene.quasi_static) text = stiffness_of_short_touches(model.law, a, b);
     const std::string slips = gap(model.law, a, b);
     if (text.empty() && !slips.empty()) text = of_blocks(a, b) + ": " + slips;
     if (!text.empty()) warnings += "WARNING: " + text + "\n";

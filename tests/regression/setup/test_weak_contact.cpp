@@ -149,6 +149,21 @@ TEST(WeakContact, OfABlockWithItselfBearsTheFlowStress) {
   EXPECT_EQ(warned(0.01, copper()), "") << "what never yields sets no bound";
 }
 
+// K_c V² against M h, with V = h³; the stiffness that is told has the ratio 1, and nothing is told of it.
+TEST(WeakContact, FarStifferThanTheBodiesIsTold) {
+  const RunFolder folder;
+  const double as_stiff = penalty_for(117e9 * 0.65 / (1.35 * 0.3), std::pow(h, 5));
+  EXPECT_EQ(warnings_of(folder, by_penalty(folder, h, 9.9 * as_stiff)), "");
+  const std::string told = warnings_of(folder, by_penalty(folder, h, 101 * as_stiff));
+  EXPECT_NE(told.find(" is 1e+02 times as stiff as the stiffer block"), std::string::npos) << told;
+  const std::size_t at = told.find("is a Spring Constant of ");
+  ASSERT_NE(at, std::string::npos) << told;
+  EXPECT_NEAR(std::stod(told.substr(at + 24)) / as_stiff, 1, 0.05) << "two digits are told";
+  const Parts hertz = impact(folder, contact_by(key("Contact Model", "Hertz") + key("Effective Modulus", "1e14"),
+                                                {{"block_1", "block_2"}}, std::to_string(h)));
+  EXPECT_NE(warnings_of(folder, hertz).find("as stiff as that block is an Effective Modulus of"), std::string::npos);
+}
+
 // Who never meets needs no contact; who meets without a gap has no speed to be stopped from.
 TEST(WeakContact, BodiesThatDoNotMeetAreNotComplainedOf) {
   const RunFolder folder;
