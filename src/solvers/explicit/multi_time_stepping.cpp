@@ -283,8 +283,10 @@ double MultiTimeStepping::choose(Body& body, double safety_factor, const Present
   const double margin = std::min(1.0, most_turn / safety_factor), bearable = present.slack * present.bound;
   FrequencyBounds bounds = frequency_bounds_of(body);
   std::vector<std::uint8_t> around = pushed;
-  if (!pushed.empty()) spread(body, families_around_contact, around);
-  if (!pushed.empty()) bounds.floor = std::max(bounds.floor, floor_of_pushed(body, bounds, margin, around));
+  if (body.domain.communicator.max(pushed.empty() ? 0.0 : 1.0) > 0) {  // a rank without points has no marks
+    spread(body, families_around_contact, around);
+    bounds.floor = std::max(bounds.floor, floor_of_pushed(body, bounds, margin, around));
+  }
   Levels best = cheapest_levels(body, bounds, margin);
   anew_ = true;
   if (present.bound > 0 && bearable >= bounds.floor) {
