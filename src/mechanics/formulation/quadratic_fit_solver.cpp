@@ -24,9 +24,9 @@ using RowsOfSix = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 // V h² κ, h spacing and κ the steepness, where 1.2 to 3 are usual inside of a body.
 constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 8;
 
-// The least one of a cell whose metal has flowed, in material so many spacings thick: twice as large in material of two
-// as in one of three or more (quadratic.md, flow).
-double penalty_in_flow(double thickness) { return 0.025 * std::clamp(1 + 1.5 * (3 - thickness), 1.0, 2.0); }
+// The least one of a cell whose metal has flowed, in material so many spacings thick (quadratic.md, flow), as
+// thickness_of_family() finds it: 2.0 and 2.8 in round bars of two and three spacings, 2.3 in a square one of two.
+double penalty_in_flow(double thickness) { return 0.025 * std::clamp(1 + 2.2 * (2.75 - thickness), 1.0, 2.0); }
 
 // The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
 // carries no stress.
