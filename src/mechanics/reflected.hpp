@@ -31,18 +31,22 @@ inline void reflect_multiplier(const Reflection& by, Eigen::Array4d& multiplier)
   multiplier.head<3>() = (by.turn * multiplier.head<3>().matrix()).eval().array();
 }
 
-// Of the second force state each row is a symmetric tensor M by its numbers xx, yy, zz, xy, yz, zx: ½ ξ·M ξ = B q.
-inline void reflect(const Reflection& by, QuadraticState& state) {
-  reflect_rows(by, state.first);
-  reflect_rows(by, state.correction);
-  turn(by, state.offset);
-  Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>> second(state.second);
+// Each row is a symmetric tensor M by its numbers xx, yy, zz, xy, yz, zx: ½ ξ·M ξ = M q.
+inline void reflect_second(const Reflection& by, double* rows) {
+  Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>> second(rows);
   Eigen::Matrix<double, 3, 6> turned;
   for (int r = 0; r < 3; ++r) {
     const Symmetric M = second.row(r).transpose();
     turned.row(r) = symmetric_part(by.turn * to_tensor(M) * by.turn.transpose()).transpose();
   }
   second = by.turn * turned;
+}
+
+inline void reflect(const Reflection& by, QuadraticState& state) {
+  reflect_rows(by, state.first);
+  reflect_second(by, state.second);
+  reflect_rows(by, state.correction);
+  turn(by, state.offset);
 }
 
 }  // namespace strut

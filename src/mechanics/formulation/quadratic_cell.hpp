@@ -26,7 +26,7 @@ class QuadraticCells {
       for (int b = 0; b < 3; ++b) {
         Lanes f = volume * (N.correction.c[r][b] - N.sum.c[r] * center(b));
         for (int c = 0; c < 3; ++c) f += N.first.c[r][c] * linear(c, b);
-        for (int k = 0; k < 6; ++k) f += N.second[r][k] * mixed(k, b);
+        for (int k = 0; k < 6; ++k) f += N.second[r][k] * bent(k, b);
         F_.c[r][b] = f;
       }
       for (int k = 0; k < 6; ++k) {
@@ -75,7 +75,7 @@ class QuadraticCells {
         correction[3 * r + c] = share * volume_ * mean_.c[r][c];
       }
       for (int l = 0; l < 6; ++l) {
-        Lanes b = mean_.c[r][0] * mixed(l, 0) + mean_.c[r][1] * mixed(l, 1) + mean_.c[r][2] * mixed(l, 2);
+        Lanes b = mean_.c[r][0] * bent(l, 0) + mean_.c[r][1] * bent(l, 1) + mean_.c[r][2] * bent(l, 2);
         for (int k = 0; k < 6; ++k) b += moment_[r][k] * second(k, l);
         second_state[6 * r + l] = share * b;
       }
@@ -90,20 +90,21 @@ class QuadraticCells {
   }
 
   const Lanes& volume() const { return volume_; }
-  const Lanes& steepness() const { return numbers_[73]; }
+  const Lanes& steepness() const { return numbers_[91]; }
 
  private:
   const Lanes& linear(int c, int b) const { return numbers_[3 * c + b]; }
   const Lanes& mixed(int k, int b) const { return numbers_[9 + 3 * k + b]; }
+  const Lanes& bent(int k, int b) const { return numbers_[27 + 3 * k + b]; }
   const Lanes& second(int k, int l) const {
     const int low = std::min(k, l), high = std::max(k, l);
-    return numbers_[27 + low * 6 - low * (low - 1) / 2 + high - low];
+    return numbers_[45 + low * 6 - low * (low - 1) / 2 + high - low];
   }
-  const Lanes& center(int b) const { return numbers_[48 + b]; }
+  const Lanes& center(int b) const { return numbers_[66 + b]; }
   std::array<Lanes, 3> place(int q) const {
     const double* t = cell_places[q];
-    const Lanes* s = &numbers_[64];
-    const Lanes* L = &numbers_[67];
+    const Lanes* s = &numbers_[82];
+    const Lanes* L = &numbers_[85];
     return {Lanes(s[0] + L[0] * t[0]), Lanes(s[1] + L[1] * t[0] + L[2] * t[1]),
             Lanes(s[2] + L[3] * t[0] + L[4] * t[1] + L[5] * t[2])};
   }

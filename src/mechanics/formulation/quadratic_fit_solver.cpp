@@ -16,6 +16,7 @@ namespace {
 
 using Matrix9 = Eigen::Matrix<double, 9, 9>;
 using Basis = Eigen::Matrix<double, 9, 1>;
+using RowsOfSix = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 
 // The penalty on H beside the mean square of the bonds, in spacings. It decides where a family cannot tell F from H
 // (its bonds across a surface are all of one length), and fades where it can. Smaller is more accurate and stiffer to
@@ -23,8 +24,9 @@ using Basis = Eigen::Matrix<double, 9, 1>;
 // V h² κ, h spacing and κ the steepness, where 1.2 to 3 are usual inside of a body.
 constexpr double least_penalty = 1e-4, largest_penalty = 0.1, steepness_bound = 8;
 
-// The least one of a cell whose metal has flowed (quadratic.md, flow).
-constexpr double least_penalty_in_flow = 0.025;
+// The least one of a cell whose metal has flowed, in material so many spacings thick (quadratic.md, flow), as
+// thickness_of_family() finds it: 2.0 and 2.8 in round bars of two and three spacings, 2.3 in a square one of two.
+double penalty_in_flow(double thickness) { return 0.025 * std::clamp(1 + 2.2 * (2.75 - thickness), 1.0, 2.0); }
 
 // The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
 // carries no stress.
@@ -32,8 +34,11 @@ constexpr double least_for_stress = 0.02;
 
 // Of the consistency correction: what is asked for is met as far as it does not cost more than this, in units of the
 // operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularization.
-constexpr double regularization = 0.5, inner_diagonal = 23;
-constexpr int iterations = 16;
+constexpr double regularization = 0.05, inner_diagonal = 23;
+constexpr int iterations = 28;
+
+// The penalty on the second gradient of μ where its trend over a family is found, beside the weight of the family.
+constexpr double trend_penalty = 0.01;
 
 CellShape cube_of(double volume) {
   CellShape cube;
@@ -139,7 +144,9 @@ bool fit_motion(const FamilySums& sums, double h, double volume, double least, Q
   }
   double* second = fit.second;
   for (int k = 0; k < 6; ++k) {
-    for (int b = 0; b < 3; ++b) fit.mixed[3 * k + b] = 0.5 * (inverse(3 + k, b) + inverse(b, 3 + k)) / (h * h * h);
+    for (int b = 0; b < 3; ++b) {
+      fit.mixed[3 * k + b] = fit.bent[3 * k + b] = 0.5 * (inverse(3 + k, b) + inverse(b, 3 + k)) / (h * h * h);
+    }
     for (int l = k; l < 6; ++l) *second++ = 0.5 * (inverse(3 + k, 3 + l) + inverse(3 + l, 3 + k)) / (h * h * h * h);
   }
   return true;
@@ -179,41 +186,54 @@ Eigen::Matrix<double, 3, 6> moments_of_unit_stress(const Vector& offset) {
   return m;
 }
 
-// The linear function c + C ξ that fits numbers of the family and of the point itself.
-struct LinearFit {
+// The function c + C ξ + Q q that fits numbers of the family and of the point itself.
+struct Trend {
   Vector c = Vector::Zero();
   Tensor C = Tensor::Zero();
+  Eigen::Matrix<double, 3, 6> Q = Eigen::Matrix<double, 3, 6>::Zero();
 };
 
-// Of (ξ, 1) over the family and the point: the inverse of their moments.
-Eigen::Matrix4d inverse_moments(const Body& body, int i) {
-  Eigen::Matrix4d N = Eigen::Matrix4d::Zero();
-  N(3, 3) = body.domain.volume(i);
+// Of (ξ, q, 1), in spacings.
+using Matrix10 = Eigen::Matrix<double, 10, 10>;
+using Basis10 = Eigen::Matrix<double, 10, 1>;
+
+Basis10 basis_of_trend(const Vector& xi, double h) {
+  Basis10 b;
+  b << basis(xi, h), 1;
+  return b;
+}
+
+// Over the family and the point: the inverse of their moments.
+Matrix10 inverse_moments(const Body& body, int i) {
+  const double h = body.domain.cloud.spacings[i];
+  Matrix10 N = Matrix10::Zero();
+  N(9, 9) = body.domain.volume(i);
   over_family(body, i, [&](int, double w, const Vector& xi) {
-    Eigen::Vector4d b;
-    b << xi, 1;
+    const Basis10 b = basis_of_trend(xi, h);
     N += w * b * b.transpose();
   });
-  return N.inverse();
+  N.diagonal().segment<3>(3).array() += trend_penalty * N(9, 9);
+  N.diagonal().segment<3>(6).array() += 2 * trend_penalty * N(9, 9);
+  return N.ldlt().solve(Matrix10::Identity());
 }
 
-LinearFit linear_fit(const Body& body, int i, const Eigen::Array4d* mu, const Eigen::Matrix4d& inverse_moments) {
-  Eigen::Matrix<double, 4, 3> sums = Eigen::Matrix<double, 4, 3>::Zero();
-  sums.row(3) = body.domain.volume(i) * mu[i].head<3>().matrix().transpose();
+Trend trend(const Body& body, int i, const Eigen::Array4d* mu, const Matrix10& inverse_moments) {
+  const double h = body.domain.cloud.spacings[i];
+  Eigen::Matrix<double, 10, 3> sums = Eigen::Matrix<double, 10, 3>::Zero();
+  sums.row(9) = body.domain.volume(i) * mu[i].head<3>().matrix().transpose();
   over_family(body, i, [&](int j, double w, const Vector& xi) {
-    const Eigen::RowVector3d weighted = w * mu[j].head<3>().matrix().transpose();
-    for (int c = 0; c < 3; ++c) sums.row(c) += xi[c] * weighted;
-    sums.row(3) += weighted;
+    sums += basis_of_trend(xi, h) * (w * mu[j].head<3>().matrix().transpose());
   });
-  const Eigen::Matrix<double, 4, 3> fit = inverse_moments * sums;
-  return {fit.row(3).transpose(), fit.topRows<3>().transpose()};
+  const Eigen::Matrix<double, 10, 3> fit = inverse_moments * sums;
+  return {fit.row(9).transpose(), fit.topRows<3>().transpose() / h, fit.middleRows<6>(3).transpose() / (h * h)};
 }
 
-// V (μ_j − c − C ξ) is added to what a bond gives to F.
-void add_correction(const LinearFit& correction, double volume, QuadraticFit& fit) {
-  for (int c = 0; c < 3; ++c) {
-    fit.center[c] = correction.c[c];
-    for (int b = 0; b < 3; ++b) fit.linear[3 * c + b] -= volume * correction.C(b, c);
+// V (μ_j − c − C ξ − Q q) is added to what a bond gives to F.
+void add_correction(const Trend& trend, double volume, QuadraticFit& fit) {
+  for (int b = 0; b < 3; ++b) {
+    fit.center[b] = trend.c[b];
+    for (int c = 0; c < 3; ++c) fit.linear[3 * c + b] -= volume * trend.C(b, c);
+    for (int k = 0; k < 6; ++k) fit.bent[3 * k + b] -= volume * trend.Q(b, k);
   }
 }
 
@@ -238,29 +258,30 @@ class ConsistencyCorrection {
     exchange_multipliers();
     for_each_point(0, count(), [&](int p) {
       const int i = points_[p];
-      if (carries_stress(i)) add_correction(fit_of(i), body_.domain.volume(i), fits_.fit(i));
+      if (carries_stress(i)) add_correction(trend_of(i), body_.domain.volume(i), fits_.fit(i));
     });
   }
 
  private:
   int count() const { return static_cast<int>(points_.size()); }
-  bool carries_stress(int i) const { return moments_[i](3, 3) > 0; }
+  bool carries_stress(int i) const { return moments_[i](9, 9) > 0; }
   Halo& halo() const { return body_.domain.halo; }
   void exchange_multipliers() { halo().exchange<reflect_multiplier>(fits_.multipliers_); }
 
   void set_missing();
   void set_operator();
-  LinearFit fit_of(int i) const { return linear_fit(body_, i, fits_.multipliers(), moments_[i]); }
+  Trend trend_of(int i) const { return trend(body_, i, fits_.multipliers(), moments_[i]); }
   void apply_operator();
   void solve();
 
-  // A linear fit as others need it: c, C, and V² of the point; nothing of points that carry no stress.
+  // A trend as others need it: c, C, Q, and V² of the point; nothing of points that carry no stress.
   struct Share {
-    double c[3], C[9], weight;
+    double c[3], C[9], Q[18], weight;
 
     friend void reflect(const Reflection& by, Share& share) {
       turn(by, share.c);
       reflect_rows(by, share.C);  // columns do as well
+      reflect_second(by, share.Q);
     }
   };
 
@@ -268,7 +289,7 @@ class ConsistencyCorrection {
   QuadraticFits& fits_;
   std::vector<int> points_;               // owned, by quadratic correspondence
   std::vector<Vector> missing_;           // −r, of owned points, m²
-  std::vector<Eigen::Matrix4d> moments_;  // of (ξ, 1) over the family and the point, of owned points; its inverse
+  std::vector<Matrix10> moments_;         // of (ξ, q, 1) over the family and the point, of owned points; its inverse
   std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularization, m⁹
   std::vector<Share> shares_;             // of owned points and ghosts
   std::vector<Vector> image_;             // K μ, of owned points
@@ -301,7 +322,7 @@ void ConsistencyCorrection::set_missing() {
 }
 
 void ConsistencyCorrection::set_operator() {
-  moments_.assign(body_.owned(), Eigen::Matrix4d::Zero());
+  moments_.assign(body_.owned(), Matrix10::Zero());
   shares_.assign(body_.domain.sites.size(), Share{});
   diagonal_.assign(body_.owned(), 0), ridge_.assign(body_.owned(), 0);
   for (const int i : points_) {
@@ -327,9 +348,10 @@ void ConsistencyCorrection::apply_operator() {
   for_each_point(0, count(), [&](int p) {
     const int i = points_[p];
     if (!carries_stress(i)) return;
-    const LinearFit fit = fit_of(i);
-    Eigen::Map<Vector>{shares_[i].c} = fit.c;
-    Eigen::Map<Tensor>{shares_[i].C} = fit.C;
+    const Trend trend = trend_of(i);
+    Eigen::Map<Vector>{shares_[i].c} = trend.c;
+    Eigen::Map<Tensor>{shares_[i].C} = trend.C;
+    Eigen::Map<RowsOfSix>{shares_[i].Q} = trend.Q;
   });
   halo().exchange(shares_);
   for_each_point(0, count(), [&](int p) {
@@ -337,7 +359,10 @@ void ConsistencyCorrection::apply_operator() {
     const Vector mu = fits_.multipliers_[i].head<3>().matrix();
     const auto left = [&](int j, const Vector& xi) -> Vector {
       const Share& there = shares_[j];
-      return there.weight * (mu - Eigen::Map<const Vector>(there.c) - Eigen::Map<const Tensor>(there.C) * xi);
+      const std::array<double, 6> q = bonds::squares(bonds::Vector3<double>{{xi[0], xi[1], xi[2]}});
+      return there.weight *
+             (mu - Eigen::Map<const Vector>(there.c) - Eigen::Map<const Tensor>(there.C) * xi -
+              Eigen::Map<const RowsOfSix>(there.Q) * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(q.data()));
     };
     Vector sum = left(i, Vector::Zero());
     over_family(body_, i, [&](int j, double w, const Vector& xi) { sum += w / body_.domain.volume(j) * left(j, -xi); });
@@ -375,7 +400,7 @@ Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Ve
   for (int b = 0; b < 3; ++b) {
     g[b] = volume * (mu[b] - fit.center[b]);
     for (int c = 0; c < 3; ++c) g[b] += xi[c] * fit.linear[3 * c + b];
-    for (int k = 0; k < 6; ++k) g[b] += q[k] * fit.mixed[3 * k + b];
+    for (int k = 0; k < 6; ++k) g[b] += q[k] * fit.bent[3 * k + b];
   }
   double second[6] = {};
   const double* number = fit.second;
@@ -447,12 +472,47 @@ bool spans_cell(const Domain& domain, int i) {
   return volume > 0 && least_square(family_spread(domain, i) / (volume * h * h)) >= least_for_stress;
 }
 
+namespace {
+
+// Four standard deviations of the family's material in the direction in which it is the least: of a round bar its
+// diameter, as far as families reach (spacings).
+double thickness_of_family(const Body& body, int i) {
+  const double h = body.domain.cloud.spacings[i];
+  double volume = 0;
+  Vector first = Vector::Zero();
+  Tensor second = Tensor::Zero();
+  const auto take = [&](double v, const Vector& xi) {
+    volume += v;
+    first += v * xi;
+    second += v * xi * xi.transpose() + v * to_tensor(cube_of(v).moments);
+  };
+  take(body.domain.volume(i), Vector::Zero());
+  over_family(body, i, [&](int j, double, const Vector& xi) { take(body.domain.volume(j), xi); });
+  return 4 * std::sqrt(least_square(second / volume - first * first.transpose() / (volume * volume))) / h;
+}
+
+// Of each owned point, spacings: the largest of a family, since one at a surface sees two layers in a thick body, too.
+std::vector<double> thicknesses(const Body& body) {
+  std::vector<double> own(body.domain.sites.size(), 0.0);
+  for_each_point(0, body.owned(), [&](int i) { own[i] = thickness_of_family(body, i); });
+  body.domain.halo.exchange(own);
+  std::vector<double> largest(own.begin(), own.begin() + body.owned());
+  for_each_point(0, body.owned(), [&](int i) {
+    body.domain.families.for_each(i, [&](int j) { largest[i] = std::max(largest[i], own[j]); });
+  });
+  return largest;
+}
+
+}  // namespace
+
 QuadraticFits::QuadraticFits(Body& body)
     : number_(body.owned(), -1), multipliers_(body.domain.sites.size(), Eigen::Array4d::Zero()) {
+  const std::vector<double> thickness = thicknesses(body);
   for (const MaterialBlock& block : body.blocks) {
     if (!block.is_quadratic()) continue;
     for (const int i : block.points) {
       number_[i] = static_cast<int>(fits_.size());
+      penalties_in_flow_.push_back(penalty_in_flow(thickness[i]));
       QuadraticFit& fit = fits_.emplace_back();
       set_cell(shape_of(body, i), fit);
       if (fit_motion(body, i, least_penalty, fit)) {
@@ -482,9 +542,9 @@ QuadraticFits::QuadraticFits(Body& body)
 bool QuadraticFits::refit(const Body& body, int i, bool flows, double most) {
   QuadraticFit fresh;
   set_cell(shape_of(body, i), fresh);
-  bool spans = fit_motion(body, i, flows ? least_penalty_in_flow : least_penalty, fresh);
+  bool spans = fit_motion(body, i, flows ? penalties_in_flow_[number_[i]] : least_penalty, fresh);
   if (spans) {
-    add_correction(linear_fit(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
+    add_correction(trend(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
     set_sums(body, i, multipliers(), fresh);
     fresh.steepness = steepness_of(body, i, multipliers(), fresh);
     spans = body.domain.volume(i) * fresh.steepness <= most;
@@ -514,7 +574,7 @@ Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::fun
 }
 
 double QuadraticFits::bytes() const {
-  return static_cast<double>(number_.size() * sizeof(int) + fits_.size() * sizeof(QuadraticFit) +
+  return static_cast<double>(number_.size() * sizeof(int) + fits_.size() * (sizeof(QuadraticFit) + sizeof(double)) +
                              multipliers_.size() * sizeof(Eigen::Array4d));
 }
 
