@@ -15,6 +15,7 @@
 #include "base/deduplicated.hpp"
 #include "base/math/rotation.hpp"
 #include "base/math/tensors.hpp"
+#include "base/math/tiles.hpp"
 #include "materials/laws.hpp"
 #include "mechanics/formulation/formulation.hpp"
 #include "mechanics/fracture/damage_model.hpp"
@@ -58,6 +59,7 @@ struct alignas(16) ScalarState {
 // consistency correction, and 1 if all places of the end have failed.
 struct alignas(64) QuadraticState {
   double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, failed = 0;
+  static constexpr int size = 40;
 
   // Half of this one and half of the other, but for the mark.
   void take_half_of(const QuadraticState& other) {
@@ -83,6 +85,39 @@ struct MaterialPoint {
   Rotation rotation;                                 // R
   Symmetric stress = Symmetric::Zero();              // unrotated Cauchy stress, Pa
   double stabilization = 0;                          // C of the stabilization, Pa/m⁵
+};
+
+// The law points of quadratic correspondence in tiles: of each F by columns, the six numbers of R, the stress.
+class CellPoints {
+ public:
+  static constexpr int rotation = 9, stress = 15, size = 21;  // where they begin; all numbers
+
+  void resize(std::size_t places) { numbers_.assign(places, numbers_of(MaterialPoint())); }
+  std::size_t places() const { return numbers_.size(); }
+  MaterialPoint operator[](std::size_t place) const {
+    MaterialPoint point;
+    for (int n = 0; n < 9; ++n) point.deformation_gradient.data()[n] = numbers_.at(place, n);
+    for (int n = 0; n < 6; ++n) point.rotation.number(n) = numbers_.at(place, rotation + n);
+    for (int n = 0; n < 6; ++n) point.stress[n] = numbers_.at(place, stress + n);
+    return point;
+  }
+  void set(std::size_t place, const MaterialPoint& point) {
+    const auto numbers = numbers_of(point);
+    for (int n = 0; n < size; ++n) numbers_.at(place, n) = numbers[n];
+  }
+  double& number(std::size_t place, int n) { return numbers_.at(place, n); }
+  small::Tiles& tiles() { return numbers_; }
+
+ private:
+  static std::array<double, size> numbers_of(const MaterialPoint& point) {
+    std::array<double, size> numbers;
+    std::copy_n(point.deformation_gradient.data(), 9, numbers.begin());
+    for (int n = 0; n < 6; ++n) numbers[rotation + n] = point.rotation.number(n);
+    std::copy_n(point.stress.data(), 6, numbers.begin() + stress);
+    return numbers;
+  }
+
+  small::Tiles numbers_;
 };
 
 // What an ordinary point has besides.
@@ -116,22 +151,22 @@ struct BlockMaterial {
   std::optional<DamageModel> damage = {};
 };
 
-// The state of point k from columns of so many points.
+// The state of a law point among those of all.
 template <class L>
-typename L::State state_in(const std::vector<double>& columns, std::size_t points, std::size_t k) {
+typename L::State state_in(const small::Tiles& states, std::size_t place) {
   std::array<double, materials::state_size<L>> values{};
-  for (std::size_t c = 0; c < values.size(); ++c) values[c] = columns[c * points + k];
+  for (std::size_t c = 0; c < values.size(); ++c) values[c] = states.at(place, c);
   return materials::from_columns<L>(values);
 }
 
-// The points of one block of the mesh on this rank, with their law's state in columns.
+// The points of one block of the mesh on this rank, with their law's state.
 struct MaterialBlock {
   std::string name;
   BlockMaterial material;
   std::vector<int> points;              // owned points, ascending
   int interior = 0;                     // so many of them need no ghost
-  std::vector<double> state;            // state[column * law_points() + place] of a law point
-  std::vector<MaterialPoint> cells;     // law points of quadratic correspondence; of others body.points are these
+  small::Tiles state;                   // of law points
+  CellPoints cells;                     // law points of quadratic correspondence; of others body.points are these
   std::vector<std::uint8_t> flowed;     // of cells, whether their metal has flowed (flow.hpp)
   std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
   std::vector<ViscousPoint> viscous;    // of law points; empty without viscosity
@@ -147,16 +182,27 @@ struct MaterialBlock {
 
   std::size_t first_law_point = 0;  // of `cells`, among those of all blocks
 
-  // Law points: one a point, or four places of its cell. Those of the first place come first, in the order of points.
+  // Law points: one a point, points[k] at k. Or four places of its cell, in tiles of as many cells as kernels take side
+  // by side: interior points and others begin tiles of their own, and what they leave of their last ones stays unused.
   int places_a_point() const { return is_quadratic() ? 4 : 1; }
-  std::size_t law_points() const { return places_a_point() * points.size(); }
-  std::size_t place(std::size_t k, int q) const { return q * points.size() + k; }
-  double& state_at(std::size_t column, std::size_t place) { return state[column * law_points() + place]; }
+  std::size_t law_points() const {
+    return is_quadratic() ? 4 * in_tiles(in_tiles(interior) + points.size() - interior) : points.size();
+  }
+  std::size_t place(std::size_t k, int q) const {
+    if (!is_quadratic()) return k;
+    const std::size_t slot = slot_of_cell(k);
+    return (slot / small::Tiles::width * 4 + q) * small::Tiles::width + slot % small::Tiles::width;
+  }
+  // Of a cell, in tiles of cells.
+  std::size_t slot_of_cell(std::size_t k) const {
+    const auto inside = static_cast<std::size_t>(interior);
+    return k < inside ? k : k - inside + in_tiles(inside);
+  }
   template <class L>
   typename L::State state_of(std::size_t place) const {
-    return state_in<L>(state, law_points(), place);
+    return state_in<L>(state, place);
   }
-  // Of a law point as it is now; of points[k] at its first place, which is k.
+  // Of a law point as it is now.
   materials::Moduli moduli(std::size_t place) const {
     return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); },
                       material.law);
@@ -171,6 +217,11 @@ struct MaterialBlock {
   // C of the springs of one of its points on the residual of its own gradient.
   double own_springs_of(const MaterialPoint& point) const {
     return has_springs(ResidualKind::own_gradient) ? point.stabilization : 0;
+  }
+
+ private:
+  static std::size_t in_tiles(std::size_t cells) {
+    return (cells + small::Tiles::width - 1) / small::Tiles::width * small::Tiles::width;
   }
 };
 
@@ -231,7 +282,7 @@ struct Body {
   }
   Vector current(int i) const { return domain.current(i); }
   // The law point of block.points[k] at the place q.
-  const MaterialPoint& law_point(const MaterialBlock& block, std::size_t k, int q) const {
+  MaterialPoint law_point(const MaterialBlock& block, std::size_t k, int q) const {
     return block.is_quadratic() ? block.cells[block.place(k, q)] : points[block.points[k]];
   }
   Vector displacement(int i) const { return current(i) - domain.reference(i); }

@@ -20,11 +20,11 @@ double frequency_bound_of_cell(const Body& body, const MaterialBlock& block, int
   double fastest2 = 0;
   for (int q = 0; q < block.places_a_point(); ++q) {
     const std::size_t place = block.place(k, q);
-    const Tensor& F = block.cells[place].deformation_gradient;
+    const Tensor F = block.cells[place].deformation_gradient;
     const double speed2 = block.moduli(place).longitudinal() / (3 * body.density[i]);
     fastest2 = std::max(fastest2, speed2 * F.determinant() * F.inverse().squaredNorm());
   }
-  return std::sqrt(fastest2 * body.domain.volume(i) * (*body.fits)[i].steepness);
+  return std::sqrt(fastest2 * body.domain.volume(i) * body.fits->steepness(i));
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
   std::size_t cells = 0;
   for (MaterialBlock& block : blocks) {
     const auto fresh_state = [&block]<class L>(const L& law) {
-      const auto columns = materials::to_columns<L>(materials::virgin_state_of(law));
-      for (const double value : columns) block.state.insert(block.state.end(), block.law_points(), value);
+      block.state.assign(block.law_points(), materials::to_columns<L>(materials::virgin_state_of(law)));
     };
     std::visit(fresh_state, block.material.law);
     if (!block.points.empty() && !domain.families.lattice_of.empty()) {
@@ -39,7 +38,7 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
     if (block.is_ordinary()) block.ordinary.resize(block.points.size());
     if (block.is_quadratic()) block.cells.resize(block.law_points()), block.flowed.assign(block.points.size(), 0);
     block.first_law_point = cells;
-    cells += block.cells.size();
+    cells += block.cells.places();
   }
   return blocks;
 }
@@ -224,7 +223,7 @@ std::size_t own_bytes(const MaterialBlock& block, bool has_bond_work) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
   constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
-  const std::size_t of_law_point = state * sizeof(double) + (block.is_quadratic() ? sizeof(MaterialPoint) : 0) +
+  const std::size_t of_law_point = state * sizeof(double) + (block.is_quadratic() ? CellPoints::size * sizeof(double) : 0) +
                                    (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
   return mechanics + cloud + block.places_a_point() * of_law_point + (has_bond_work ? sizeof(double) : 0) +
          (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) + (block.is_quadratic() ? sizeof(CellShape) : 0);

@@ -82,7 +82,7 @@ void take_point_stiffness(const Body& body, const MaterialBlock& block, int k,
                           const std::vector<PointTangent>& tangents, PointStiffness& result) {
   const int i = block.points[k];
   result.points.clear();
-  if (block.is_quadratic() && !(*body.fits)[i].carries_stress()) return;
+  if (block.is_quadratic() && !body.fits->carries_stress(i)) return;
   result.points.push_back(i);
   over_family(body, i, [&](int j, double, const Vector&) { result.points.push_back(j); });
   const auto size = static_cast<Eigen::Index>(3 * result.points.size());

@@ -74,14 +74,14 @@ void keep_points(Archive& archive, Body& body) {
 void keep_cells(Archive& archive, MaterialBlock& block) {
   archive.field("flowed", 1, [&block](std::size_t k, int) -> std::uint8_t& { return block.flowed[k]; });
   const int places = block.places_a_point();
-  const auto field = [&](const std::string& name, int width, const auto& number) {
-    archive.field("cell_" + name, width * places, [&block, width, number](std::size_t k, int c) -> double& {
-      return number(block.cells[block.place(k, c / width)], c % width);
+  const auto field = [&](const std::string& name, int first, int width) {
+    archive.field("cell_" + name, width * places, [&block, first, width](std::size_t k, int c) -> double& {
+      return block.cells.number(block.place(k, c / width), first + c % width);
     });
   };
-  field("deformation_gradient", 9, [](MaterialPoint& p, int c) -> double& { return p.deformation_gradient.data()[c]; });
-  field("rotation", 6, [](MaterialPoint& p, int c) -> double& { return p.rotation.number(c); });
-  field("stress", 6, [](MaterialPoint& p, int c) -> double& { return p.stress.data()[c]; });
+  field("deformation_gradient", 0, 9);
+  field("rotation", CellPoints::rotation, 6);
+  field("stress", CellPoints::stress, 6);
 }
 
 void keep_block(Archive& archive, const Body& body, std::size_t number, MaterialBlock& block) {
@@ -91,7 +91,7 @@ void keep_block(Archive& archive, const Body& body, std::size_t number, Material
       std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
   if (columns > 0) {
     archive.field("state", columns * places, [&](std::size_t k, int c) -> double& {
-      return block.state_at(c / places, block.place(k, c % places));
+      return block.state.at(block.place(k, c % places), c / places);
     });
   }
   if (block.is_quadratic()) keep_cells(archive, block);

@@ -169,11 +169,11 @@ Observable state_variable(const std::string& name) {
       const auto copy = [&]<class L>(const L&) {
         const auto at = std::find(L::state_names.begin(), L::state_names.end(), name);
         if (at == L::state_names.end()) return;
-        const double* column = block.state.data() + (at - L::state_names.begin()) * block.law_points();
+        const auto column = static_cast<std::size_t>(at - L::state_names.begin());
         const int places = block.places_a_point();
         for (std::size_t k = 0; k < block.points.size(); ++k) {
           double sum = 0;
-          for (int q = 0; q < places; ++q) sum += column[block.place(k, q)];
+          for (int q = 0; q < places; ++q) sum += block.state.at(block.place(k, q), column);
           out[block.points[k]] = sum / places;
         }
       };

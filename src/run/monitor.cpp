@@ -235,7 +235,7 @@ std::pair<int, int> failed_points(const Body& body) {
         [&]<class Law>(const Law&) {
           if constexpr (requires(typename Law::State state) { state.failed > 0; }) {
             for (std::size_t k = 0; k < block.points.size(); ++k) {
-              if (!(block.template state_of<Law>(k).failed > 0)) continue;
+              if (!(block.template state_of<Law>(block.place(k, 0)).failed > 0)) continue;
               if (++count == 1) first = block.points[k];
             }
           }

@@ -125,6 +125,27 @@ STRUT_INLINE std::array<Lanes, count> numbers_of(const Of& of) {
   return numbers;
 }
 
+// The other way: `count` numbers of each lane to to(lane) on, of so many lanes; a multiple of four.
+template <std::size_t count, class To>
+STRUT_INLINE void store_numbers(const std::array<Lanes, count>& numbers, int lanes, const To& to) {
+  static_assert(count % 4 == 0);
+  for (std::size_t n = 0; n < count; n += 4) {
+    const detail::Rows rows =
+        detail::transposed({raw(numbers[n]), raw(numbers[n + 1]), raw(numbers[n + 2]), raw(numbers[n + 3])});
+    for (int l = 0; l < lanes; ++l) {
+      std::memcpy(to(l) + n, reinterpret_cast<const double*>(&rows[l % 4]) + l / 4 * 4, 4 * sizeof(double));
+    }
+  }
+}
+
+// ---- Choices by lane -----------------------------------------------------------------------------------------------
+
+// `one` where `which` is above zero, else `other`. (Eigen's select goes lane by lane.)
+STRUT_INLINE Lanes where_positive(const Lanes& which, const Lanes& one, const Lanes& other) {
+  return lanes(RawLanes(raw(which) > 0 ? raw(one) : raw(other)));
+}
+STRUT_INLINE bool any_positive(const Lanes& which) { return lanes_below_zero(-which) != 0; }
+
 }  // namespace strut::small
 
 #undef STRUT_INLINE

@@ -41,27 +41,31 @@ struct Update {
   Body& body() const { return law.body; }
   MaterialBlock& block() const { return law.block; }
 
-  LawPoints members(const LaneGroup& group) const {
-    LawPoints g{{}, group.k, group};
+  PointRecords members(const LaneGroup& group) const {
+    PointRecords g;
     for (int l = 0; l < LaneGroup::width; ++l) {
       g.points[l] = &body().points[group.i[l]];
       if (law.pass.level == 0) fetch_ahead(body().points.data(), group.i[l]);
     }
     return g;
   }
+  void store(int i, int l, const Deformed& now) const {
+    body().points[i].rotation = Rotation(at(now.polar.rotation, l));
+    body().points[i].deformation_gradient = at(now.F, l);
+  }
 
   // A failed point goes on as a mass. F and R stay as they were; where bonds may break, as they were when it failed:
   // what its springs held then is counted before they are gone (Fracture). Those on both ends' gradients go with its
   // bonds, in the next step.
-  void store_failed(const LawPoints& g, int l, const Deformed& now) const {
-    const int i = g.group.i[l];
+  void store_failed(const LaneGroup& g, int l, const Deformed& now) const {
+    const int i = g.i[l];
     double& failed = body().force_states.tensors[i].failed();
     if (!block().material.damage) {
       body().points[i].stabilization = 0;
     } else if (!(failed > 0) && now.J[l] > 0) {
-      law.store(g, l, now);
+      store(i, l, now);
     }
-    drop_forces(g.group, l);
+    drop_forces(g, l);
     failed = 1;
     if (block().material.damage) store_gradient(i, body().points[i].stabilization, body().share(i, law.pass.level));
   }
@@ -86,9 +90,8 @@ struct Update {
         bonds::gradient_state(body().points[i].deformation_gradient, C, share, block().material.stabilization);
   }
 
-  void store_point(const LawPoints& g, int l, const Deformed& now, const LaneTensor& A, double C, double share) const {
-    law.store(g, l, now);
-    const int i = g.group.i[l];
+  void store_point(int i, int l, const Deformed& now, const LaneTensor& A, double C, double share) const {
+    store(i, l, now);
     body().force_states.tensors[i] = bonds::force_state(at(A, l), C);
     store_gradient(i, body().points[i].stabilization, share);
   }
@@ -104,16 +107,18 @@ struct Update {
 
   // The largest frequency bound² of the points of a group.
   double advance(const LaneGroup& group) const {
-    const LawPoints g = members(group);
+    GroupTile<materials::state_size<L>, 1> state(block().state, group.k, group.count);
+    const LawPoints<PointRecords> g{group, group.k, members(group), state.rows()};
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
     const auto [N, pull] = moments(body(), group, with_springs);
     const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];
     const Lanes carries = (trace > 0).select(Lanes::Constant(1), Lanes::Zero());
     const LaneTensor F = deformation_gradient(group, N, shape_inverse, carries);
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
-    Deformed now = law.deformed(g, F, share, carries);
+    Deformed now = law.deformed(g.numbers, F, share, carries);
     law.set_stress(g, share, now);
-    const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.points[l]); }), shared_C = share * C;
+    state.give_back(block().state, group.k, group.count);
+    const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.numbers.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);
     const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);
     const Lanes per_density =
@@ -122,7 +127,7 @@ struct Update {
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
       if (!(now.stiffness[l] > 0)) {  // has failed
-        store_failed(g, l, now);
+        store_failed(group, l, now);
         continue;
       }
       if (!(now.J[l] > 0)) {  // NaN too
@@ -130,7 +135,7 @@ struct Update {
         drop_forces(group, l);
         continue;
       }
-      store_point(g, l, now, A, shared_C[l], share[l]);
+      store_point(group.i[l], l, now, A, shared_C[l], share[l]);
       body().force_density[group.i[l]] = at(own, l);
       fastest = std::max(fastest, bound2[l]);
     }

@@ -22,13 +22,15 @@ bool has_flowed(const MaterialBlock& block, int k) {
 
 bool begin_flow(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
-  if (block.flowed[k] || !(*body.fits)[i].carries_stress() || !has_flowed(block, k)) return false;
+  if (block.flowed[k] || !body.fits->carries_stress(i) || !has_flowed(block, k)) return false;
   block.flowed[k] = 1;
   body.fits->refit_in_flow(body, i);
   for (int q = 0; q < 4; ++q) {
-    MaterialPoint& point = block.cells[block.place(k, q)];
+    const std::size_t place = block.place(k, q);
+    MaterialPoint point = block.cells[place];
     point.deformation_gradient = body.fits->gradient_at(body, i, q, [&](int j) { return body.domain.current(j); });
     point.rotation = Rotation(polar_rotation(point.deformation_gradient));
+    block.cells.set(place, point);
   }
   return true;
 }
@@ -45,7 +47,7 @@ void refit_flowed(Body& body) {
   for (const MaterialBlock& block : body.blocks) {
     for_each_point(0, static_cast<int>(block.flowed.size()), [&](int k) {
       const int i = block.points[k];
-      if (block.flowed[k] && (*body.fits)[i].carries_stress()) body.fits->refit_in_flow(body, i);
+      if (block.flowed[k] && body.fits->carries_stress(i)) body.fits->refit_in_flow(body, i);
     });
   }
 }

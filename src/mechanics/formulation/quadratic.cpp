@@ -15,12 +15,45 @@ namespace strut {
 namespace {
 
 // Sums of a group over its families. Not in the update of a block, which is compiled for every law.
-bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group) {
+__attribute__((noinline)) bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group) {
   return bonds::with_influence(body.influence, [&](auto weight) {
     return bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), body.fits->multipliers(),
                                    weight);
   });
 }
+
+// The law points of a group of cells at one place.
+template <class L>
+class CellsAtPlace {
+ public:
+  CellsAtPlace(MaterialBlock& block, const LaneGroup& group, int q)
+      : block_(block),
+        group_(group),
+        places_(places_of(block, group, q)),
+        numbers_(block.cells.tiles(), places_, group.count),
+        state_(block.state, places_, group.count) {}
+
+  LawPoints<PointTile> points() const { return {group_, places_, {numbers_.rows()}, state_.rows()}; }
+  PointTile numbers() const { return {numbers_.rows()}; }
+  void give_back() const {
+    numbers_.give_back(block_.cells.tiles(), places_, group_.count);
+    state_.give_back(block_.state, places_, group_.count);
+  }
+
+ private:
+  using Places = std::array<int, LaneGroup::width>;
+  static Places places_of(const MaterialBlock& block, const LaneGroup& group, int q) {
+    Places places;
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(block.place(group.k[l], q));
+    return places;
+  }
+
+  MaterialBlock& block_;
+  const LaneGroup& group_;
+  Places places_;
+  GroupTile<CellPoints::size, 4> numbers_;
+  GroupTile<materials::state_size<L>, 4> state_;
+};
 
 // All that the update of one block needs.
 template <class L>
@@ -30,16 +63,6 @@ struct Update {
   Body& body() const { return law.body; }
   MaterialBlock& block() const { return law.block; }
 
-  LawPoints places(const LaneGroup& group, int q) const {
-    LawPoints g{{}, {}, group};
-    for (int l = 0; l < LaneGroup::width; ++l) {
-      g.places[l] = static_cast<int>(block().place(group.k[l], q));
-      g.points[l] = &block().cells[g.places[l]];
-      if (law.pass.level == 0) fetch_ahead(block().cells.data(), g.places[l]);
-    }
-    return g;
-  }
-
   // 1 for cells whose metal had flowed when the step began, 0 for others.
   Lanes flowed(const LaneGroup& group) const {
     if constexpr (!materials::tells_flow<L>) return Lanes::Zero();
@@ -48,72 +71,75 @@ struct Update {
 
   // The largest frequency bound² of the points of a group.
   double advance(const LaneGroup& group) const {
-    const std::vector<Site>& sites = body().domain.sites;
-    for (const int i : group.i) {
-      if (law.pass.level == 0) fetch_ahead(&(*body().fits)[i], 0);
-    }
-    QuadraticCells cells(group, *body().fits, sites);
+    QuadraticCells cells(group, *body().fits, body().domain.sites);
     cells.take(moments(body(), group));
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
-    const Lanes carries = lanes_of([&](int l) { return (*body().fits)[group.i[l]].carries_stress() ? 1.0 : 0.0; });
-    const std::array<LawPoints, 4> points{places(group, 0), places(group, 1), places(group, 2), places(group, 3)};
+    const Lanes carries = small::where_positive(cells.steepness(), Lanes::Ones(), Lanes::Zero());
     const Lanes has_flowed = flowed(group);
-    std::array<Deformed, 4> at;
+    const CellsAtPlace<L> at[4]{{block(), group, 0}, {block(), group, 1}, {block(), group, 2}, {block(), group, 3}};
+    std::array<Deformed, 4> now;
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
       for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
-      at[q] = law.deformed(points[q], F, share, carries);
+      now[q] = law.deformed(at[q].numbers(), F, share, carries);
     }
-    const std::array<Lanes, 4> J{at[0].J, at[1].J, at[2].J, at[3].J};
-    share_traces(J, {&at[0].rates, &at[1].rates, &at[2].rates, &at[3].rates}, has_flowed);
-    for (int q = 0; q < 4; ++q) law.set_stress(points[q], share, at[q]);
-    share_traces(J, {&at[0].stress, &at[1].stress, &at[2].stress, &at[3].stress}, has_flowed);
-    Lanes stiffest = at[0].stiffness, softest = at[0].stiffness;
-    for (const Deformed& now : at) stiffest = stiffest.max(now.stiffness), softest = softest.min(now.stiffness);
+    const std::array<Lanes, 4> J{now[0].J, now[1].J, now[2].J, now[3].J};
+    share_traces(J, {&now[0].rates, &now[1].rates, &now[2].rates, &now[3].rates}, has_flowed);
+    for (int q = 0; q < 4; ++q) law.set_stress(at[q].points(), share, now[q]);
+    share_traces(J, {&now[0].stress, &now[1].stress, &now[2].stress, &now[3].stress}, has_flowed);
+    Lanes stiffest = now[0].stiffness, softest = now[0].stiffness;
+    for (const Deformed& there : now) {
+      stiffest = stiffest.max(there.stiffness), softest = softest.min(there.stiffness);
+    }
+    const Lanes some_hold = small::where_positive(stiffest, present(group), Lanes::Zero());
     Lanes modulus = Lanes::Zero(), determinant = Lanes::Constant(1);
     for (int q = 0; q < 4; ++q) {
-      const Deformed& now = at[q];
-      LaneTensor P = piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J);
-      for (int l = 0; l < group.count; ++l) {
-        // A failed place of a metal beside others bears its share of their pressure, as their strains have it.
-        if (now.J[l] > 0 && stiffest[l] > 0) {
-          law.store(points[q], l, now);
-          continue;
-        }
-        for (auto& row : P.c) row[0][l] = row[1][l] = row[2][l] = 0;  // all have failed, NaN, or no stress is carried
-        if (!(now.J[l] > 0)) determinant[l] = now.J[l] + 1 - carries[l];
+      // A failed place of a metal beside others bears its share of their pressure, as their strains have it.
+      const Lanes holds = small::where_positive(J[q], some_hold, Lanes::Zero());
+      at[q].numbers().set_motion(now[q].F, now[q].polar.rotation, holds);
+      at[q].give_back();
+      LaneTensor P = piola_kirchhoff(now[q].stress, now[q].polar, now[q].inverse_stretch, J[q]);
+      for (auto& row : P.c) {  // none where all have failed, of NaN, and where no stress is carried
+        for (Lanes& number : row) number = small::where_positive(holds, number, Lanes::Zero());
       }
+      determinant = small::where_positive(J[q], determinant, J[q] + 1 - carries);
       cells.add_stress(q, P);
-      modulus = modulus.max(steepened_modulus(now));
-    }
-    const auto state_of = [&](int l) -> QuadraticState& { return body().force_states.quadratics[group.i[l]]; };
-    cells.store(group, share, state_of);
-    for (int l = 0; l < group.count; ++l) state_of(l).failed = stiffest[l] > 0 ? 0 : 1;
-    if (law.pass.dt > 0 && !law.pass.of_any_size) {
-      begin_flow_of(group, points, at, share, (determinant > 0 && stiffest > 0).select(Lanes::Ones(), Lanes::Zero()));
-    }
-    for (int l = 0; l < group.count; ++l) {
-      const int i = group.i[l];
-      body().force_density[i] = bonds::quadratic_own_force(state_of(l), (*body().fits)[i]);
+      modulus = modulus.max(steepened_modulus(now[q]));
     }
     const Lanes density = lanes_of([&](int l) { return body().density[group.i[l]]; });
-    return report(group, determinant, softest, share * share * cells.volume() / density * cells.steepness() * modulus);
+    const Lanes bound2 = share * share * cells.volume() / density * cells.steepness() * modulus;
+    auto states = cells.states(share);
+    states.back() = small::where_positive(stiffest, Lanes::Zero(), Lanes::Ones());  // failed
+    const LaneVector force = cells.own_force(states);
+    small::store_numbers(states, group.count, [&](int l) { return state_of(group, l).first; });
+    for (int l = 0; l < group.count; ++l) body().force_density[group.i[l]] = small::at(force, l);
+    if (law.pass.dt > 0 && !law.pass.of_any_size) {
+      begin_flow_of(group, now, share, small::where_positive(determinant, some_hold, Lanes::Zero()));
+    }
+    return report(group, determinant, softest, bound2);
   }
 
  private:
+  QuadraticState& state_of(const LaneGroup& group, int l) const { return body().force_states.quadratics[group.i[l]]; }
+
   // A cell that begins to flow (only where `may` is 1) has the mean of two forces: those that end the step, by its old
   // fit, and those that begin the next step, by its new fit. So the work over both steps is that of its stress, to the
   // second order in the step.
-  void begin_flow_of(const LaneGroup& group, const std::array<LawPoints, 4>& points, const std::array<Deformed, 4>& at,
-                     const Lanes& share, const Lanes& may) const {
+  void begin_flow_of(const LaneGroup& group, const std::array<Deformed, 4>& now, const Lanes& share,
+                     const Lanes& may) const {
     Lanes begun = Lanes::Zero();
     for (int l = 0; l < group.count; ++l) begun[l] = may[l] > 0 && begin_flow(body(), block(), group.k[l]) ? 1 : 0;
-    if (!(begun > 0).any()) return;
+    if (small::any_positive(begun)) take_mean_force(group, now, share, begun);
+  }
+  __attribute__((noinline)) void take_mean_force(const LaneGroup& group, const std::array<Deformed, 4>& now,
+                                                 const Lanes& share, const Lanes& begun) const {
+    const CellsAtPlace<L> at[4]{{block(), group, 0}, {block(), group, 1}, {block(), group, 2}, {block(), group, 3}};
     std::array<LaneTensor, 4> F, R;
     std::array<Lanes, 4> J;
-    std::array<LaneSymmetric, 4> stress{at[0].stress, at[1].stress, at[2].stress, at[3].stress};
+    std::array<LaneSymmetric, 4> stress{now[0].stress, now[1].stress, now[2].stress, now[3].stress};
     for (int q = 0; q < 4; ++q) {
-      F[q] = deformation_gradients(points[q]), R[q] = rotations(points[q]), J[q] = small::determinant(F[q]);
+      F[q] = at[q].numbers().deformation_gradients(), R[q] = at[q].numbers().rotations();
+      J[q] = small::determinant(F[q]);
     }
     share_traces(J, {&stress[0], &stress[1], &stress[2], &stress[3]}, begun);
     QuadraticCells cells(group, *body().fits, body().domain.sites);
@@ -124,7 +150,9 @@ struct Update {
     std::array<QuadraticState, LaneGroup::width> next;
     cells.store(group, share, [&](int l) -> QuadraticState& { return next[l]; });
     for (int l = 0; l < group.count; ++l) {
-      if (begun[l] > 0) body().force_states.quadratics[group.i[l]].take_half_of(next[l]);
+      if (!(begun[l] > 0)) continue;
+      state_of(group, l).take_half_of(next[l]);
+      body().force_density[group.i[l]] = bonds::quadratic_own_force(state_of(group, l), (*body().fits)[group.i[l]]);
     }
   }
 
@@ -157,7 +185,7 @@ void diagnose_cell(Body& body, const MaterialBlock& block, int k, const Tensor& 
   point.rotation = Rotation(R);
   Tensor stress = Tensor::Zero();
   for (int q = 0; q < 4; ++q) {
-    const MaterialPoint& there = block.cells[block.place(k, q)];
+    const MaterialPoint there = block.cells[block.place(k, q)];
     const Tensor turned = R.transpose() * there.rotation.tensor();
     stress += 0.25 * turned * to_tensor(there.stress) * turned.transpose();
   }
@@ -181,7 +209,7 @@ void diagnose_cells(Body& body, const MaterialBlock& block, const LaneGroups& gr
     QuadraticCells cells(group, *body.fits, body.domain.sites);
     cells.take(moments(body, group));
     for (int l = 0; l < group.count; ++l) {
-      const bool carries = (*body.fits)[group.i[l]].carries_stress();
+      const bool carries = body.fits->carries_stress(group.i[l]);
       diagnose_cell(body, block, group.k[l], carries ? at(cells.gradient(), l) : Tensor(Tensor::Identity()));
     }
   });

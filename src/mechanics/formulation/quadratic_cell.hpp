@@ -2,6 +2,7 @@
 // and from the stresses there to the states of their bonds.
 #pragma once
 
+#include "mechanics/kernels/group_tile.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 
 namespace strut {
@@ -9,10 +10,11 @@ namespace strut {
 class QuadraticCells {
   using Lanes = small::Lanes;
   using LaneTensor = small::Tensor3<Lanes>;
+  using Row = Eigen::Map<const Lanes, Eigen::AlignedMax>;  // of a fit's numbers
 
  public:
   QuadraticCells(const LaneGroup& group, const QuadraticFits& fits, const std::vector<Site>& sites)
-      : numbers_(small::numbers_of<QuadraticFit::size>([&](int l) { return fits[group.i[l]].linear; })),
+      : numbers_(fits.tiles(), places_of(group, fits), group.count),
         volume_(small::lanes_of([&](int l) { return sites[group.i[l]].volume(); })) {
     for (auto& row : moment_) {
       for (Lanes& number : row) number.setZero();
@@ -21,7 +23,7 @@ class QuadraticCells {
 
   // F and H of the motion with these sums; zero of cells that carry no stress, whatever the μ of their neighbors.
   void take(const bonds::QuadraticMoments<Lanes>& N) {
-    const Lanes volume = (steepness() > 0).select(volume_, Lanes::Zero());
+    const Lanes volume = small::where_positive(steepness(), volume_, Lanes::Zero());
     for (int r = 0; r < 3; ++r) {
       for (int b = 0; b < 3; ++b) {
         Lanes f = volume * (N.correction.c[r][b] - N.sum.c[r] * center(b));
@@ -63,10 +65,10 @@ class QuadraticCells {
     }
   }
 
-  // Writes the states of the bonds of the points, times the share of the step, to state_of(lane).
-  template <class StateOf>
-  void store(const LaneGroup& group, const Lanes& share, const StateOf& state_of) const {
-    Lanes first[9], second_state[18], correction[9], offset[3];
+  // The states of the bonds of the points, times the share of the step, as QuadraticState has them.
+  std::array<Lanes, QuadraticState::size> states(const Lanes& share) const {
+    std::array<Lanes, QuadraticState::size> numbers;
+    Lanes *first = &numbers[0], *second_state = first + 9, *correction = second_state + 18, *offset = correction + 9;
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) {
         Lanes a = mean_.c[r][0] * linear(c, 0) + mean_.c[r][1] * linear(c, 1) + mean_.c[r][2] * linear(c, 2);
@@ -81,35 +83,59 @@ class QuadraticCells {
       }
       offset[r] = correction[3 * r] * center(0) + correction[3 * r + 1] * center(1) + correction[3 * r + 2] * center(2);
     }
-    for (int l = 0; l < group.count; ++l) {
-      QuadraticState& state = state_of(l);
-      for (int n = 0; n < 9; ++n) state.first[n] = first[n][l], state.correction[n] = correction[n][l];
-      for (int n = 0; n < 18; ++n) state.second[n] = second_state[n][l];
-      for (int n = 0; n < 3; ++n) state.offset[n] = offset[n][l];
+    offset[3].setZero();
+    return numbers;
+  }
+  // What the points themselves give to the force on them: their states times the sums over their families, which stay
+  // as they are.
+  small::Vector3<Lanes> own_force(const std::array<Lanes, QuadraticState::size>& states) const {
+    const auto sum = [this](int n) { return number(69 + n); };
+    const Lanes *first = &states[0], *second_state = first + 9, *correction = second_state + 18,
+                *offset = correction + 9;
+    small::Vector3<Lanes> force;
+    for (int r = 0; r < 3; ++r) {
+      Lanes f = -offset[r] * sum(0);
+      for (int c = 0; c < 3; ++c) f += first[3 * r + c] * sum(1 + c);
+      for (int k = 0; k < 6; ++k) f += second_state[6 * r + k] * sum(4 + k);
+      for (int c = 0; c < 3; ++c) f += correction[3 * r + c] * sum(10 + c);
+      force.c[r] = f;
     }
+    return force;
+  }
+  // Writes them to state_of(lane).
+  template <class StateOf>
+  void store(const LaneGroup& group, const Lanes& share, const StateOf& state_of) const {
+    small::store_numbers(states(share), group.count, [&](int l) { return state_of(l).first; });
   }
 
   const Lanes& volume() const { return volume_; }
-  const Lanes& steepness() const { return numbers_[91]; }
+  Row steepness() const { return number(91); }
 
  private:
-  const Lanes& linear(int c, int b) const { return numbers_[3 * c + b]; }
-  const Lanes& mixed(int k, int b) const { return numbers_[9 + 3 * k + b]; }
-  const Lanes& bent(int k, int b) const { return numbers_[27 + 3 * k + b]; }
-  const Lanes& second(int k, int l) const {
+  Row number(int n) const { return small::lanes(numbers_[n]); }
+  Row linear(int c, int b) const { return number(3 * c + b); }
+  Row mixed(int k, int b) const { return number(9 + 3 * k + b); }
+  Row bent(int k, int b) const { return number(27 + 3 * k + b); }
+  Row second(int k, int l) const {
     const int low = std::min(k, l), high = std::max(k, l);
-    return numbers_[45 + low * 6 - low * (low - 1) / 2 + high - low];
+    return number(45 + low * 6 - low * (low - 1) / 2 + high - low);
   }
-  const Lanes& center(int b) const { return numbers_[66 + b]; }
+  Row center(int b) const { return number(66 + b); }
   std::array<Lanes, 3> place(int q) const {
     const double* t = cell_places[q];
-    const Lanes* s = &numbers_[82];
-    const Lanes* L = &numbers_[85];
-    return {Lanes(s[0] + L[0] * t[0]), Lanes(s[1] + L[1] * t[0] + L[2] * t[1]),
-            Lanes(s[2] + L[3] * t[0] + L[4] * t[1] + L[5] * t[2])};
+    const auto s = [this](int n) { return number(82 + n); };
+    const auto L = [this](int n) { return number(85 + n); };
+    return {Lanes(s(0) + L(0) * t[0]), Lanes(s(1) + L(1) * t[0] + L(2) * t[1]),
+            Lanes(s(2) + L(3) * t[0] + L(4) * t[1] + L(5) * t[2])};
   }
 
-  std::array<Lanes, QuadraticFit::size> numbers_;
+  static std::array<int, LaneGroup::width> places_of(const LaneGroup& group, const QuadraticFits& fits) {
+    std::array<int, LaneGroup::width> places;
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = static_cast<int>(fits.place(group.i[l]));
+    return places;
+  }
+
+  GroupTile<QuadraticFit::size, 1, const small::TileRow> numbers_;
   Lanes volume_;
   LaneTensor F_, mean_ = bonds::zero_tensor<Lanes>();
   Lanes H_[3][6];

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <functional>
 #include <vector>
 
@@ -57,7 +58,7 @@ class QuadraticFits {
   bool refit(const Body& body, int i, bool flows, double most);
   // Fits an owned point that carries stress and whose metal has flowed anew, to the bonds that it has.
   void refit_in_flow(const Body& body, int i);
-  void drop(int i) { fit(i) = {}; }  // it carries no stress
+  void drop(int i) { set(i, {}); }  // it carries no stress
 
   // What the family of an owned point that carries stress gives to F at a place of its cell: calls visit(j, g) with
   // F = Σ (y_j − y_i) ⊗ g, g in 1/m.
@@ -65,18 +66,30 @@ class QuadraticFits {
   // F at such a place, of points at place(j).
   Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;
 
-  const QuadraticFit& operator[](int i) const { return fits_[number_[i]]; }
+  QuadraticFit operator[](int i) const {
+    std::array<double, QuadraticFit::size> numbers;
+    for (int n = 0; n < QuadraticFit::size; ++n) numbers[n] = fits_.at(number_[i], n);
+    return std::bit_cast<QuadraticFit>(numbers);
+  }
+  bool carries_stress(int i) const { return steepness(i) > 0; }
+  double steepness(int i) const { return fits_.at(number_[i], QuadraticFit::size - 1); }
+  // In tiles, as QuadraticFit has its numbers, and where a point's are.
+  const small::Tiles& tiles() const { return fits_; }
+  std::size_t place(int i) const { return number_[i]; }
   // μ of owned points and ghosts, zero of other formulations.
   const Eigen::Array4d* multipliers() const { return multipliers_.data(); }
   double bytes() const;
 
  private:
   friend class ConsistencyCorrection;
-  QuadraticFit& fit(int i) { return fits_[number_[i]]; }
+  void set(int i, const QuadraticFit& fit) {
+    const auto numbers = std::bit_cast<std::array<double, QuadraticFit::size>>(fit);
+    for (int n = 0; n < QuadraticFit::size; ++n) fits_.at(number_[i], n) = numbers[n];
+  }
 
   std::vector<int> number_;  // of owned points, in fits_; −1 of other formulations
-  std::vector<QuadraticFit> fits_;
-  std::vector<double> penalties_in_flow_;  // beside fits_: the least that a cell has once its metal has flowed
+  small::Tiles fits_;        // as the cells of blocks (MaterialBlock::slot_of_cell), one block after the other
+  std::vector<double> penalties_in_flow_;  // of owned points: the least that a cell has once its metal has flowed
   std::vector<Eigen::Array4d> multipliers_;
 };
 

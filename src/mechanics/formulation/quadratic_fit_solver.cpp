@@ -258,7 +258,10 @@ class ConsistencyCorrection {
     exchange_multipliers();
     for_each_point(0, count(), [&](int p) {
       const int i = points_[p];
-      if (carries_stress(i)) add_correction(trend_of(i), body_.domain.volume(i), fits_.fit(i));
+      if (!carries_stress(i)) return;
+      QuadraticFit corrected = fits_[i];
+      add_correction(trend_of(i), body_.domain.volume(i), corrected);
+      fits_.set(i, corrected);
     });
   }
 
@@ -301,7 +304,7 @@ void ConsistencyCorrection::set_missing() {
   for (const int i : points_) {
     shapes[i] = shape_of(body_, i);
     const Tensor mean = Tensor::Identity() - shapes[i].surface_moments / body_.domain.volume(i);
-    const QuadraticFit& fit = fits_[i];
+    const QuadraticFit fit = fits_[i];
     states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
     states[i].failed = 1;  // a mark, here of points by quadratic correspondence
   }
@@ -326,7 +329,7 @@ void ConsistencyCorrection::set_operator() {
   shares_.assign(body_.domain.sites.size(), Share{});
   diagonal_.assign(body_.owned(), 0), ridge_.assign(body_.owned(), 0);
   for (const int i : points_) {
-    const QuadraticFit& fit = fits_[i];
+    const QuadraticFit fit = fits_[i];
     if (!fit.carries_stress()) continue;
     const double volume = body_.domain.volume(i);
     moments_[i] = inverse_moments(body_, i);
@@ -508,48 +511,59 @@ std::vector<double> thicknesses(const Body& body) {
 QuadraticFits::QuadraticFits(Body& body)
     : number_(body.owned(), -1), multipliers_(body.domain.sites.size(), Eigen::Array4d::Zero()) {
   const std::vector<double> thickness = thicknesses(body);
+  penalties_in_flow_.assign(body.owned(), least_penalty);
+  std::size_t cells = 0;
+  for (const MaterialBlock& block : body.blocks) {
+    if (!block.is_quadratic()) continue;
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      number_[block.points[k]] = static_cast<int>(cells + block.slot_of_cell(k));
+    }
+    cells += block.law_points() / block.places_a_point();
+  }
+  fits_.assign(cells, std::array<double, QuadraticFit::size>{});
   for (const MaterialBlock& block : body.blocks) {
     if (!block.is_quadratic()) continue;
     for (const int i : block.points) {
-      number_[i] = static_cast<int>(fits_.size());
-      penalties_in_flow_.push_back(penalty_in_flow(thickness[i]));
-      QuadraticFit& fit = fits_.emplace_back();
+      penalties_in_flow_[i] = penalty_in_flow(thickness[i]);
+      QuadraticFit fit;
       set_cell(shape_of(body, i), fit);
       if (fit_motion(body, i, least_penalty, fit)) {
         fit.steepness = 1;
       } else {
         fit = QuadraticFit{};  // carries no stress, and moves with the others
       }
+      set(i, fit);
     }
   }
-  const auto set_all_sums = [&] {
+  const auto complete = [&](const auto& set_numbers) {
     for_each_point(0, body.owned(), [&](int i) {
-      if (number_[i] >= 0 && fit(i).carries_stress()) set_sums(body, i, multipliers(), fit(i));
+      if (number_[i] < 0 || !carries_stress(i)) return;
+      QuadraticFit fit = (*this)[i];
+      set_numbers(i, fit);
+      set(i, fit);
     });
   };
+  const auto set_all_sums = [&] { complete([&](int i, QuadraticFit& fit) { set_sums(body, i, multipliers(), fit); }); };
   set_all_sums();  // the correction looks at forces
   const double known = body.domain.cloud.shapes.empty() ? 0 : 1;
   if (body.domain.communicator.max(known) > 0) {
     ConsistencyCorrection(body, *this).apply();
     set_all_sums();  // of μ
   }
-  for_each_point(0, body.owned(), [&](int i) {
-    if (number_[i] < 0 || !fit(i).carries_stress()) return;
-    fit(i).steepness = steepness_of(body, i, multipliers(), fit(i));
-  });
+  complete([&](int i, QuadraticFit& fit) { fit.steepness = steepness_of(body, i, multipliers(), fit); });
 }
 
 bool QuadraticFits::refit(const Body& body, int i, bool flows, double most) {
   QuadraticFit fresh;
   set_cell(shape_of(body, i), fresh);
-  bool spans = fit_motion(body, i, flows ? penalties_in_flow_[number_[i]] : least_penalty, fresh);
+  bool spans = fit_motion(body, i, flows ? penalties_in_flow_[i] : least_penalty, fresh);
   if (spans) {
     add_correction(trend(body, i, multipliers(), inverse_moments(body, i)), body.domain.volume(i), fresh);
     set_sums(body, i, multipliers(), fresh);
     fresh.steepness = steepness_of(body, i, multipliers(), fresh);
     spans = body.domain.volume(i) * fresh.steepness <= most;
   }
-  if (spans) fit(i) = fresh;
+  if (spans) set(i, fresh);
   return spans;
 }
 
@@ -574,8 +588,8 @@ Tensor QuadraticFits::gradient_at(const Body& body, int i, int q, const std::fun
 }
 
 double QuadraticFits::bytes() const {
-  return static_cast<double>(number_.size() * sizeof(int) + fits_.size() * (sizeof(QuadraticFit) + sizeof(double)) +
-                             multipliers_.size() * sizeof(Eigen::Array4d));
+  const std::size_t numbers = penalties_in_flow_.size() * sizeof(double) + number_.size() * sizeof(int);
+  return static_cast<double>(numbers + multipliers_.size() * sizeof(Eigen::Array4d)) + fits_.bytes();
 }
 
 }  // namespace strut

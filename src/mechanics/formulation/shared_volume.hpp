@@ -27,7 +27,7 @@ T kept_part(const T& least, const T& most, const T& mean) {
 inline void share_traces(const std::array<small::Lanes, 4>& J,
                          const std::array<small::Symmetric3<small::Lanes>*, 4>& tensors, const small::Lanes& where) {
   using small::Lanes;
-  if (!(where > 0).any()) return;
+  if (!small::any_positive(where)) return;
   Lanes sum = Lanes::Zero(), volume = Lanes::Zero(), least = J[0], most = J[0];
   for (int q = 0; q < 4; ++q) {
     sum += J[q] * small::trace(*tensors[q]);
@@ -37,7 +37,7 @@ inline void share_traces(const std::array<small::Lanes, 4>& J,
   const Lanes mean = sum / volume, shared = 1 - kept_part<Lanes>(least, most, 0.25 * volume).min(1);
   for (auto* s : tensors) {
     const Lanes change = shared / 3 * (mean - small::trace(*s));
-    for (int c = 0; c < 3; ++c) s->c[c] = (where > 0).select(s->c[c] + change, s->c[c]);
+    for (int c = 0; c < 3; ++c) s->c[c] = small::where_positive(where, s->c[c] + change, s->c[c]);
   }
 }
 

@@ -6,7 +6,7 @@ namespace strut {
 
 double steepness(const Body& body, int i) {
   const bool is_cell = body.block_of(i).is_quadratic();
-  return body.domain.volume(i) * (is_cell ? (*body.fits)[i].steepness : trace(body.shape_inverse[i]));
+  return body.domain.volume(i) * (is_cell ? body.fits->steepness(i) : trace(body.shape_inverse[i]));
 }
 
 }  // namespace strut

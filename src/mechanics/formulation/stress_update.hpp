@@ -8,6 +8,7 @@
 
 #include "base/math/rotation.hpp"
 #include "mechanics/formulation/stress_pass.hpp"
+#include "mechanics/kernels/group_tile.hpp"
 
 namespace strut {
 
@@ -16,38 +17,85 @@ using LaneTensor = small::Tensor3<Lanes>;
 using LaneVector = small::Vector3<Lanes>;
 using LaneSymmetric = small::Symmetric3<Lanes>;
 
-// The law points of a group: one for each of its points.
-struct LawPoints {
-  static constexpr int width = LaneGroup::width;
+// 1 in the lanes of a group that have a point.
+inline Lanes present(const LaneGroup& group) {
+  return lanes_of([&](int l) { return l < group.count ? 1.0 : 0.0; });
+}
 
-  std::array<MaterialPoint*, width> points;
-  std::array<int, width> places;  // in the columns of the block's state
-  const LaneGroup& group;
-};
+// F, R and stress of law points by correspondence, one a point. Number by number: transposed as in `numbers_of` they
+// take a tenth longer here, where they come from memory anyway.
+struct PointRecords {
+  std::array<MaterialPoint*, LaneGroup::width> points;
 
-// Number by number: transposed as in `numbers_of` they take a tenth longer here, where they come from memory anyway.
-inline LaneTensor deformation_gradients(const LawPoints& g) {
-  LaneTensor t;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      t.c[i][j] = lanes_of([&](int l) { return g.points[l]->deformation_gradient(i, j); });
+  LaneTensor deformation_gradients() const {
+    LaneTensor t;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) t.c[i][j] = lanes_of([&](int l) { return points[l]->deformation_gradient(i, j); });
+    }
+    return t;
+  }
+  LaneTensor rotations() const {
+    LaneTensor R;
+    for (int c = 0; c < 6; ++c) R.c[c % 3][c / 3] = lanes_of([&](int l) { return points[l]->rotation.number(c); });
+    complete(R);
+    return R;
+  }
+  LaneSymmetric stresses() const {
+    LaneSymmetric s;
+    for (int c = 0; c < 6; ++c) s[c] = lanes_of([&](int l) { return points[l]->stress[c]; });
+    return s;
+  }
+  // Of the lanes where `which` is above zero.
+  void set_stresses(const LaneSymmetric& s, const Lanes& which) const {
+    for (int l = 0; l < LaneGroup::width; ++l) {
+      for (int c = 0; which[l] > 0 && c < 6; ++c) points[l]->stress[c] = s[c][l];
     }
   }
-  return t;
-}
+};
 
-inline LaneTensor rotations(const LawPoints& g) {
-  LaneTensor R;
-  for (int c = 0; c < 6; ++c) R.c[c % 3][c / 3] = lanes_of([&](int l) { return g.points[l]->rotation.number(c); });
-  complete(R);
-  return R;
-}
+// The same of cells at one place, in a tile.
+struct PointTile {
+  TileRow* rows;  // as CellPoints has them
 
-inline LaneSymmetric stresses(const LawPoints& g) {
-  LaneSymmetric s;
-  for (int c = 0; c < 6; ++c) s[c] = lanes_of([&](int l) { return g.points[l]->stress[c]; });
-  return s;
-}
+  LaneTensor deformation_gradients() const {
+    LaneTensor t;
+    for (int c = 0; c < 9; ++c) t.c[c % 3][c / 3] = small::lanes(rows[c]);
+    return t;
+  }
+  LaneTensor rotations() const {
+    LaneTensor R;
+    for (int c = 0; c < 6; ++c) R.c[c % 3][c / 3] = small::lanes(rows[CellPoints::rotation + c]);
+    complete(R);
+    return R;
+  }
+  LaneSymmetric stresses() const {
+    LaneSymmetric s;
+    for (int c = 0; c < 6; ++c) s[c] = small::lanes(rows[CellPoints::stress + c]);
+    return s;
+  }
+  void set_stresses(const LaneSymmetric& s, const Lanes& which) const {
+    for (int c = 0; c < 6; ++c) set(CellPoints::stress + c, s[c], which);
+  }
+  void set_motion(const LaneTensor& F, const LaneTensor& R, const Lanes& which) const {
+    for (int c = 0; c < 9; ++c) set(c, F.c[c % 3][c / 3], which);
+    for (int c = 0; c < 6; ++c) set(CellPoints::rotation + c, R.c[c % 3][c / 3], which);
+  }
+
+ private:
+  void set(int n, const Lanes& number, const Lanes& which) const {
+    auto row = small::lanes(rows[n]);
+    row = small::where_positive(which, number, row);
+  }
+};
+
+// The law points of a group: one for each of its points.
+template <class Numbers>
+struct LawPoints {
+  const LaneGroup& group;
+  std::array<int, LaneGroup::width> places;  // of their states
+  Numbers numbers;
+  TileRow* state;
+};
 
 // The same numbers as laws take them.
 inline materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
@@ -58,8 +106,9 @@ inline materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
 
 // The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
 // linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
-inline LaneSymmetric strain_rate(const LawPoints& g, const LaneSymmetric& stretch, const Lanes& dt) {
-  const LaneTensor R = rotations(g), F = deformation_gradients(g);
+template <class Numbers>
+LaneSymmetric strain_rate(const Numbers& old_numbers, const LaneSymmetric& stretch, const Lanes& dt) {
+  const LaneTensor R = old_numbers.rotations(), F = old_numbers.deformation_gradients();
   const LaneSymmetric old = small::symmetric_part(small::transposed_product(R, F));
   LaneSymmetric difference, middle;
   for (int c = 0; c < 6; ++c) {
@@ -70,8 +119,8 @@ inline LaneSymmetric strain_rate(const LawPoints& g, const LaneSymmetric& stretc
 }
 
 // Each further update squares what the first one left.
-inline Polar<Lanes> polar_of(const LawPoints& g, const LaneTensor& F, bool of_any_size) {
-  Polar<Lanes> polar = polar_update(rotations(g), F);
+inline Polar<Lanes> polar_of(const LaneTensor& old_rotation, const LaneTensor& F, bool of_any_size) {
+  Polar<Lanes> polar = polar_update(old_rotation, F);
   for (int n = 0; of_any_size && n < 3; ++n) polar = polar_update(polar.rotation, F);
   return polar;
 }
@@ -109,11 +158,12 @@ struct LawUpdate {
   // Deformation gradients F at the end of the pass' step, with all but what follows from the law. `carries`: 1 of
   // points that carry stress, 0 of others. These have no law, which may have a stress at rest (plastic strain,
   // pressure).
-  Deformed deformed(const LawPoints& g, const LaneTensor& F, const Lanes& share, const Lanes& carries) const {
-    const Polar<Lanes> polar = polar_of(g, F, pass.of_any_size);
+  template <class Numbers>
+  Deformed deformed(const Numbers& old, const LaneTensor& F, const Lanes& share, const Lanes& carries) const {
+    const Polar<Lanes> polar = polar_of(old.rotations(), F, pass.of_any_size);
     Deformed now{F, polar, small::inverse(polar.stretch), small::determinant(F) * carries, {}, {}, {}};
     if (pass.dt > 0) {
-      now.rates = strain_rate(g, polar.stretch, pass.dt * share);
+      now.rates = strain_rate(old, polar.stretch, pass.dt * share);
     } else {
       for (int c = 0; c < 6; ++c) now.rates.c[c].setZero();
     }
@@ -121,10 +171,11 @@ struct LawUpdate {
   }
 
   // Advances stress and state.
-  void set_stress(const LawPoints& g, const Lanes& share, Deformed& now) const {
+  template <class Numbers>
+  void set_stress(const LawPoints<Numbers>& g, const Lanes& share, Deformed& now) const {
     now.stiffness = stiffness_of(g);
     if (!(pass.dt > 0)) {
-      now.stress = stresses(g);
+      now.stress = g.numbers.stresses();
       return;
     }
     const Lanes dt = pass.dt * share;
@@ -136,67 +187,80 @@ struct LawUpdate {
     for (int c = 0; c < 3; ++c) now.stress[c] -= viscous.pressure;
   }
 
-  void store(const LawPoints& g, int l, const Deformed& now) const {
-    g.points[l]->rotation = Rotation(at(now.polar.rotation, l));
-    g.points[l]->deformation_gradient = at(now.F, l);
-  }
-
  private:
-  static void keep(double& kept, double value) {
-    if (kept != value) kept = value;  // below yield nothing changes: memory need not be written
+  static constexpr std::size_t columns = materials::state_size<L>;
+
+  template <class Numbers>
+  typename L::State state_at(const LawPoints<Numbers>& g, int l) const {
+    std::array<double, columns> values;
+    for (std::size_t c = 0; c < columns; ++c) values[c] = g.state[c].lane[l];
+    return materials::from_columns<L>(values);
   }
 
   // Stress and state of one point.
-  void advance_law(const LawPoints& g, int l, const Deformed& now, double dt, double viscous_work) const {
-    Symmetric rate, stretch;
-    for (int c = 0; c < 6; ++c) rate[c] = now.rates.c[c][l], stretch[c] = now.polar.stretch.c[c][l];
-    typename L::State state = block.template state_of<L>(g.places[l]);
-    const auto [stress, converged] = law.step({rate, dt, now.J[l], stretch, viscous_work}, g.points[l]->stress, state);
+  template <class Numbers>
+  void advance_law(const LawPoints<Numbers>& g, int l, const Deformed& now, double dt, double viscous_work,
+                   LaneSymmetric& all) const {
+    Symmetric rate, stretch, old;
+    for (int c = 0; c < 6; ++c) rate[c] = now.rates.c[c][l], stretch[c] = now.polar.stretch.c[c][l], old[c] = all[c][l];
+    typename L::State state = state_at(g, l);
+    const auto [stress, converged] = law.step({rate, dt, now.J[l], stretch, viscous_work}, old, state);
     if (!converged) return failure.report(g.group.k[l], Failure::Kind::no_stress);
-    g.points[l]->stress = stress;
-    const auto columns = materials::to_columns<L>(state);
-    for (std::size_t c = 0; c < columns.size(); ++c) keep(block.state_at(c, g.places[l]), columns[c]);
+    for (int c = 0; c < 6; ++c) all[c][l] = stress[c];
+    const auto values = materials::to_columns<L>(state);
+    for (std::size_t c = 0; c < columns; ++c) {
+      if (double& kept = g.state[c].lane[l]; kept != values[c]) kept = values[c];
+    }
   }
 
   // Stress and state of the points of a group at once.
-  LaneSymmetric advance_side_by_side(const LawPoints& g, const Deformed& now, const Lanes& dt,
+  template <class Numbers>
+  LaneSymmetric advance_side_by_side(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
                                      const Lanes& viscous_work) const {
     using State = typename L::template StateOf<small::RawLanes>;
-    constexpr std::size_t columns = materials::state_size<L>;
     std::array<small::RawLanes, columns> numbers;
-    for (std::size_t c = 0; c < columns; ++c) {
-      numbers[c] = small::raw(lanes_of([&](int l) { return block.state_at(c, g.places[l]); }));
-    }
+    for (std::size_t c = 0; c < columns; ++c) numbers[c] = small::raw(small::lanes(g.state[c]));
     State state;
     if constexpr (columns > 0) state = std::bit_cast<State>(numbers);
-    LaneSymmetric result = stresses(g);
+    LaneSymmetric result = g.numbers.stresses();
     const auto [stress, converged] =
         law.step({raw(now.rates), small::raw(dt), small::raw(now.J), raw(now.polar.stretch), small::raw(viscous_work)},
                  raw(result), state);
-    if constexpr (columns > 0) numbers = std::bit_cast<decltype(numbers)>(state);
     for (int c = 0; c < 6; ++c) result[c] = small::lanes(converged ? stress[c] : small::raw(result[c]));
-    for (int l = 0; l < g.group.count; ++l) {
-      if (!(now.J[l] > 0)) continue;
-      if (!converged[l]) {
-        failure.report(g.group.k[l], Failure::Kind::no_stress);
-        continue;
+    const auto moved = small::raw(now.J) > 0 && small::raw(present(g.group)) > 0;
+    if (materials::any(moved && !converged)) {
+      for (int l = 0; l < g.group.count; ++l) {
+        if (now.J[l] > 0 && !converged[l]) failure.report(g.group.k[l], Failure::Kind::no_stress);
       }
-      for (int c = 0; c < 6; ++c) g.points[l]->stress[c] = result[c][l];
-      for (std::size_t c = 0; c < columns; ++c) keep(block.state_at(c, g.places[l]), numbers[c][l]);
+    }
+    const auto changes = moved && converged;
+    const small::RawLanes one = materials::same<small::RawLanes>(1), none{};
+    g.numbers.set_stresses(result, small::lanes(changes ? one : none));
+    if constexpr (columns > 0) {
+      const auto after = std::bit_cast<decltype(numbers)>(state);
+      for (std::size_t c = 0; c < columns; ++c) keep(g.state[c], changes ? after[c] : numbers[c], numbers[c]);
     }
     return result;
   }
 
+  // Below yield nothing changes: memory need not be written.
+  static void keep(TileRow& row, const small::RawLanes& after, const small::RawLanes& before) {
+    if (materials::any(after != before)) small::lanes(row) = small::lanes(after);
+  }
+
   // The stresses of a group at the end of the step.
-  LaneSymmetric advance_laws(const LawPoints& g, const Deformed& now, const Lanes& dt,
+  template <class Numbers>
+  LaneSymmetric advance_laws(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
                              const Lanes& viscous_work) const {
     if constexpr (materials::takes_lanes<L>) {
       return advance_side_by_side(g, now, dt, viscous_work);
     } else {
+      LaneSymmetric result = g.numbers.stresses();
       for (int l = 0; l < g.group.count; ++l) {
-        if (now.J[l] > 0) advance_law(g, l, now, dt[l], viscous_work[l]);
+        if (now.J[l] > 0) advance_law(g, l, now, dt[l], viscous_work[l], result);
       }
-      return stresses(g);
+      g.numbers.set_stresses(result, present(g.group));
+      return result;
     }
   }
 
@@ -205,7 +269,8 @@ struct LawUpdate {
   };
 
   // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
-  Viscous add_viscosity(const LawPoints& g, const Deformed& now, const Lanes& dt) const {
+  template <class Numbers>
+  Viscous add_viscosity(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
     const Lanes speed2 = now.stiffness * now.J / block.material.density,
                 steepness2 = small::square(now.inverse_stretch) / 3;
@@ -228,11 +293,11 @@ struct LawUpdate {
   }
 
   // M of law points, Pa; 0 of those that have failed.
-  Lanes stiffness_of(const LawPoints& g) const {
+  template <class Numbers>
+  Lanes stiffness_of(const LawPoints<Numbers>& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
-      for (int l = 0; l < LawPoints::width; ++l)
-        modulus[l] = law.moduli(block.template state_of<L>(g.places[l])).longitudinal();
+      for (int l = 0; l < LaneGroup::width; ++l) modulus[l] = law.moduli(state_at(g, l)).longitudinal();
     }
     return modulus;
   }

@@ -85,18 +85,18 @@ materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, con
 
 std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt) {
   std::size_t cells = 0;
-  for (const MaterialBlock& block : body.blocks) cells += block.cells.size();
+  for (const MaterialBlock& block : body.blocks) cells += block.cells.places();
   std::vector<PointTangent> tangents(body.owned() + cells, {Eigen::Matrix<double, 9, 9>::Zero()});
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     if (block.is_ordinary()) continue;
     const auto of_block = [&]<class L>(const L& law) {
       const auto at_place = [&](std::size_t place, const MaterialPoint& old, const MaterialPoint& now) {
-        const auto state = state_in<L>(start.state(b), block.law_points(), place);
+        const auto state = state_in<L>(start.state(b), place);
         return point_tangent(now, by_stretch(law, old, now, dt, state));
       };
       for_each_point(0, static_cast<int>(block.points.size()), [&](int k) {
-        if (!(block.moduli(k).longitudinal() > 0)) return;
+        if (!(block.moduli(block.place(k, 0)).longitudinal() > 0)) return;
         const int i = block.points[k];
         if (!block.is_quadratic()) {
           tangents[i] = at_place(k, start.point(i), body.points[i]);

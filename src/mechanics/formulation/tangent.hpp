@@ -17,15 +17,15 @@ class Committed {
   void restore_materials(Body& body) const;  // all but the places: what a trial of other places starts from
 
   const MaterialPoint& point(int i) const { return points_[i]; }
-  const MaterialPoint& cell(std::size_t block, std::size_t place) const { return cells_[block][place]; }
-  const std::vector<double>& state(std::size_t block) const { return states_[block]; }
+  MaterialPoint cell(std::size_t block, std::size_t place) const { return cells_[block][place]; }
+  const small::Tiles& state(std::size_t block) const { return states_[block]; }
   Vector place(int i) const { return places_[i].head<3>().matrix(); }
 
  private:
   std::vector<Eigen::Array4d> places_;
   std::vector<MaterialPoint> points_;
-  std::vector<std::vector<double>> states_;  // of blocks
-  std::vector<std::vector<MaterialPoint>> cells_;
+  std::vector<small::Tiles> states_;  // of blocks
+  std::vector<CellPoints> cells_;
   std::vector<std::vector<ViscousPoint>> viscous_;
 };
 

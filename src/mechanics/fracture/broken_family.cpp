@@ -87,7 +87,7 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
     }
     materials::move_stress(law, to, jumped, state);
     const auto columns = materials::to_columns<L>(state);
-    for (std::size_t c = 0; c < columns.size(); ++c) block.state_at(c, place) = columns[c];
+    for (std::size_t c = 0; c < columns.size(); ++c) block.state.at(place, c) = columns[c];
   };
   std::visit(step, block.material.law);
 }
@@ -115,7 +115,9 @@ bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& s
     const std::size_t place = block.place(k, q);
     const auto place_of = [&start](int j) { return start.place(j); };
     const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
-    holds = holds && set_start(block, place, block.cells[place], F, start.dt);
+    MaterialPoint point = block.cells[place];
+    holds = holds && set_start(block, place, point, F, start.dt);
+    block.cells.set(place, point);
   }
   return holds;
 }
@@ -146,7 +148,7 @@ void release(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
   if (block.is_quadratic()) {
     body.fits->drop(i);
-    for (int q = 0; q < block.places_a_point(); ++q) release(block.cells[block.place(k, q)]);
+    for (int q = 0; q < block.places_a_point(); ++q) block.cells.set(block.place(k, q), MaterialPoint());
   } else {
     body.shape_inverse.set(i, Symmetric::Zero());
     release(body.points[i]);

@@ -16,6 +16,7 @@
 // The sums of ordinary points: ordinary_bonds.hpp.
 #pragma once
 
+#include <algorithm>
 #include <type_traits>
 
 #include "base/math/small_tensors.hpp"
@@ -101,7 +102,17 @@ struct OfCluster {
   }
   template <class Visit>
   void for_each(Visit&& visit) const {  // visit(j, 1 in the lanes of those who have j in their family, else 0)
-    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+    for_each(visit, [](int) {});
+  }
+  // fetch(j): is called for each some places ahead of its visit. Far ends lie scattered: half of the time would go by
+  // waiting for them.
+  template <class Visit, class Fetch>
+  void for_each(Visit&& visit, const Fetch& fetch) const {
+    constexpr std::size_t ahead = 8;
+    const std::size_t size = cluster.near.size();
+    for (std::size_t n = 0; n < std::min(ahead, size); ++n) fetch(cluster.near[n]);
+    for (std::size_t n = 0; n < size; ++n) {
+      if (n + ahead < size) fetch(cluster.near[n + ahead]);
       visit(cluster.near[n], Eigen::Map<const Lanes, Eigen::AlignedMax>(presence[cluster.mask[n]].lanes));
     }
   }
@@ -154,14 +165,22 @@ T dot(const Vector3<T>& u, const Vector3<T>& v) {
   return u.c[0] * v.c[0] + u.c[1] * v.c[1] + u.c[2] * v.c[2];
 }
 
-// Calls visit(j, ω V_j, ξ, presence) over a family.
-template <class Family, class Weight, class Visit>
-inline void over(const Family& family, const Site* sites, Weight, Visit&& visit) {
+template <class Record>
+inline void fetch_record(const Record* record) {
+  const char* first = reinterpret_cast<const char*>(record);
+  for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
+}
+
+// Calls visit(j, ω V_j, ξ, presence) over a family. `read`: records by j that the visits read besides, to be fetched
+// ahead.
+template <class Family, class Weight, class Visit, class... Record>
+inline void over(const Family& family, const Site* sites, Weight, Visit&& visit,
+                 [[maybe_unused]] const Record*... read) {
   using T = ScalarOf<Family>;
   using std::sqrt;
   const Vector3<T> X = own_place(family, sites, &Site::reference);
   const T horizon = family.template own<1>([&](int i) { return sites[i].current.data() + 3; })[0];
-  family.for_each([&](int j, const auto& present) {
+  const auto at_bond = [&](int j, const auto& present) {
     const Site& there = sites[j];
     const Vector3<T> xi = apart(there.reference, X);
     T weight = there.volume() * present;
@@ -170,7 +189,12 @@ inline void over(const Family& family, const Site* sites, Weight, Visit&& visit)
       weight *= Weight::of(ratio);
     }
     visit(j, weight, xi, present);
-  });
+  };
+  if constexpr (std::is_same_v<Family, OfCluster>) {
+    family.for_each(at_bond, [&](int j) { fetch_record(sites + j), (fetch_record(read + j), ...); });
+  } else {
+    family.for_each(at_bond);
+  }
 }
 
 // ---- The sums ------------------------------------------------------------------------------------------------------
@@ -216,18 +240,21 @@ inline Vector3<ScalarOf<Family>> far_force(const Family& family, const Site* sit
   const Vector3<T> y = own_place(family, sites, &Site::current);
   Tensor3<T> by_axis = zero_tensor<T>();  // by the component of ξ: so many chains of additions are under way
   Vector3<T> springs = zero_vector<T>();
-  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
-    const ForceState& there = states[j];
-    for (int c = 0; c < 3; ++c) {
-      const T weighted = w * xi.c[c];
-      for (int r = 0; r < 3; ++r) by_axis.c[r][c] += there.column[c][r] * weighted;
-    }
-    if constexpr (with_springs) {
-      const Vector3<T> eta = apart(sites[j].current, y);
-      const T stiffness = w * there.stiffness();
-      for (int c = 0; c < 3; ++c) springs.c[c] += stiffness * eta.c[c];
-    }
-  });
+  over(
+      family, sites, weight,
+      [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+        const ForceState& there = states[j];
+        for (int c = 0; c < 3; ++c) {
+          const T weighted = w * xi.c[c];
+          for (int r = 0; r < 3; ++r) by_axis.c[r][c] += there.column[c][r] * weighted;
+        }
+        if constexpr (with_springs) {
+          const Vector3<T> eta = apart(sites[j].current, y);
+          const T stiffness = w * there.stiffness();
+          for (int c = 0; c < 3; ++c) springs.c[c] += stiffness * eta.c[c];
+        }
+      },
+      states);
   Vector3<T> sum;
   for (int r = 0; r < 3; ++r) sum.c[r] = by_axis.c[r][0] + by_axis.c[r][1] + by_axis.c[r][2] + springs.c[r];
   return sum;
@@ -298,23 +325,26 @@ inline void over_residuals(std::size_t kind, const Family& family, const Site* p
   const Vector3<T> y = own_place(family, places, &Site::current);
   const OwnGradient<T> here = own_gradient(family, gradients, kind);
   const Tensor3<T>& F = here.F;
-  over(family, places, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
-    const GradientState& there = gradients[j];
-    Vector3<T> z = apart(places[j].current, y);
-    for (int r = 0; r < 3; ++r) {
-      const T fitted = (F.c[r][0] + there.column[0][r]) * xi.c[0] + (F.c[r][1] + there.column[1][r]) * xi.c[1] +
-                       (F.c[r][2] + there.column[2][r]) * xi.c[2];
-      z.c[r] -= 0.5 * fitted;
-    }
-    const double far_C = stiffness_of(kind, there.stiffness(), there.kind()), far_share = there.column[1][3];
-    T stiffness, share;
-    if constexpr (std::is_same_v<T, double>) {
-      stiffness = 2 * w * std::min(here.stiffness, far_C), share = std::max(here.step_share, far_share);
-    } else {
-      stiffness = 2 * w * here.stiffness.min(far_C), share = here.step_share.max(far_share);
-    }
-    visit(S::bond_force(stiffness, z, xi), z, xi, share);
-  });
+  over(
+      family, places, weight,
+      [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+        const GradientState& there = gradients[j];
+        Vector3<T> z = apart(places[j].current, y);
+        for (int r = 0; r < 3; ++r) {
+          const T fitted = (F.c[r][0] + there.column[0][r]) * xi.c[0] + (F.c[r][1] + there.column[1][r]) * xi.c[1] +
+                           (F.c[r][2] + there.column[2][r]) * xi.c[2];
+          z.c[r] -= 0.5 * fitted;
+        }
+        const double far_C = stiffness_of(kind, there.stiffness(), there.kind()), far_share = there.column[1][3];
+        T stiffness, share;
+        if constexpr (std::is_same_v<T, double>) {
+          stiffness = 2 * w * std::min(here.stiffness, far_C), share = std::max(here.step_share, far_share);
+        } else {
+          stiffness = 2 * w * here.stiffness.min(far_C), share = here.step_share.max(far_share);
+        }
+        visit(S::bond_force(stiffness, z, xi), z, xi, share);
+      },
+      gradients);
 }
 
 template <class T>

@@ -21,15 +21,19 @@ struct Stretched {
 };
 
 // Calls visit(bond) over a family.
-template <class Family, class Weight, class Visit>
-inline void over_stretched(const Family& family, const Site* sites, Weight weight, Visit&& visit) {
+template <class Family, class Weight, class Visit, class... Record>
+inline void over_stretched(const Family& family, const Site* sites, Weight weight, Visit&& visit,
+                           const Record*... read) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, sites, &Site::current);
-  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto& present) {
-    const Vector3<T> eta = apart(sites[j].current, y);
-    const T absent = 1 - present;
-    visit(Stretched<T>{j, w, dot(xi, xi) + absent, eta, dot(eta, eta) + absent});
-  });
+  over(
+      family, sites, weight,
+      [&](int j, const T& w, const Vector3<T>& xi, const auto& present) {
+        const Vector3<T> eta = apart(sites[j].current, y);
+        const T absent = 1 - present;
+        visit(Stretched<T>{j, w, dot(xi, xi) + absent, eta, dot(eta, eta) + absent});
+      },
+      read...);
 }
 
 // What the extension e of a bond is: that of its places …
@@ -94,13 +98,16 @@ inline Vector3<ScalarOf<Family>> ordinary_force(const Family& family, const Site
   using std::sqrt;
   const auto own = family.template own<2>([&](int i) { return &states[i].a; });  // a, b
   Vector3<T> sum = zero_vector<T>();
-  over_stretched(family, sites, weight, [&](const Stretched<T>& bond) {
-    const ScalarState& there = states[bond.j];
-    const T shrinkage = sqrt(bond.xi2 / bond.eta2);  // |ξ|/|η|
-    const T pull = (own[0] + there.a) * shrinkage + (own[1] + there.b) * extension.over_length(bond, shrinkage);
-    const T weighted = bond.weight * pull;
-    for (int c = 0; c < 3; ++c) sum.c[c] += weighted * bond.eta.c[c];
-  });
+  over_stretched(
+      family, sites, weight,
+      [&](const Stretched<T>& bond) {
+        const ScalarState& there = states[bond.j];
+        const T shrinkage = sqrt(bond.xi2 / bond.eta2);  // |ξ|/|η|
+        const T pull = (own[0] + there.a) * shrinkage + (own[1] + there.b) * extension.over_length(bond, shrinkage);
+        const T weighted = bond.weight * pull;
+        for (int c = 0; c < 3; ++c) sum.c[c] += weighted * bond.eta.c[c];
+      },
+      states);
   return sum;
 }
 

@@ -34,16 +34,19 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
   {
     Tensor3<T> first = zero_tensor<T>(), correction = zero_tensor<T>();
     Vector3<T> sum = zero_vector<T>();
-    over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
-      const Vector3<T> eta = apart(sites[j].current, y);
-      const Eigen::Array4d& mu = multipliers[j];
-      for (int r = 0; r < 3; ++r) {
-        const T weighted = w * eta.c[r];
-        sum.c[r] += weighted;
-        for (int c = 0; c < 3; ++c) first.c[r][c] += weighted * xi.c[c];
-        for (int c = 0; c < 3; ++c) correction.c[r][c] += weighted * mu[c];
-      }
-    });
+    over(
+        family, sites, weight,
+        [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+          const Vector3<T> eta = apart(sites[j].current, y);
+          const Eigen::Array4d& mu = multipliers[j];
+          for (int r = 0; r < 3; ++r) {
+            const T weighted = w * eta.c[r];
+            sum.c[r] += weighted;
+            for (int c = 0; c < 3; ++c) first.c[r][c] += weighted * xi.c[c];
+            for (int c = 0; c < 3; ++c) correction.c[r][c] += weighted * mu[c];
+          }
+        },
+        multipliers);
     N.first = first, N.correction = correction, N.sum = sum;
   }
   T second[3][6];
@@ -70,18 +73,21 @@ inline Vector3<ScalarOf<Family>> quadratic_far_force(const Family& family, const
   using T = ScalarOf<Family>;
   const auto mu = family.template own<3>([&](int i) { return multipliers[i].data(); });
   Vector3<T> linear = zero_vector<T>(), quadratic = zero_vector<T>(), corrected = zero_vector<T>();
-  over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
-    const QuadraticState& there = states[j];
-    const std::array<T, 6> q = squares(xi);
-    for (int r = 0; r < 3; ++r) {
-      T a = there.first[3 * r] * xi.c[0] + there.first[3 * r + 1] * xi.c[1] + there.first[3 * r + 2] * xi.c[2];
-      T b = there.second[6 * r] * q[0] + there.second[6 * r + 1] * q[1] + there.second[6 * r + 2] * q[2];
-      b += there.second[6 * r + 3] * q[3] + there.second[6 * r + 4] * q[4] + there.second[6 * r + 5] * q[5];
-      const T d = there.offset[r] - there.correction[3 * r] * mu[0] - there.correction[3 * r + 1] * mu[1] -
-                  there.correction[3 * r + 2] * mu[2];
-      linear.c[r] += w * a, quadratic.c[r] += w * b, corrected.c[r] += w * d;
-    }
-  });
+  over(
+      family, sites, weight,
+      [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
+        const QuadraticState& there = states[j];
+        const std::array<T, 6> q = squares(xi);
+        for (int r = 0; r < 3; ++r) {
+          T a = there.first[3 * r] * xi.c[0] + there.first[3 * r + 1] * xi.c[1] + there.first[3 * r + 2] * xi.c[2];
+          T b = there.second[6 * r] * q[0] + there.second[6 * r + 1] * q[1] + there.second[6 * r + 2] * q[2];
+          b += there.second[6 * r + 3] * q[3] + there.second[6 * r + 4] * q[4] + there.second[6 * r + 5] * q[5];
+          const T d = there.offset[r] - there.correction[3 * r] * mu[0] - there.correction[3 * r + 1] * mu[1] -
+                      there.correction[3 * r + 2] * mu[2];
+          linear.c[r] += w * a, quadratic.c[r] += w * b, corrected.c[r] += w * d;
+        }
+      },
+      states);
   Vector3<T> sum;
   for (int r = 0; r < 3; ++r) sum.c[r] = linear.c[r] - quadratic.c[r] + corrected.c[r];
   return sum;

@@ -63,7 +63,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
   for (const MaterialBlock& block : body.blocks) {
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
-      const double elastic = block.moduli(k).shear;
+      const double elastic = block.moduli(block.place(k, 0)).shear;
       const double now = block.is_ordinary() ? elastic : shear_modulus(tangents[i]);
       ends[i].stiffness = 15 * std::max(now, smallest_share * elastic) / std::max(spread(body, ends, i), 1e-300);
     }

@@ -57,7 +57,9 @@ TEST(Quadratic, LinearMotionsAreExactAtAllPlacesAndSurfaces) {
   deform(body, [&](const Vector& X) -> Vector { return F * X; });
   advance_stress_and_force(body, 1, true);
   for (const MaterialBlock& b : body.blocks) {
-    for (const MaterialPoint& p : b.cells) EXPECT_LT((p.deformation_gradient - F).norm(), exact);
+    for (std::size_t k = 0; k < b.points.size(); ++k) {
+      for (int q = 0; q < 4; ++q) EXPECT_LT((body.law_point(b, k, q).deformation_gradient - F).norm(), exact);
+    }
   }
   EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].deformation_gradient - F).norm(); }), exact);
 }
@@ -168,11 +170,13 @@ MaterialBlock cell_of(double last) {
   MaterialBlock block;
   block.material.formulation = Formulation::quadratic;
   block.points = {0};
-  block.cells.resize(4);
-  for (MaterialPoint& at : block.cells) {
+  block.cells.resize(block.law_points());
+  for (int q = 0; q < 4; ++q) {
+    MaterialPoint at;
     at.deformation_gradient += Tensor::NullaryExpr([&] { return number(engine); });
+    if (q == 3) at.deformation_gradient.col(0) *= last;
+    block.cells.set(block.place(0, q), at);
   }
-  block.cells[3].deformation_gradient.col(0) *= last;
   return block;
 }
 
