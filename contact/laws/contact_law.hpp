@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <concepts>
+#include <utility>
 
 namespace strut::contact {
 
 // Two points that are near each other, as a law sees them: the same from both.
 struct PointPair {
-  double volumes[2];          // in the reference state, m³
-  double horizons[2];         // m
-  double reference_distance;  // m
-  bool one_body;              // or two: then they are not bonded wherever they are
+  double volumes[2];                   // in the reference state, m³
+  std::pair<double, double> horizons;  // m
+  double reference_distance;           // m
+  bool one_body;                       // or two: then they are not bonded wherever they are
 };
 
 // No two points touch from farther than this, whatever the law (the search rests on it): r_c, but never more than a

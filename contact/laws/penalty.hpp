@@ -25,9 +25,9 @@ struct PenaltyLaw {
     return tangent_stiffness(pair, overlap) * overlap;
   }
   double tangent_stiffness(const PointPair& pair, double) const {
-    const double one = penalty_stiffness(penalty, pair.horizons[0]);
-    const bool are_equal = pair.horizons[0] == pair.horizons[1];
-    const double mean = are_equal ? one : 0.5 * (one + penalty_stiffness(penalty, pair.horizons[1]));
+    const auto& [first, second] = pair.horizons;
+    const double one = penalty_stiffness(penalty, first);
+    const double mean = first == second ? one : 0.5 * (one + penalty_stiffness(penalty, second));
     return mean * (pair.volumes[0] * pair.volumes[1]);
   }
   double stored_energy(const PointPair& pair, double overlap) const {

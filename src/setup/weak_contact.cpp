@@ -144,8 +144,7 @@ std::string weakness(const contact::Law& law, const Side& a, const Side& b, cons
 
 // Its spring between two points that overlap by a tenth of a spacing, in those of the stiffer block, M h.
 double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side& b) {
-  const contact::PointPair pair{
-      {a.volume(), b.volume()}, 0.5 * (a.horizon + b.horizon), 2 * contact::radius_of(law), false};
+  const contact::PointPair pair{{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * contact::radius_of(law), false};
   const double overlap = 0.1 * std::min(a.spacing, b.spacing);
   const double spring =
       std::visit([&](const contact::ContactLaw auto& one) { return one.tangent_stiffness(pair, overlap); }, law);

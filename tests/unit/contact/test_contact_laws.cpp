@@ -28,10 +28,10 @@ TEST(PenaltyLaw, ForceIsThePublishedOne) {
 TEST(PenaltyLaw, IsTheMeanOfThoseOfBothHorizons) {
   const PenaltyLaw law{.radius = 5.5e-5, .penalty = 1e12};
   PointPair pair = pair_of(3e-16, 4e-16);
-  pair.horizons[1] = 1e-4;
+  pair.horizons.second = 1e-4;
   const double softer = penalty_stiffness(1e12, 1e-4) * 3e-16 * 4e-16;
   EXPECT_NEAR(law.tangent_stiffness(pair, 1e-6), 16.5 * softer, 1e-14 * 16.5 * softer);
-  std::swap(pair.horizons[0], pair.horizons[1]);
+  std::swap(pair.horizons.first, pair.horizons.second);
   EXPECT_NEAR(law.tangent_stiffness(pair, 1e-6), 16.5 * softer, 1e-14 * 16.5 * softer);
 }
 
