@@ -223,7 +223,8 @@ std::size_t own_bytes(const MaterialBlock& block, bool has_bond_work) {
   const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
   constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
   constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
-  const std::size_t of_law_point = state * sizeof(double) + (block.is_quadratic() ? CellPoints::size * sizeof(double) : 0) +
+  const std::size_t of_law_point = state * sizeof(double) +
+                                   (block.is_quadratic() ? CellPoints::size * sizeof(double) : 0) +
                                    (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
   return mechanics + cloud + block.places_a_point() * of_law_point + (has_bond_work ? sizeof(double) : 0) +
          (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) + (block.is_quadratic() ? sizeof(CellShape) : 0);

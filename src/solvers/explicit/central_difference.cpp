@@ -59,8 +59,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   if (!std::isfinite(first)) return;
   const std::vector<Vector> velocities = predicted_velocities(conditions_, time_, first, body_);
   contact_.foresee({body_.domain, velocities, body_.density}, first);
-  // What touches in the first step, or is so near that it soon may, has its levels and its step from the start: a change
-  // once bodies vibrate gives energy.
+  // What touches in the first step, or is so near that it soon may, has its levels and its step from the start: a
+  // change once bodies vibrate gives energy.
   constexpr double soon = 10;  // steps
   std::vector<std::uint8_t> marks = pushed(velocities, soon * first);
   contact_.mark_near(marks);

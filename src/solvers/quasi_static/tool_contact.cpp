@@ -40,7 +40,8 @@ void ToolContact::begin(const Body& body, double t, double dt) {
   }
   std::vector<double> moduli(body.owned(), 0);
   for (const MaterialBlock& block : body.blocks) {
-    for (std::size_t k = 0; k < block.points.size(); ++k) moduli[block.points[k]] = block.moduli(block.place(k, 0)).longitudinal();
+    for (std::size_t k = 0; k < block.points.size(); ++k)
+      moduli[block.points[k]] = block.moduli(block.place(k, 0)).longitudinal();
   }
   for (ContactPoint& contact : contact_points_) {
     contact.start = body.current(contact.point);

@@ -73,8 +73,9 @@ TEST(DialectOfPeridigm, WaveInABar) {
               section("bar", key("Block Names", "all") + key("Material", "stone") + key("Horizon", "0.003015"))) +
       section("Boundary Conditions", along("fly", "Initial Velocity", "foot", "z", "-30")) +
       section("Solver", key("Final Time", "4e-6") + section("Verlet", key("Fixed dt", "1e-7"))) +
-      own_output(folder / "ours.e", "10",
-                 {"Displacement", "Velocity", "Force_Density", "Element_Id", "Dilatation", "Weighted_Volume", "Damage"});
+      own_output(
+          folder / "ours.e", "10",
+          {"Displacement", "Velocity", "Force_Density", "Element_Id", "Dilatation", "Weighted_Volume", "Damage"});
   expect_the_same(folder, theirs, ours);
 }
 
