@@ -17,8 +17,8 @@ namespace {
 // others get there.
 constexpr double skin_share = 0.08;
 
-// A search is due this many steps before a skin distance is used up, since the motion of the next step is a forecast.
-// What points may do in the step after that counts in the stiffness, too.
+// A search is due this many steps before a skin distance is used up, since the motion of the next step is a forecast,
+// and points that come to touch in the step after it count in the stiffness, too.
 constexpr double forecast = 3;
 
 // A search is made where a point has really used this part of its skin distance; by the bound it often only trembles.

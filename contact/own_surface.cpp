@@ -221,7 +221,7 @@ double reach_to_surface(const Domain& domain, int i) {
   return reach_of_cell(cloud, domain.volume(i), i, surface / area);
 }
 
-// What the pieces around tell of this rank's points of both blocks.
+// Sets depth, volume and touch of this rank's points of both blocks by the pieces around them.
 void look_at(const Domain& domain, const BlockPair& blocks, double reach, const Near<Piece>& pieces,
              OwnSurface& surface) {
   for (std::size_t k = 0; k < blocks.points.size(); ++k) {

@@ -41,4 +41,14 @@ double frequency_bound(const Body& body, const MaterialBlock& block, int k) {
   return std::sqrt(speed2 * body.domain.volume(i) * trace(body.shape_inverse[i]) / 3 * steepness);
 }
 
+std::vector<double> frequency_bounds(const Body& body) {
+  std::vector<double> bounds(body.owned(), 0);
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      bounds[block.points[k]] = frequency_bound(body, block, static_cast<int>(k));
+    }
+  }
+  return bounds;
+}
+
 }  // namespace strut

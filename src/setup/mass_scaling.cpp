@@ -14,17 +14,6 @@ namespace strut {
 
 namespace {
 
-// Of owned points, 1/s.
-std::vector<double> bounds_of(const Body& body) {
-  std::vector<double> bounds(body.owned(), 0);
-  for (const MaterialBlock& block : body.blocks) {
-    for (std::size_t k = 0; k < block.points.size(); ++k) {
-      bounds[block.points[k]] = frequency_bound(body, block, static_cast<int>(k));
-    }
-  }
-  return bounds;
-}
-
 void scale(const std::vector<double>& densities, const std::vector<double>& bounds, double highest, Body& body) {
   body.mass_scale.assign(body.owned(), 1);
   for (int i = 0; i < body.owned(); ++i) {
@@ -37,7 +26,7 @@ void scale(const std::vector<double>& densities, const std::vector<double>& boun
 double highest_for(double wanted, Body& body) {
   constexpr int most_trials = 20;
   constexpr double lower = 0.99;  // each trial a hundredth below what the one before calls for
-  const std::vector<double> densities = body.density, bounds = bounds_of(body);
+  const std::vector<double> densities = body.density, bounds = frequency_bounds(body);
   advance_stress(body, 0, false);
   CriticalTimeStep estimate;
   double critical = estimate.estimate(body);
@@ -100,7 +89,7 @@ std::string report_of(const Body& body, const std::vector<Added>& added, double 
 }  // namespace
 
 void scale_masses(double highest, Body& body) {
-  if (highest > 0) scale(std::vector<double>(body.density), bounds_of(body), highest, body);
+  if (highest > 0) scale(std::vector<double>(body.density), frequency_bounds(body), highest, body);
 }
 
 double scale_masses(const deck::Deck& deck, Body& body, std::string& report) {

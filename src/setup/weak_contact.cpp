@@ -59,9 +59,14 @@ struct Strength {
   double energy = 0;    // J, if all points press on all that they can reach
 };
 
+// A point of each, of two bodies, far from each other at the start.
+contact::PointPair pair_of(const contact::PairLaw& law, const Side& a, const Side& b) {
+  return {{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * contact::radius_of(law), false};
+}
+
 Strength strength(const contact::PairLaw& law, const Side& a, const Side& b) {
   const double r = contact::radius_of(law), sphere = 4 * std::numbers::pi / 3 * r * r * r;
-  const contact::PointPair pair{{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * r, false};
+  const contact::PointPair pair = pair_of(law, a, b);
   const double partners = std::min(a.points * (1 + sphere / b.volume()), b.points * (1 + sphere / a.volume()));
   return std::visit(
       [&](const contact::ContactLaw auto& one) {
@@ -144,7 +149,7 @@ std::string weakness(const contact::Law& law, const Side& a, const Side& b, cons
 
 // Its spring between two points that overlap by a tenth of a spacing, in those of the stiffer block, M h.
 double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side& b) {
-  const contact::PointPair pair{{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * contact::radius_of(law), false};
+  const contact::PointPair pair = pair_of(law, a, b);
   const double overlap = 0.1 * std::min(a.spacing, b.spacing);
   const double spring =
       std::visit([&](const contact::ContactLaw auto& one) { return one.tangent_stiffness(pair, overlap); }, law);

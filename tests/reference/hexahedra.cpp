@@ -82,12 +82,16 @@ Lanes gradients(const SideVectors& x, const Slopes& slopes, SideVectors& b) {
   return det;
 }
 
-double steepest(const SideVectors& b, const Lanes& det) {
+Lanes sum_of_squares(const SideVectors& b) {
   Lanes sum = Lanes::Zero();
   for (const Row& gradient : b) {
     for (const Lanes& entry : gradient) sum += entry.square();
   }
-  return (det > 0).all() ? sum.maxCoeff() : std::numeric_limits<double>::infinity();
+  return sum;
+}
+
+double steepest(const Lanes& squares, const Lanes& det) {
+  return (det > 0).all() ? squares.maxCoeff() : std::numeric_limits<double>::infinity();
 }
 
 // (1 − W/2)⁻¹ (1 + W/2) of the skew part W.
@@ -192,11 +196,8 @@ double Hexahedra::add_one_point(Group& group, double dt) {
                 (stress[i][0] * b[c][0] + stress[i][1] * b[c][1] + stress[i][2] * b[c][2] + viscous_pressure * b[c][i]);
     }
   }
-  Lanes square = Lanes::Zero();
-  for (const Row& gradient : b) {
-    for (const Lanes& entry : gradient) square += entry.square();
-  }
-  const Lanes stiffness = hourglass_ * mu_ / 8 * volume * square;
+  const Lanes squares = sum_of_squares(b);
+  const Lanes stiffness = hourglass_ * mu_ / 8 * volume * squares;
   for (int mode = 0; mode < 4; ++mode) {
     const auto pattern = [&](int c) {
       const double s[3] = {sign_of(c, 0), sign_of(c, 1), sign_of(c, 2)};
@@ -220,7 +221,7 @@ double Hexahedra::add_one_point(Group& group, double dt) {
     }
   }
   add_to_nodes(f, group.nodes, forces_);
-  return steepest(b, volume);
+  return steepest(squares, volume);
 }
 
 double Hexahedra::add_eight_points(Group& group, double dt) {
@@ -275,7 +276,7 @@ double Hexahedra::add_eight_points(Group& group, double dt) {
   gradients(x, slopes_of_middle(), middle);
   Lanes least = weights[0];
   for (const Lanes& weight : weights) least = least.min(weight);
-  return steepest(middle, least);
+  return steepest(sum_of_squares(middle), least);
 }
 
 double Hexahedra::step() {

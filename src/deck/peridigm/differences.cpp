@@ -1,4 +1,4 @@
-// What a deck of Peridigm's asks for and this program means otherwise: told at the start of the run, and by how much.
+// Tells where this program means another thing than Peridigm by a key of Peridigm's deck, and by how much.
 #include <algorithm>
 #include <set>
 
@@ -42,7 +42,7 @@ class Differences {
   }
 
  private:
-  // Of the sections of Blocks; "" where one has none.
+  // The values that the sections of Blocks give to a key; "" where a section has none.
   std::set<std::string> values_of(const std::string& key) {
     std::set<std::string> values;
     if (!blocks_) return values;

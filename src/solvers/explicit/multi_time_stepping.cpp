@@ -121,12 +121,7 @@ struct FrequencyBounds {
 };
 
 FrequencyBounds frequency_bounds_of(const Body& body) {
-  FrequencyBounds bounds{std::vector<double>(body.owned(), 0)};
-  for (const MaterialBlock& block : body.blocks) {
-    for (std::size_t k = 0; k < block.points.size(); ++k) {
-      bounds.values[block.points[k]] = frequency_bound(body, block, static_cast<int>(k));
-    }
-  }
+  FrequencyBounds bounds{frequency_bounds(body)};
   double agreed[] = {0, 0};
   over_points(body, [&](int i, bool may) {
     agreed[0] = std::max(agreed[0], bounds.values[i]);

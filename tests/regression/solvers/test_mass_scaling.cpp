@@ -1,7 +1,7 @@
 // Mass scaling: a step as long as the deck wants it, by mass that is told.
 #include <gtest/gtest.h>
 
-#include "regression/bodies.hpp"
+#include "regression/stiff_ended_bar.hpp"
 
 namespace strut::regression {
 namespace {
@@ -16,13 +16,8 @@ Parts bar(const std::string& formulation, const std::string& verlet) {
   } else if (!formulation.empty()) {
     stiff = changed(stiff, key("Density", "8930"), key("Density", "8930") + key("Formulation", formulation));
   }
-  Parts parts;
-  parts.materials = stiff + changed(changed(stiff, "\"copper\"", "\"soft\""), "117e9", "7.3e9");
-  parts.blocks =
-      section("soft", key("Block Names", "bar") + key("Material", "soft") + key("Horizon Factor", "1.75")) +
-      section("stiff", key("Block Names", "plate") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  Parts parts = stiff_ended_bar(stiff, "7.3e9");
   parts.conditions = along("flight", "Initial Velocity", "all", "z", "30 * sin(z / 0.02)");
-  parts.times = key("Final Time", "20e-6");
   parts.verlet = key("Safety Factor", "0.8") + key("Subcycling", "false") + verlet;
   return parts;
 }

@@ -1,7 +1,7 @@
 // When points take smaller steps of their own: where that saves time, by what points cost.
 #include <gtest/gtest.h>
 
-#include "regression/bodies.hpp"
+#include "regression/stiff_ended_bar.hpp"
 
 namespace strut::regression {
 namespace {
@@ -39,13 +39,8 @@ Parts bar_with_substeps(const std::string& formulation, const std::string& load)
   if (!formulation.empty()) {
     stiff = changed(stiff, key("Density", "8930"), key("Density", "8930") + key("Formulation", formulation));
   }
-  Parts parts;
-  parts.materials = stiff + changed(changed(stiff, "\"copper\"", "\"soft\""), "117e9", "1.17e9");
-  parts.blocks =
-      section("soft", key("Block Names", "bar") + key("Material", "soft") + key("Horizon Factor", "1.75")) +
-      section("stiff", key("Block Names", "plate") + key("Material", "copper") + key("Horizon Factor", "1.75"));
+  Parts parts = stiff_ended_bar(stiff, "1.17e9");
   parts.conditions = along("pull", "Body Force", "all", "z", load);
-  parts.times = key("Final Time", "20e-6");
   return parts;
 }
 
