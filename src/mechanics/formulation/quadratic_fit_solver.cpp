@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "mechanics/formulation/lattice_cell.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
@@ -494,10 +495,18 @@ double thickness_of_family(const Body& body, int i) {
   return 4 * std::sqrt(least_square(second / volume - first * first.transpose() / (volume * volume))) / h;
 }
 
-// Of each owned point, spacings: the largest of a family, since one at a surface sees two layers in a thick body, too.
+// The largest thickness in the family of each owned point of a body that has cells, spacings, since a point at a
+// surface sees two layers in a thick body, too.
 std::vector<double> thicknesses(const Body& body) {
+  std::set<int> with_cells;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (body.blocks[b].is_quadratic()) with_cells.insert(body.domain.blocks[b].body);
+  }
   std::vector<double> own(body.domain.sites.size(), 0.0);
-  for_each_point(0, body.owned(), [&](int i) { own[i] = thickness_of_family(body, i); });
+  for_each_point(0, body.owned(), [&](int i) {
+    if (with_cells.contains(body.domain.blocks[body.domain.cloud.blocks[i]].body))
+      own[i] = thickness_of_family(body, i);
+  });
   body.domain.halo.exchange(own);
   std::vector<double> largest(own.begin(), own.begin() + body.owned());
   for_each_point(0, body.owned(), [&](int i) {
