@@ -187,7 +187,7 @@ TEST(HertzImpact, BoundOfTheStiffnessHoldsThroughTheNextStep) {
 TEST(HertzImpact, TangentIsTheSlopeOfTheForce) {
   Impact impact;
   while (impact.overlap() < 0.5 * largest_overlap()) impact.step(duration() / 400);
-  const double k = law.tangent_stiffness({{h * h * h, h * h * h}, 2 * h, h + gap, false}, impact.overlap());
+  const double k = law.tangent_stiffness({{h * h * h, h * h * h}, {2 * h, 2 * h}, h + gap, false}, impact.overlap());
   EXPECT_NEAR(impact.stiffness(), k, 1e-9 * k);  // the overlap is a small difference of places
 }
 
