@@ -49,6 +49,22 @@ class Archive {
     }
   }
 
+  // The same of numbers that are not where a reference can lead: get(k, c), set(k, c, number).
+  template <class Get, class Set>
+  void numbers(const std::string& name, int width, Get&& get, Set&& set) {
+    std::vector<double>& values = column(name, width).values;
+    std::size_t n = 0;
+    for (std::size_t k = 0; n < values.size(); ++k) {
+      for (int c = 0; c < width; ++c, ++n) {
+        if (restores_) {
+          set(k, c, values[n]);
+        } else {
+          values[n] = get(k, c);
+        }
+      }
+    }
+  }
+
   // Any arithmetic type that a double holds exactly.
   template <class T>
   void number(const std::string& name, T& value) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/deduplicated.hpp"
+#include "base/fields.hpp"
 #include "base/math/rotation.hpp"
 #include "base/math/tensors.hpp"
 #include "base/math/tiles.hpp"
@@ -77,6 +78,11 @@ struct ForceStates {
   std::vector<ScalarState> scalars;
   std::vector<GradientState> gradients;  // empty where no block has a stabilization by the gradients of both ends
   std::vector<QuadraticState> quadratics;
+
+  double bytes() const {
+    return static_cast<double>(tensors.size() * sizeof(ForceState) + scalars.size() * sizeof(ScalarState) +
+                               gradients.size() * sizeof(GradientState) + quadratics.size() * sizeof(QuadraticState));
+  }
 };
 
 // What only the point itself reads.
@@ -87,33 +93,60 @@ struct MaterialPoint {
   double stabilization = 0;                          // C of the stabilization, Pa/m⁵
 };
 
+// The numbers of a material point, in the order of its parts.
+template <class Point>
+requires std::same_as<std::remove_const_t<Point>, MaterialPoint>
+auto& number_of(Point& point, int n) {
+  if (n < 9) return point.deformation_gradient.data()[n];
+  if (n < 15) return point.rotation.number(n - 9);
+  return n < 21 ? point.stress[n - 15] : point.stabilization;
+}
+inline std::vector<FieldPart> parts_of_material_point() {
+  return {{.name = "deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = 9},
+          {.name = "rotation", .unit = "1", .meaning = "R of F = V R, two columns", .kept = true, .width = 6},
+          {.name = "stress",
+           .unit = "Pa",
+           .meaning = "Rᵀ σ R",
+           .kept = true,
+           .variable = "Unrotated_Cauchy_Stress",
+           .width = 6},
+          {.name = "stabilization",
+           .unit = "Pa/m⁵",
+           .meaning = "C of the stabilization; none is left of a failed point",
+           .kept = true,
+           .width = 1}};
+}
+
 // The law points of quadratic correspondence in tiles: of each F by columns, the six numbers of R, the stress.
 class CellPoints {
  public:
   static constexpr int rotation = 9, stress = 15, size = 21;  // where they begin; all numbers
+  static std::vector<FieldPart> parts() {
+    return {{.name = "cell_deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = rotation},
+            {.name = "cell_rotation", .unit = "1", .meaning = "R", .kept = true, .width = stress - rotation},
+            {.name = "cell_stress", .unit = "Pa", .meaning = "Rᵀ σ R", .kept = true, .width = size - stress}};
+  }
 
   void resize(std::size_t places) { numbers_.assign(places, numbers_of(MaterialPoint())); }
   std::size_t places() const { return numbers_.size(); }
   MaterialPoint operator[](std::size_t place) const {
     MaterialPoint point;
-    for (int n = 0; n < 9; ++n) point.deformation_gradient.data()[n] = numbers_.at(place, n);
-    for (int n = 0; n < 6; ++n) point.rotation.number(n) = numbers_.at(place, rotation + n);
-    for (int n = 0; n < 6; ++n) point.stress[n] = numbers_.at(place, stress + n);
+    for (int n = 0; n < size; ++n) number_of(point, n) = numbers_.at(place, n);
     return point;
   }
   void set(std::size_t place, const MaterialPoint& point) {
     const auto numbers = numbers_of(point);
     for (int n = 0; n < size; ++n) numbers_.at(place, n) = numbers[n];
   }
-  double& number(std::size_t place, int n) { return numbers_.at(place, n); }
+  double& at(std::size_t place, int n) { return numbers_.at(place, n); }
+  double at(std::size_t place, int n) const { return numbers_.at(place, n); }
   small::Tiles& tiles() { return numbers_; }
+  double bytes() const { return numbers_.bytes(); }
 
  private:
   static std::array<double, size> numbers_of(const MaterialPoint& point) {
     std::array<double, size> numbers;
-    std::copy_n(point.deformation_gradient.data(), 9, numbers.begin());
-    for (int n = 0; n < 6; ++n) numbers[rotation + n] = point.rotation.number(n);
-    std::copy_n(point.stress.data(), 6, numbers.begin() + stress);
+    for (int n = 0; n < size; ++n) numbers[n] = number_of(point, n);
     return numbers;
   }
 
@@ -125,7 +158,18 @@ struct OrdinaryPoint {
   double weighted_volume = 0;  // m = Σ ω |ξ|² V = tr K, m⁵
   double dilatation = 0;       // θ
   double energy = 0;           // W, J/m³; current after a step with diagnostics
+
+  static std::vector<FieldPart> parts() {
+    return {{.name = "weighted_volume", .unit = "m⁵", .meaning = "m", .width = 1},
+            {.name = "dilatation", .unit = "1", .meaning = "θ", .kept = true, .width = 1},
+            {.name = "energy", .unit = "J/m³", .meaning = "W", .kept = true, .width = 1}};
+  }
 };
+template <class Point>
+requires std::same_as<std::remove_const_t<Point>, OrdinaryPoint>
+auto& number_of(Point& point, int n) {
+  return n == 0 ? point.weighted_volume : n == 1 ? point.dilatation : point.energy;
+}
 
 // What the artificial viscosity of a block keeps of a point.
 struct ViscousPoint {
@@ -133,7 +177,30 @@ struct ViscousPoint {
   double work = 0;      // taken so far, J per m³ of reference volume
   double damping = 0;   // part of the critical damping of the fastest wave between points
   double edge = 0;      // of a cube as large as the whole cell, of which a node on a symmetry plane has a part, m
+
+  static std::vector<FieldPart> parts() {
+    return {
+        {.name = "viscous_pressure",
+         .unit = "Pa",
+         .meaning = "of the artificial viscosity, times J",
+         .kept = true,
+         .variable = "Viscous_Pressure",
+         .width = 1},
+        {.name = "viscous_work",
+         .unit = "J/m³",
+         .meaning = "what the artificial viscosity has taken",
+         .kept = true,
+         .variable = "Viscous_Work_Density",
+         .width = 1},
+        {.name = "viscous_damping", .unit = "1", .meaning = "part of the critical damping", .kept = true, .width = 1},
+        {.name = "edge", .unit = "m", .meaning = "of a cube as large as the cell", .width = 1}};
+  }
 };
+template <class Point>
+requires std::same_as<std::remove_const_t<Point>, ViscousPoint>
+auto& number_of(Point& point, int n) {
+  return n == 0 ? point.pressure : n == 1 ? point.work : n == 2 ? point.damping : point.edge;
+}
 
 // Artificial viscosity of von Neumann & Richtmyer (1950) and Landshoff (1955): where the volume shrinks at the rate D,
 // a pressure q = ρ l |D| (b₁ c + b₂² l |D|) resists it, l the distance of points and c the speed of longitudinal waves.
@@ -163,13 +230,26 @@ typename L::State state_in(const small::Tiles& states, std::size_t place) {
 struct MaterialBlock {
   std::string name;
   BlockMaterial material;
-  std::vector<int> points;              // owned points, ascending
-  int interior = 0;                     // so many of them need no ghost
-  small::Tiles state;                   // of law points
-  CellPoints cells;                     // law points of quadratic correspondence; of others body.points are these
-  std::vector<std::uint8_t> flowed;     // of cells, whether their metal has flowed (flow.hpp)
-  std::vector<OrdinaryPoint> ordinary;  // of points[k]; empty by correspondence
-  std::vector<ViscousPoint> viscous;    // of law points; empty without viscosity
+  std::vector<int> points;  // owned points, ascending
+  int interior = 0;         // so many of them need no ghost
+
+  FieldSet fields;
+  // The law's own, number by number.
+  FieldRef<small::Tiles> state = fields.add<small::Tiles>(At::integration_point, {});
+  // Of quadratic correspondence; of others body.points are these.
+  FieldRef<CellPoints> cells = fields.add<CellPoints>(At::integration_point, CellPoints::parts(), When::if_used);
+  PointField<std::uint8_t> flowed =
+      fields.of_points<std::uint8_t>({.name = "flowed",
+                                      .unit = "1",
+                                      .meaning = "1 where the metal of a cell by quadratic correspondence has flowed",
+                                      .kept = true,
+                                      .variable = "Flowed"},
+                                     When::if_used);  // flow.hpp
+  PointField<OrdinaryPoint> ordinary =
+      fields.add<std::vector<OrdinaryPoint>>(At::point, OrdinaryPoint::parts(), When::if_used);
+  PointField<ViscousPoint> viscous =
+      fields.add<std::vector<ViscousPoint>>(At::integration_point, ViscousPoint::parts(), When::if_used);
+
   // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
   bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
@@ -232,31 +312,57 @@ class QuadraticFits;
 // 2ⁿ of a small n. A call of std::ldexp for each point would be a hundredth of a step.
 inline double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
 
-struct Body {
+// The fields of the owned points of a body.
+struct PointFields {
+  FieldSet fields;
+  PointField<MaterialPoint> points = fields.add<std::vector<MaterialPoint>>(At::point, parts_of_material_point());
+  PointField<double> density = fields.of_points<double>(
+      {.name = "density", .unit = "kg/m³", .meaning = "of inertia: with what mass scaling adds"});
+  PointField<double> mass_scale =
+      fields.of_points<double>({.name = "mass_scale",
+                                .unit = "1",
+                                .meaning = "the inertia by mass scaling over that of the material; 0: none",
+                                .variable = "Mass_Scale"},
+                               When::if_used);
+  PointField<Vector> velocity = fields.of_points<Vector>(
+      {.name = "velocity", .unit = "m/s", .meaning = "at the mid-step after the time", .kept = true});
+  PointField<Vector> previous_velocity = fields.of_points<Vector>(
+      {.name = "previous_velocity", .unit = "m/s", .meaning = "at the mid-step before the time", .kept = true});
+  // A sum that the phases of a step build up: what the points' own states give begins it, bonds, contact and loads add.
+  PointField<Vector> force_density = fields.of_points<Vector>(
+      {.name = "force_density",
+       .unit = "N/m³",
+       .meaning = "internal force and loads, per reference volume; where points are subcycled, what acts at the end of "
+                  "a step",
+       .kept = true,
+       .variable = "Force_Density",
+       .nodal = true});
+  PointField<double> residual = fields.of_points<double>(  // current after a step with diagnostics
+      {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|², by correspondence", .kept = true});
+  PointField<double> bond_work = fields.of_points<double>(  // as current
+      {.name = "bond_work", .unit = "J/m³", .meaning = "energy of the springs on both ends' gradients", .kept = true},
+      When::if_used);
+  FieldRef<Deduplicated<Symmetric>> shape_inverse = fields.add<Deduplicated<Symmetric>>(
+      At::point, {{.name = "shape_inverse", .unit = "1/m⁵", .meaning = "K⁻¹", .width = 6}});
+  FieldRef<Deduplicated<Vector>> first_moment = fields.add<Deduplicated<Vector>>(
+      At::point, {{.name = "first_moment", .unit = "m⁴", .meaning = "Σ ω V ξ", .width = 3}});
+  // Multi-time-stepping; ghosts, too, and of no point where it is empty: it chooses them anew, and keeps its choice.
+  PointField<std::uint8_t> time_levels =
+      fields.of_points<std::uint8_t>({.name = "time_levels",
+                                      .unit = "1",
+                                      .meaning = "the level h of a step of its own, Δt/2ʰ",
+                                      .variable = "Time_Step_Level"},
+                                     When::if_used);
+};
+
+struct Body : PointFields {
   Domain domain;  // y of its sites is what solvers move
   Influence influence = Influence::one;
   std::vector<MaterialBlock> blocks;  // as domain.cloud.block_names
 
   ForceStates force_states;  // of owned points and ghosts
 
-  // Owned points.
-  std::vector<MaterialPoint> points;
-  Deduplicated<Symmetric> shape_inverse;  // K⁻¹, 1/m⁵
-  std::shared_ptr<QuadraticFits> fits;    // of owned points by quadratic correspondence, where there are any
-  std::vector<double> density;            // of inertia, kg/m³
-  std::vector<double> mass_scale;         // what mass scaling made of it, times; empty: nothing
-  std::vector<Vector> velocity;           // at mid-step, m/s
-  std::vector<Vector> previous_velocity;  // at the mid-step before, m/s
-  // N/m³ of reference volume. From a stress update to the sum of forces that follows: what the points' own states give,
-  // to which the sum adds what the far ends of their bonds give.
-  std::vector<Vector> force_density;
-  Deduplicated<Vector> first_moment;  // Σ ω V ξ, m⁴
-  // Where some points have time steps of their own (multi-time-stepping), ghosts too: the level h of each, Δt/2ʰ.
-  // Empty: no point's.
-  std::vector<std::uint8_t> time_levels;
-  // Current after a step with diagnostics:
-  std::vector<double> residual;   // Σ ω V |η − F ξ|², m⁵, by correspondence
-  std::vector<double> bond_work;  // energy of the springs on both ends' gradients, J/m³; empty where no block has them
+  std::shared_ptr<QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
 
   std::shared_ptr<Fracture> fracture;  // where bonds may break
 

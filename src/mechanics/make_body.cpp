@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "materials/state_variables.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/fracture/fracture.hpp"
@@ -15,6 +16,21 @@
 namespace strut {
 
 namespace {
+
+template <class L>
+std::vector<FieldPart> parts_of_state() {
+  std::vector<FieldPart> parts;
+  for (const std::string_view name : L::state_names) {
+    const materials::StateVariable known = materials::state_variable(name);
+    parts.push_back({.name = std::string(name),
+                     .unit = std::string(known.unit),
+                     .meaning = std::string(known.meaning),
+                     .kept = true,
+                     .variable = std::string(name),
+                     .width = 1});
+  }
+  return parts;
+}
 
 std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<BlockMaterial>& materials) {
   std::vector<MaterialBlock> blocks;
@@ -29,18 +45,29 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
   std::size_t cells = 0;
   for (MaterialBlock& block : blocks) {
     const auto fresh_state = [&block]<class L>(const L& law) {
-      block.state.assign(block.law_points(), materials::to_columns<L>(materials::virgin_state_of(law)));
+      block.state->assign(block.law_points(), materials::to_columns<L>(materials::virgin_state_of(law)));
+      block.state.set_parts(parts_of_state<L>());
     };
     std::visit(fresh_state, block.material.law);
     if (!block.points.empty() && !domain.families.lattice_of.empty()) {
       block.lattice = domain.families.lattice_of[block.points[0]];
     }
-    if (block.is_ordinary()) block.ordinary.resize(block.points.size());
-    if (block.is_quadratic()) block.cells.resize(block.law_points()), block.flowed.assign(block.points.size(), 0);
+    if (block.is_ordinary()) block.ordinary.use(block.points.size());
+    if (block.is_quadratic()) {
+      block.cells.use(block.law_points());
+      block.flowed.use(block.points.size());
+    }
     block.first_law_point = cells;
-    cells += block.cells.places();
+    cells += block.cells->places();
   }
   return blocks;
+}
+
+// Springs on the residual of both ends' gradients.
+bool has_springs_in_bonds(const std::vector<BlockMaterial>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) {
+    return residual_of(m.stabilization) == ResidualKind::both_gradients && coefficient_of(m.stabilization) > 0;
+  });
 }
 
 // Room for the states of the formulations that any block of the scene has, on this rank or another.
@@ -53,10 +80,7 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::force_state(Tensor::Zero(), 0));
   if (any(Formulation::ordinary)) states.scalars.resize(points);
   if (any(Formulation::quadratic)) states.quadratics.resize(points);
-  const bool with_gradients = std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) {
-    return residual_of(m.stabilization) == ResidualKind::both_gradients && coefficient_of(m.stabilization) > 0;
-  });
-  if (with_gradients) {  // undeformed, as what moves rigidly stays
+  if (has_springs_in_bonds(materials)) {  // undeformed, as what moves rigidly stays
     states.gradients.assign(points, bonds::gradient_state(Tensor::Identity(), 0, 0, NoStabilization()));
   }
   return states;
@@ -153,7 +177,7 @@ void set_what_blocks_feel(Body& body) {
 }
 
 void set_viscous(const Domain& domain, MaterialBlock& block) {
-  block.viscous.resize(block.law_points());
+  block.viscous.use(block.law_points());
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
     const double edge = std::cbrt(coincident_images(domain, i) * domain.volume(i));
@@ -165,33 +189,13 @@ void set_viscous(const Domain& domain, MaterialBlock& block) {
 
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials) {
   std::vector<MaterialBlock> blocks = blocks_of(domain, materials);
-  Body body{.domain = std::move(domain),
-            .influence = influence,
-            .blocks = std::move(blocks),
-            .force_states = {},
-            .points = {},
-            .shape_inverse = {},
-            .fits = {},
-            .density = {},
-            .velocity = {},
-            .previous_velocity = {},
-            .force_density = {},
-            .first_moment = {},
-            .time_levels = {},
-            .residual = {},
-            .bond_work = {},
-            .fracture = {},
-            .lattice_sums = {}};
-  const std::size_t owned = body.owned();
+  Body body{.domain = std::move(domain), .influence = influence, .blocks = std::move(blocks)};
   for (MaterialBlock& block : body.blocks) set_off_stencil(body.domain, block);
   body.force_states = zero_states(body.domain.sites.size(), materials);
-  body.points.resize(owned);
-  for (const int block : body.domain.cloud.blocks) body.density.push_back(materials[block].density);
-  body.velocity.assign(owned, Vector::Zero());
-  body.previous_velocity.assign(owned, Vector::Zero());
-  body.force_density.assign(owned, Vector::Zero());
-  body.residual.assign(owned, 0);
-  if (!body.force_states.gradients.empty()) body.bond_work.assign(owned, 0);
+  const std::size_t owned = body.owned();
+  body.fields.resize(owned);
+  for (std::size_t i = 0; i < owned; ++i) body.density[i] = materials[body.domain.cloud.blocks[i]].density;
+  if (has_springs_in_bonds(materials)) body.bond_work.use(owned);
   for (MaterialBlock& block : body.blocks) {
     if (block.material.formulation != Formulation::correspondence && block.lattice >= 0) {
       throw std::logic_error("a block that is not by correspondence must ask for lists");
@@ -208,35 +212,14 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   return body;
 }
 
-namespace {
-
-// What bonds and contacts read of a point, ghosts too.
-std::size_t seen_bytes(const Body& body) {
-  return sizeof(Site) + (body.force_states.tensors.empty() ? 0 : sizeof(ForceState)) +
-         (body.force_states.scalars.empty() ? 0 : sizeof(ScalarState)) +
-         (body.force_states.gradients.empty() ? 0 : sizeof(GradientState)) +
-         (body.force_states.quadratics.empty() ? 0 : sizeof(QuadraticState));
-}
-
-// What an owned point has besides.
-std::size_t own_bytes(const MaterialBlock& block, bool has_bond_work) {
-  const std::size_t state = std::visit([]<class L>(const L&) { return materials::state_size<L>; }, block.material.law);
-  constexpr std::size_t mechanics = sizeof(MaterialPoint) + 3 * sizeof(Vector) + 2 * sizeof(double) + sizeof(int);
-  constexpr std::size_t cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
-  const std::size_t of_law_point = state * sizeof(double) +
-                                   (block.is_quadratic() ? CellPoints::size * sizeof(double) : 0) +
-                                   (block.material.viscosity.any() ? sizeof(ViscousPoint) : 0);
-  return mechanics + cloud + block.places_a_point() * of_law_point + (has_bond_work ? sizeof(double) : 0) +
-         (block.is_ordinary() ? sizeof(OrdinaryPoint) : 0) + (block.is_quadratic() ? sizeof(CellShape) : 0);
-}
-
-}  // namespace
-
 double footprint(const Body& body) {
-  double bytes = body.shape_inverse.bytes() + body.first_moment.bytes() + body.domain.families.bytes() +
-                 static_cast<double>(seen_bytes(body) * body.domain.sites.size());
-  for (const MaterialBlock& block : body.blocks)
-    bytes += static_cast<double>(own_bytes(block, !body.bond_work.empty()) * block.points.size());
+  const Domain& domain = body.domain;
+  constexpr std::size_t in_cloud = 2 * sizeof(std::int64_t) + sizeof(double) + sizeof(int) + sizeof(std::uint64_t);
+  double bytes = static_cast<double>(sizeof(Site) * domain.sites.size() + in_cloud * domain.owned) +
+                 body.force_states.bytes() + body.fields.bytes() + domain.families.bytes();
+  for (const MaterialBlock& block : body.blocks) {
+    bytes += block.fields.bytes() + static_cast<double>(block.points.size() * sizeof(int));
+  }
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   if (body.fits) bytes += body.fits->bytes();
   if (body.fracture) bytes += body.fracture->bytes();

@@ -11,14 +11,6 @@ namespace strut {
 
 namespace {
 
-void serialize_vectors(Archive& archive, const std::string& name, std::vector<Vector>& vectors) {
-  archive.field(name, 3, [&](std::size_t i, int c) -> double& { return vectors[i][c]; });
-}
-
-void serialize_numbers(Archive& archive, const std::string& name, std::vector<double>& numbers) {
-  archive.field(name, 1, [&](std::size_t i, int) -> double& { return numbers[i]; });
-}
-
 // Collective. A number that changes with the node sets that points are in, however these are spread over the ranks.
 double mark_of_sets(const Body& body) {
   constexpr std::uint64_t digits = (std::uint64_t{1} << 52) - 1;  // that a double holds
@@ -51,60 +43,8 @@ void compare_reference(Archive& archive, const Body& body) {
                            "; a run can go on with the same one only");
 }
 
-void serialize_motion(Archive& archive, Body& body) {
-  archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
-  serialize_vectors(archive, "velocity", body.velocity);
-  serialize_vectors(archive, "previous_velocity", body.previous_velocity);
-  serialize_vectors(archive, "force_density", body.force_density);
-}
-
-void keep_points(Archive& archive, Body& body) {
-  std::vector<MaterialPoint>& points = body.points;
-  archive.field("deformation_gradient", 9,
-                [&](std::size_t i, int c) -> double& { return points[i].deformation_gradient.data()[c]; });
-  archive.field("rotation", 6, [&](std::size_t i, int c) -> double& { return points[i].rotation.number(c); });
-  archive.field("stress", 6, [&](std::size_t i, int c) -> double& { return points[i].stress.data()[c]; });
-  // A failed point has none left.
-  archive.field("stabilization", 1, [&](std::size_t i, int) -> double& { return points[i].stabilization; });
-  serialize_numbers(archive, "residual", body.residual);
-  if (body.has_springs(ResidualKind::both_gradients)) serialize_numbers(archive, "bond_work", body.bond_work);
-}
-
-// The law points of quadratic correspondence.
-void keep_cells(Archive& archive, MaterialBlock& block) {
-  archive.field("flowed", 1, [&block](std::size_t k, int) -> std::uint8_t& { return block.flowed[k]; });
-  const int places = block.places_a_point();
-  const auto field = [&](const std::string& name, int first, int width) {
-    archive.field("cell_" + name, width * places, [&block, first, width](std::size_t k, int c) -> double& {
-      return block.cells.number(block.place(k, c / width), first + c % width);
-    });
-  };
-  field("deformation_gradient", 0, 9);
-  field("rotation", CellPoints::rotation, 6);
-  field("stress", CellPoints::stress, 6);
-}
-
-void keep_block(Archive& archive, const Body& body, std::size_t number, MaterialBlock& block) {
-  archive.points("block " + std::to_string(number) + " (" + block.name + ")", ids_of(body, block.points));
-  const int places = block.places_a_point();
-  const int columns =
-      std::visit([]<class L>(const L&) { return static_cast<int>(materials::state_size<L>); }, block.material.law);
-  if (columns > 0) {
-    archive.field("state", columns * places, [&](std::size_t k, int c) -> double& {
-      return block.state.at(block.place(k, c % places), c / places);
-    });
-  }
-  if (block.is_quadratic()) keep_cells(archive, block);
-  if (block.is_ordinary()) {
-    archive.field("dilatation", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].dilatation; });
-    archive.field("energy", 1, [&](std::size_t k, int) -> double& { return block.ordinary[k].energy; });
-  }
-  if (block.material.viscosity.any()) {
-    archive.field("viscosity", 3 * places, [&](std::size_t k, int c) -> double& {
-      ViscousPoint& point = block.viscous[block.place(k, c / 3)];
-      return c % 3 == 0 ? point.pressure : c % 3 == 1 ? point.work : point.damping;
-    });
-  }
+Places places_of(const MaterialBlock& block) {
+  return {block.places_a_point(), [&block](std::size_t k, int q) { return block.place(k, q); }};
 }
 
 }  // namespace
@@ -119,13 +59,15 @@ std::vector<std::int64_t> ids_of(const Body& body, const std::vector<int>& point
 void serialize(Archive& archive, Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     archive.number("rigid_motion_" + std::to_string(b), body.blocks[b].in_rigid_motion);
-    keep_block(archive, body, b, body.blocks[b]);
+    MaterialBlock& block = body.blocks[b];
+    archive.points("block " + std::to_string(b) + " (" + block.name + ")", ids_of(body, block.points));
+    block.fields.serialize(archive, places_of(block));
   }
   const auto owned = body.domain.cloud.ids.begin() + body.owned();
   archive.points("all points", {body.domain.cloud.ids.begin(), owned});
   compare_reference(archive, body);
-  serialize_motion(archive, body);
-  keep_points(archive, body);
+  archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
+  body.fields.serialize(archive);
   if (archive.loading()) body.domain.halo.exchange_places(body.domain.sites);
   if (body.fracture) body.fracture->serialize(archive, body);
   if (archive.loading()) refit_flowed(body);

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/errors.hpp"
+#include "materials/state_variables.hpp"
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/fracture/fragments.hpp"
 
@@ -101,9 +102,6 @@ std::vector<Observable> kinematic() {
       observable(
           "Force", "internal force and loads, N; where points are subcycled, what acts at the end of a step",
           [](const Body& b, int i) -> Vector { return b.force_density[i] * b.domain.volume(i); }, true),
-      observable(
-          "Force_Density", "the same per reference volume, N/m³",
-          [](const Body& b, int i) { return b.force_density[i]; }, true),
       observable("Deformation_Gradient", "F",
                  [](const Body& b, int i) { return by_rows(b.points[i].deformation_gradient); }),
       observable("Rotation_Tensor", "R of F = V R",
@@ -127,7 +125,6 @@ std::vector<Observable> kinematic() {
 std::vector<Observable> stresses() {
   return {
       observable("Cauchy_Stress", "σ, Pa", cauchy),
-      observable("Unrotated_Cauchy_Stress", "Rᵀ σ R, Pa", [](const Body& b, int i) { return b.points[i].stress; }),
       observable("Von_Mises_Stress", "√(3/2 s:s), Pa",
                  [](const Body& b, int i) { return von_mises(b.points[i].stress); }),
       observable("Pressure", "−tr σ/3, Pa", [](const Body& b, int i) { return -trace(b.points[i].stress) / 3; }),
@@ -161,27 +158,62 @@ std::vector<Observable> fixed_properties() {
   };
 }
 
-// One column of the state of the laws that have it.
-Observable state_variable(const std::string& name) {
-  const auto fill = [name](const Body& body, std::vector<double>& out) {
-    out.assign(body.owned(), 0);
+// Calls take(field, part, the number that the part begins with) for the part with this name as an output variable.
+template <class Take>
+void with_part(const FieldSet& fields, const std::string& variable, const Take& take) {
+  for (const auto& field : fields.all()) {
+    int first = 0;
+    for (const FieldPart& part : field->parts) {
+      if (part.variable == variable && field->bytes() > 0) take(*field, part, first);
+      first += part.width;
+    }
+  }
+}
+
+// Of a field that is declared as one, of points or of blocks; of integration points the mean.
+Observable declared(const FieldPart& part) {
+  const auto fill = [variable = part.variable, width = part.width](const Body& body, std::vector<double>& out) {
+    out.assign(static_cast<std::size_t>(body.owned()) * width, 0);
+    const auto number = [&](int i, int c) -> double& { return out[static_cast<std::size_t>(i) * width + c]; };
+    with_part(body.fields, variable, [&](const AnyField& field, const FieldPart&, int first) {
+      for (int i = 0; i < body.owned(); ++i) {
+        for (int c = 0; c < width; ++c) number(i, c) = field.number(i, first + c);
+      }
+    });
     for (const MaterialBlock& block : body.blocks) {
-      const auto copy = [&]<class L>(const L&) {
-        const auto at = std::find(L::state_names.begin(), L::state_names.end(), name);
-        if (at == L::state_names.end()) return;
-        const auto column = static_cast<std::size_t>(at - L::state_names.begin());
-        const int places = block.places_a_point();
+      with_part(block.fields, variable, [&](const AnyField& field, const FieldPart&, int first) {
+        const int places = field.at == At::point ? 1 : block.places_a_point();
         for (std::size_t k = 0; k < block.points.size(); ++k) {
-          double sum = 0;
-          for (int q = 0; q < places; ++q) sum += block.state.at(block.place(k, q), column);
-          out[block.points[k]] = sum / places;
+          for (int c = 0; c < width; ++c) {
+            double sum = 0;
+            for (int q = 0; q < places; ++q) sum += field.number(places > 1 ? block.place(k, q) : k, first + c);
+            number(block.points[k], c) = sum / places;
+          }
         }
-      };
-      std::visit(copy, block.material.law);
+      });
     }
   };
-  return {name, 1, false, "state of material laws that have it; by quadratic correspondence the mean over the cell",
-          fill};
+  return {part.variable, part.width, part.nodal, part.meaning, fill, part.unit};
+}
+
+std::vector<Observable> declared_fields() {
+  std::vector<Observable> all;
+  const auto add = [&all](const FieldSet& fields) {
+    for (const auto& field : fields.all()) {
+      for (const FieldPart& part : field->parts) {
+        if (!part.variable.empty()) all.push_back(declared(part));
+      }
+    }
+  };
+  add(PointFields().fields);
+  add(MaterialBlock().fields);
+  return all;
+}
+
+Observable of_state(const std::string& name) {
+  const materials::StateVariable known = materials::state_variable(name);
+  return declared(
+      {.unit = std::string(known.unit), .meaning = std::string(known.meaning), .variable = name, .width = 1});
 }
 
 template <class L>
@@ -200,14 +232,15 @@ std::set<std::string> states_of_all_laws() {
 // The fixed observables, and the state variables of these names.
 std::vector<Observable> with_states(const std::set<std::string>& states) {
   std::vector<Observable> all = kinematic();
-  for (auto group : {stresses(), fixed_properties()}) all.insert(all.end(), group.begin(), group.end());
-  for (const std::string& name : states) all.push_back(state_variable(name));
+  for (auto group : {stresses(), fixed_properties(), declared_fields()})
+    all.insert(all.end(), group.begin(), group.end());
+  for (const std::string& name : states) all.push_back(of_state(name));
   return all;
 }
 
 const char* const introduction = R"(# Output variables
 
-Generated from the tables in `src/output/observables.cpp`; do not edit by hand. SI units throughout.
+Generated from `src/output/observables.cpp` and the fields that are declared as output variables (`src/mechanics/body.hpp`, `materials/state_variables.hpp`); do not edit by hand. SI units throughout.
 
 Each is a field of the points that the section `Output` of a deck can write (`Output Variables`). With `Max_` or `Min_`
 in front it is a column that the section `History` can write: the extreme over all points, or with the name of a node
@@ -226,7 +259,7 @@ direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m
 
 X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of
 the [glossary](../docs/glossary.md). A state variable is there where a material of the deck has a law with it: `Failed` of
-metal foams alone, say. What they mean, and their units, stand at `State` in the headers of [materials](../materials/README.md).
+metal foams alone, say; by quadratic correspondence it is the mean over the cell.
 
 | variable | components | in the Exodus file | meaning, with its unit |
 |---|---|---|---|
@@ -273,22 +306,21 @@ std::string observables_page() {
   std::string text = introduction;
   for (const Observable& o : observables_of_all_laws()) {
     text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
-            escaped(o.meaning) + " |\n";
+            escaped(o.meaning + (o.unit.empty() || o.unit == "1" ? "" : ", " + o.unit)) + " |\n";
   }
   return text;
 }
 
-// The part after a comma that is one of these; of states of laws, by their names.
+// As it is declared, or the part of the meaning after a comma that is one of these.
 std::string unit_of(const Observable& observable) {
+  if (!observable.unit.empty()) return observable.unit;
   static const std::vector<std::string> units = {"N/m³", "kg/m³", "m/s", "m³", "m⁵", "N", "m", "Pa"};
   for (const std::string& unit : units) {
     const std::size_t at = observable.meaning.find(", " + unit);
     const std::size_t end = at + 2 + unit.size();
     if (at != std::string::npos && (end == observable.meaning.size() || observable.meaning[end] == ';')) return unit;
   }
-  if (observable.name.ends_with("Temperature")) return "K";
-  if (observable.name.ends_with("Threshold")) return "Pa";
-  return observable.name.ends_with("_Energy_Density") ? "J/m³" : "1";
+  return "1";
 }
 
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,

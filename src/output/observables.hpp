@@ -19,6 +19,7 @@ struct Observable {
   std::string meaning;  // with its unit, for the page
   // Writes the components of every owned point, point by point.
   std::function<void(const Body&, std::vector<double>&)> fill;
+  std::string unit = {};  // of a declared field; empty: as the meaning has it
 };
 
 std::string unit_of(const Observable& observable);  // as its meaning has it; "1" for none

@@ -15,7 +15,7 @@ namespace strut {
 namespace {
 
 void scale(const std::vector<double>& densities, const std::vector<double>& bounds, double highest, Body& body) {
-  body.mass_scale.assign(body.owned(), 1);
+  body.mass_scale.use(body.owned(), 1);
   for (int i = 0; i < body.owned(); ++i) {
     body.mass_scale[i] = std::max(1.0, std::pow(bounds[i] / highest, 2));
     body.density[i] = body.mass_scale[i] * densities[i];

@@ -20,7 +20,7 @@ class Rotation {
     return R;
   }
   double& number(int c) { return numbers_[c]; }  // 0 ≤ c < 6
-  double number(int c) const { return numbers_[c]; }
+  const double& number(int c) const { return numbers_[c]; }
 
  private:
   double numbers_[6];

@@ -107,7 +107,7 @@ struct Update {
 
   // The largest frequency bound² of the points of a group.
   double advance(const LaneGroup& group) const {
-    GroupTile<materials::state_size<L>, 1> state(block().state, group.k, group.count);
+    GroupTile<materials::state_size<L>, 1> state(*block().state, group.k, group.count);
     const LawPoints<PointRecords> g{group, group.k, members(group), state.rows()};
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
     const auto [N, pull] = moments(body(), group, with_springs);
@@ -117,7 +117,7 @@ struct Update {
     const Lanes share = lanes_of([&](int l) { return body().share(group.i[l], law.pass.level); });
     Deformed now = law.deformed(g.numbers, F, share, carries);
     law.set_stress(g, share, now);
-    state.give_back(block().state, group.k, group.count);
+    state.give_back(*block().state, group.k, group.count);
     const Lanes C = lanes_of([&](int l) { return block().own_springs_of(*g.numbers.points[l]); }), shared_C = share * C;
     const LaneTensor A = force_states(now, C, shape_inverse, share);
     const LaneVector own = bonds::own_force(A, shared_C, first_moments(group, body().first_moment), pull);

@@ -30,7 +30,7 @@ bool begin_flow(Body& body, MaterialBlock& block, int k) {
     MaterialPoint point = block.cells[place];
     point.deformation_gradient = body.fits->gradient_at(body, i, q, [&](int j) { return body.domain.current(j); });
     point.rotation = Rotation(polar_rotation(point.deformation_gradient));
-    block.cells.set(place, point);
+    block.cells->set(place, point);
   }
   return true;
 }

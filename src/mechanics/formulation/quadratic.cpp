@@ -30,14 +30,14 @@ class CellsAtPlace {
       : block_(block),
         group_(group),
         places_(places_of(block, group, q)),
-        numbers_(block.cells.tiles(), places_, group.count),
-        state_(block.state, places_, group.count) {}
+        numbers_(block.cells->tiles(), places_, group.count),
+        state_(*block.state, places_, group.count) {}
 
   LawPoints<PointTile> points() const { return {group_, places_, {numbers_.rows()}, state_.rows()}; }
   PointTile numbers() const { return {numbers_.rows()}; }
   void give_back() const {
-    numbers_.give_back(block_.cells.tiles(), places_, group_.count);
-    state_.give_back(block_.state, places_, group_.count);
+    numbers_.give_back(block_.cells->tiles(), places_, group_.count);
+    state_.give_back(*block_.state, places_, group_.count);
   }
 
  private:

@@ -11,7 +11,7 @@ void Committed::take(const Body& body) {
   points_ = body.points;
   states_.clear(), viscous_.clear(), cells_.clear();
   for (const MaterialBlock& block : body.blocks) {
-    states_.push_back(block.state), viscous_.push_back(block.viscous), cells_.push_back(block.cells);
+    states_.push_back(*block.state), viscous_.push_back(*block.viscous), cells_.push_back(*block.cells);
   }
 }
 
@@ -85,7 +85,7 @@ materials::StretchTangent by_stretch(const L& law, const MaterialPoint& old, con
 
 std::vector<PointTangent> point_tangents(const Body& body, const Committed& start, double dt) {
   std::size_t cells = 0;
-  for (const MaterialBlock& block : body.blocks) cells += block.cells.places();
+  for (const MaterialBlock& block : body.blocks) cells += block.cells->places();
   std::vector<PointTangent> tangents(body.owned() + cells, {Eigen::Matrix<double, 9, 9>::Zero()});
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];

@@ -45,10 +45,10 @@ bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
   const int i = block.points[k];
   const Symmetric inverse = inverse_of(shape_tensor(body, i));
   const bool holds = trace(inverse) > 0 && body.domain.volume(i) * trace(inverse) <= most;
-  body.shape_inverse.set(i, holds ? inverse : Symmetric(Symmetric::Zero()));
+  body.shape_inverse->set(i, holds ? inverse : Symmetric(Symmetric::Zero()));
   bonds::with_influence(body.influence, [&](auto weight) {
     const bonds::OfPoint family{body.domain.families, i};
-    body.first_moment.set(i, bonds::first_moment(family, body.domain.sites.data(), weight));
+    body.first_moment->set(i, bonds::first_moment(family, body.domain.sites.data(), weight));
   });
   return holds;
 }
@@ -87,7 +87,7 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
     }
     materials::move_stress(law, to, jumped, state);
     const auto columns = materials::to_columns<L>(state);
-    for (std::size_t c = 0; c < columns.size(); ++c) block.state.at(place, c) = columns[c];
+    for (std::size_t c = 0; c < columns.size(); ++c) block.state->at(place, c) = columns[c];
   };
   std::visit(step, block.material.law);
 }
@@ -117,7 +117,7 @@ bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& s
     const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
     MaterialPoint point = block.cells[place];
     holds = holds && set_start(block, place, point, F, start.dt);
-    block.cells.set(place, point);
+    block.cells->set(place, point);
   }
   return holds;
 }
@@ -148,9 +148,9 @@ void release(Body& body, MaterialBlock& block, int k) {
   const int i = block.points[k];
   if (block.is_quadratic()) {
     body.fits->drop(i);
-    for (int q = 0; q < block.places_a_point(); ++q) block.cells.set(block.place(k, q), MaterialPoint());
+    for (int q = 0; q < block.places_a_point(); ++q) block.cells->set(block.place(k, q), MaterialPoint());
   } else {
-    body.shape_inverse.set(i, Symmetric::Zero());
+    body.shape_inverse->set(i, Symmetric::Zero());
     release(body.points[i]);
   }
 }

@@ -44,7 +44,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
                                      ToBeRestored)
     : body_(body), conditions_(std::move(conditions)), contact_(std::move(contact)), control_(control), time_(0) {
   loads_change_ = depend_on_time(conditions_, Stage::forces);
-  body_.time_levels.clear();
+  body_.time_levels->clear();
 }
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
@@ -68,7 +68,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
 }
 
 void CentralDifference::start(const std::vector<std::uint8_t>& pushed) {
-  body_.time_levels.clear();
+  body_.time_levels->clear();
   StepReport report = advance_stress(body_, 0, true);
   reassign_levels(report, pushed);
   sum_forces(body_, true);
@@ -217,7 +217,7 @@ void CentralDifference::choose_load_times(double final_time) {
 void CentralDifference::add_loads() {
   if (load_times_.size() == 1) return add_forces(conditions_, load_times_[0], body_);
   std::vector<Vector> others(body_.owned(), Vector::Zero());
-  std::swap(others, body_.force_density);
+  std::swap(others, *body_.force_density);
   for (const double t : load_times_) add_forces(conditions_, t, body_);
   const double part = 1 / static_cast<double>(load_times_.size());
   for_each_point(0, body_.owned(), [&](int i) { body_.force_density[i] = others[i] + part * body_.force_density[i]; });

@@ -274,7 +274,7 @@ small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster,
 
 double MultiTimeStepping::choose(Body& body, double safety_factor, const PresentStep& present,
                                  const std::vector<std::uint8_t>& pushed) {
-  const std::vector<std::uint8_t> before = std::move(body.time_levels);
+  const std::vector<std::uint8_t> before = std::move(*body.time_levels);
   const double margin = std::min(1.0, most_turn / safety_factor), bearable = present.slack * present.bound;
   FrequencyBounds bounds = frequency_bounds_of(body);
   std::vector<std::uint8_t> around = pushed;
@@ -335,7 +335,7 @@ void MultiTimeStepping::serialize(Archive& archive, Body& body) {
   archive.number("has_time_levels", any);
   archive.field("time_levels", 1, [&](std::size_t i, int) -> std::uint8_t& { return levels[i]; });
   if (!archive.loading()) return;
-  body.time_levels.clear();
+  body.time_levels->clear();
   if (any) {
     exchange(body, body.domain.halo, levels);
     body.time_levels = std::move(levels);

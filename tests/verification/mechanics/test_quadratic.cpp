@@ -170,12 +170,12 @@ MaterialBlock cell_of(double last) {
   MaterialBlock block;
   block.material.formulation = Formulation::quadratic;
   block.points = {0};
-  block.cells.resize(block.law_points());
+  block.cells->resize(block.law_points());
   for (int q = 0; q < 4; ++q) {
     MaterialPoint at;
     at.deformation_gradient += Tensor::NullaryExpr([&] { return number(engine); });
     if (q == 3) at.deformation_gradient.col(0) *= last;
-    block.cells.set(block.place(0, q), at);
+    block.cells->set(block.place(0, q), at);
   }
   return block;
 }

@@ -147,7 +147,7 @@ TEST(MultiTimeStepping, StayAsTheyAreWhileABodyVibrates) {
   }
   EXPECT_LE(changes, 2);
   EXPECT_GT(solver.dt(), 0.9 * step);
-  EXPECT_EQ(body.time_levels, levels);
+  EXPECT_EQ(*body.time_levels, levels);
 }
 
 // Points at the surface are faster than those within: less than what is worth while.

@@ -1,0 +1,44 @@
+// Unit and meaning of the state variables that laws name: those of one name mean the same in each law.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace strut::materials {
+
+struct StateVariable {
+  std::string_view name, unit, meaning;
+};
+
+inline constexpr std::array<StateVariable, 20> state_variables{{
+    {"Ductile_Damage", "1", "d: the part of its stress that a softening point has lost"},
+    {"Elastic_Energy_Density", "J/m³", "stored elastic energy, per reference volume"},
+    {"Equivalent_Plastic_Strain", "1", "ε̄_p = ∫ √(2/3 ė_p:ė_p) dt; of foams the one of uniaxial compression"},
+    {"Equivalent_Plastic_Strain_Rate", "1/s", "of the last step"},
+    {"Failed", "1", "1 from the step on in which a point of metal foam failed"},
+    {"Failure_Indicator", "1", "D of the failure criterion: softening begins at 1"},
+    {"Internal_Energy_Density", "J/m³", "e of the equation of state, per reference volume"},
+    {"Mechanical_Threshold", "Pa", "σ̂, the flow stress at 0 K"},
+    {"Plastic_Compaction", "1", "ε_v of polymeric foam, positive where compacted"},
+    {"Plastic_Strain_XX", "1", "½ (I − C_p⁻¹) in the reference frame"},
+    {"Plastic_Strain_YY", "1", "the same"},
+    {"Plastic_Strain_ZZ", "1", "the same"},
+    {"Plastic_Strain_XY", "1", "the same"},
+    {"Plastic_Strain_YZ", "1", "the same"},
+    {"Plastic_Strain_ZX", "1", "the same"},
+    {"Plastic_Work_Density", "J/m³", "plastic work per reference volume; of a failed point, all energy that it held"},
+    {"Relative_Density", "1", "ρ* of polymeric foam: the density over that of the solid"},
+    {"Relative_Volume", "1", "v = V/V₀ of the equation of state"},
+    {"Temperature", "K", "of the metal"},
+    {"Volumetric_Plastic_Strain", "1", "∫ tr ε̇_p dt of metal foam, negative where compacted"},
+}};
+
+// The entry of this name; a law that a user adds may do without.
+constexpr StateVariable state_variable(std::string_view name) {
+  const auto* found = std::find_if(state_variables.begin(), state_variables.end(),
+                                   [name](const StateVariable& variable) { return variable.name == name; });
+  return found == state_variables.end() ? StateVariable{name, "1", "state of its material law"} : *found;
+}
+
+}  // namespace strut::materials

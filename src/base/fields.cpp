@@ -1,0 +1,35 @@
+#include "base/fields.hpp"
+
+namespace strut {
+
+void FieldSet::resize(std::size_t points) {
+  for (const auto& field : fields_) {
+    if (field->in_use && field->at == At::point) field->resize(points);
+  }
+}
+
+double FieldSet::bytes() const {
+  double sum = 0;
+  for (const auto& field : fields_) sum += field->bytes();
+  return sum;
+}
+
+void FieldSet::serialize(Archive& archive, const Places& places) {
+  for (const auto& field : fields_) {
+    if (!field->in_use) continue;
+    const int count = field->at == At::integration_point ? places.count : 1;
+    int first = 0;
+    for (const FieldPart& part : field->parts) {
+      const auto place = [&](std::size_t k, int c) { return count > 1 ? places.place(k, c / part.width) : k; };
+      const auto number = [&](int c) { return first + c % part.width; };
+      if (part.kept) {
+        archive.numbers(
+            part.name, count * part.width, [&](std::size_t k, int c) { return field->number(place(k, c), number(c)); },
+            [&](std::size_t k, int c, double value) { field->set_number(place(k, c), number(c), value); });
+      }
+      first += part.width;
+    }
+  }
+}
+
+}  // namespace strut

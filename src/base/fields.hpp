@@ -1,0 +1,178 @@
+// Fields: one value for each point of a rank, or for each integration point. A field is declared once, where it is a
+// member, with its name, unit and meaning. Checkpoints, the way to another rank, the forecast of memory, output
+// variables and their page follow from the declaration.
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/archive.hpp"
+
+namespace strut {
+
+enum class At { point, integration_point };
+
+// Numbers of a value that have a meaning together: a scalar, a vector, a tensor; of a record, one of its members.
+struct FieldPart {
+  std::string name;      // in checkpoints
+  std::string unit;      // SI; "1" for none
+  std::string meaning;   // in the page of output variables
+  bool kept = false;     // in checkpoints: later steps depend on it
+  std::string variable;  // its name as an output variable; empty: it is none
+  bool nodal = false;    // how the Exodus file has that: nodal, or of elements
+  int width = 0;         // so many numbers; 0: as the type has
+};
+
+// The numbers of a value, one by one. Records that are values of fields have such a function of their own.
+template <class T>
+requires std::is_arithmetic_v<T> T& number_of(T& value, int) { return value; }
+template <class T>
+requires requires(T& value) { value.data(); }
+auto& number_of(T& value, int n) { return value.data()[n]; }
+
+// What a set knows of each field, whatever its type.
+class AnyField {
+ public:
+  AnyField(At at, std::vector<FieldPart> parts) : at(at), parts(std::move(parts)) {}
+  virtual ~AnyField() = default;
+  virtual void resize(std::size_t size) = 0;  // a vector, all of it at its start: zero, or as its type begins
+  virtual double bytes() const = 0;
+  virtual double number(std::size_t place, int n) const = 0;
+  virtual void set_number(std::size_t place, int n, double number) = 0;
+
+  const At at;
+  std::vector<FieldPart> parts;
+  bool in_use = true;  // the same on all ranks
+};
+
+// `Values`: a vector, or a container with bytes() and at(place, n).
+template <class Values>
+class FieldOf : public AnyField {
+ public:
+  using AnyField::AnyField;
+  void resize(std::size_t size) override {
+    if constexpr (requires { values.assign(size, values[0]); }) values.assign(size, start());
+  }
+  double bytes() const override {
+    if constexpr (requires { values.bytes(); }) {
+      return values.bytes();
+    } else {
+      return static_cast<double>(values.size() * sizeof(values[0]));
+    }
+  }
+  double number(std::size_t place, int n) const override { return static_cast<double>(at_place(values, place, n)); }
+  void set_number(std::size_t place, int n, double number) override {
+    using Number = std::remove_reference_t<decltype(at_place(values, place, n))>;
+    if constexpr (!std::is_const_v<Number>) at_place(values, place, n) = static_cast<Number>(number);
+  }
+
+  Values values;
+
+ private:
+  static auto start() {
+    using Value = std::remove_cvref_t<decltype(values[0])>;
+    if constexpr (requires { Value::Zero(); }) {
+      return Value(Value::Zero());
+    } else {
+      return Value();
+    }
+  }
+  template <class Own>
+  static decltype(auto) at_place(Own& own, std::size_t place, int n) {
+    if constexpr (requires { own.at(place, n); }) {
+      return own.at(place, n);
+    } else {
+      return number_of(own[place], n);
+    }
+  }
+};
+
+// A member that is a field: its values, which its set owns.
+template <class Values>
+class FieldRef {
+ public:
+  explicit FieldRef(FieldOf<Values>& field) : field_(&field) {}
+  FieldRef& operator=(Values values) {
+    field_->values = std::move(values);
+    return *this;
+  }
+  operator Values&() { return field_->values; }
+  operator const Values&() const { return field_->values; }
+  Values& operator*() { return field_->values; }
+  const Values& operator*() const { return field_->values; }
+  Values* operator->() { return &field_->values; }
+  const Values* operator->() const { return &field_->values; }
+  decltype(auto) operator[](std::size_t i) { return field_->values[i]; }
+  decltype(auto) operator[](std::size_t i) const { return std::as_const(field_->values)[i]; }
+  auto begin() { return field_->values.begin(); }
+  auto end() { return field_->values.end(); }
+  auto begin() const { return std::as_const(field_->values).begin(); }
+  auto end() const { return std::as_const(field_->values).end(); }
+  auto* data() { return field_->values.data(); }
+  const auto* data() const { return std::as_const(field_->values).data(); }
+  std::size_t size() const { return field_->values.size(); }
+  bool empty() const { return field_->values.empty(); }
+  // From now on the field is there, on all ranks, with room as the arguments of the container's resize() say.
+  template <class... Room>
+  void use(Room&&... room) {
+    field_->in_use = true;
+    field_->values.resize(std::forward<Room>(room)...);
+  }
+  void set_parts(std::vector<FieldPart> parts) { field_->parts = std::move(parts); }
+
+ private:
+  FieldOf<Values>* field_;
+};
+template <class T>
+using PointField = FieldRef<std::vector<T>>;
+
+// Where the values of the k-th of some points are: q-th of `count` integration points.
+struct Places {
+  int count = 1;
+  std::function<std::size_t(std::size_t k, int q)> place = [](std::size_t k, int) { return k; };
+};
+
+// A field of some scenes only is there once it is used.
+enum class When { always, if_used };
+
+class FieldSet {
+ public:
+  template <class Values>
+  FieldRef<Values> add(At at, std::vector<FieldPart> parts, When when = When::always) {
+    auto field = std::make_unique<FieldOf<Values>>(at, std::move(parts));
+    field->in_use = when == When::always;
+    FieldRef<Values> handle(*field);
+    fields_.push_back(std::move(field));
+    return handle;
+  }
+  template <class T>
+  PointField<T> of_points(FieldPart part, When when = When::always) {
+    if (part.width == 0) part.width = width_of<T>();
+    return add<std::vector<T>>(At::point, {std::move(part)}, when);
+  }
+
+  const std::vector<std::unique_ptr<AnyField>>& all() const { return fields_; }
+  void resize(std::size_t points);  // those of points that are in use
+  double bytes() const;
+  // At the group of the points: what is kept of them.
+  void serialize(Archive& archive, const Places& places = {});
+
+ private:
+  template <class T>
+  static constexpr int width_of() {
+    if constexpr (requires { T::SizeAtCompileTime; }) {
+      return T::SizeAtCompileTime;
+    } else {
+      return 1;
+    }
+  }
+
+  std::vector<std::unique_ptr<AnyField>> fields_;
+};
+
+}  // namespace strut
