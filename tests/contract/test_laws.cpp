@@ -15,6 +15,7 @@
 
 #include "formulas.hpp"
 #include "laws.hpp"
+#include "materials/state_variables.hpp"
 #include "point_driver.hpp"
 
 namespace strut::testing {
@@ -134,6 +135,20 @@ TEST_P(LawTest, NamesEveryColumnOfItsState) {
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = 1.5 + static_cast<double>(i);
     EXPECT_EQ(to_columns<L>(from_columns<L>(columns)), columns);
   });
+}
+
+// A law that is added may leave its own out of the table.
+template <class... L>
+void expect_descriptions() {
+  const auto expect = [](const auto& names) {
+    for (const auto name : names) {
+      EXPECT_EQ(std::ranges::count(state_variables, name, &StateVariable::name), 1) << name;
+    }
+  };
+  (expect(L::state_names), ...);
+}
+TEST(StateVariables, HaveEachAUnitAndAMeaning) {
+  expect_descriptions<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>();
 }
 
 TEST_P(LawTest, NothingHappensToAnUnloadedPointAtRest) {
