@@ -107,7 +107,7 @@ concept PredictsVelocities = requires(const T& condition, double t, double momen
 //   in_substeps        its part for the points that move between whole steps; nothing: it does not act there
 //   acts_at_start      initial velocities are changed, too
 template <class T>
-concept ChangesVelocities = requires(const T& condition, VelocityUpdate& update, const MovingPoints& moving) {
+concept ChangesVelocities = requires(T& condition, VelocityUpdate& update, const MovingPoints& moving) {
   { condition.change_velocities(update) } -> std::same_as<void>;
   { condition.in_substeps(moving) } -> std::same_as<std::optional<T>>;
   requires std::same_as<decltype(T::acts_at_start), const bool>;

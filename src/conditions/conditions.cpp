@@ -13,7 +13,7 @@ Stage stage_of(const Condition& condition) {
   return std::visit([]<class Type>(const Type&) { return Type::stage; }, condition);
 }
 
-void take_turn(const ChangesVelocities auto& condition, VelocityUpdate& update) {
+void take_turn(ChangesVelocities auto& condition, VelocityUpdate& update) {
   update.ledger_entry = condition.ledger_entry;
   update.reaction_place = condition.reaction_place;
   condition.change_velocities(update);
@@ -57,10 +57,10 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
   });
 }
 
-void change_velocities(const Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
+void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
                        ImpulseWork& work, ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};
-  conditions.visit([&]<class Type>(const Type& one) {
+  conditions.visit([&]<class Type>(Type& one) {
     if constexpr (Type::stage != Stage::forces) take_turn(one, update);
   });
   add_work(update, work);
@@ -109,10 +109,12 @@ double kinetic_energy_of_tools(const Conditions& conditions) {
   return sum;
 }
 
-void serialize_tools(Archive& archive, const Conditions& conditions, int owned) {
-  for (const RigidTool& tool : tools_of(conditions)) {
-    if (tool.free) tool.free->serialize(archive, "tool_" + std::to_string(tool.reaction_place), owned);
-  }
+void serialize_tools(Archive& archive, Conditions& conditions, int owned) {
+  conditions.visit([&]<class Type>(Type& one) {
+    if constexpr (Type::in_equilibria == InEquilibria::tool) {
+      if (one.free) one.free->serialize(archive, "tool_" + std::to_string(one.reaction_place), owned);
+    }
+  });
 }
 
 std::vector<RigidTool> tools_of(const Conditions& conditions) {

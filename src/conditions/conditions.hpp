@@ -23,6 +23,10 @@ class Conditions {
   void visit(const Visit& visit) const {
     for (const Condition& one : in_order_) std::visit(visit, one);
   }
+  template <class Visit>
+  void visit(const Visit& visit) {
+    for (Condition& one : in_order_) std::visit(visit, one);
+  }
 
   // Of the values on this rank so far, the first that was no number: where it stands in the deck, time and place. ""
   // where all are.
@@ -45,7 +49,7 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 
 // Changes the velocities after the impulse of forces at time t, which carry each point on for its step, to what the
 // conditions allow. Adds the work of these changes, and the impulses of conditions that have a reaction.
-void change_velocities(const Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
+void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
                        ImpulseWork& work, ReactionImpulses& impulses);
 
 // What acts at times between whole steps.
@@ -64,7 +68,7 @@ std::vector<HeldDirection> held_directions(const Conditions& conditions, const B
 // Of tools with a mass: their kinetic energy (J), the same on all ranks; what a checkpoint keeps of them, at the group
 // of all owned points.
 double kinetic_energy_of_tools(const Conditions& conditions);
-void serialize_tools(Archive& archive, const Conditions& conditions, int owned);
+void serialize_tools(Archive& archive, Conditions& conditions, int owned);
 
 // All that is unilateral contact in equilibria.
 std::vector<RigidTool> tools_of(const Conditions& conditions);

@@ -134,7 +134,7 @@ void RigidTool::set_reaches(double t, const Body& body) {
 
 // The velocity V with which it goes on and the impulse J(V) that it gives to the points depend on each other: V = V* −
 // J(V)/M. By Newton's method, with the mass of the points that it pushes as the slope of J.
-void RigidTool::fly(VelocityUpdate& update) const {
+void RigidTool::fly(VelocityUpdate& update) {
   free->advance(update.t, update.steps.whole, update.body);
   const Vector without = free->velocity;
   for (int k = 0; k < most_trials; ++k) {
@@ -145,7 +145,7 @@ void RigidTool::fly(VelocityUpdate& update) const {
   }
 }
 
-void RigidTool::change_velocities(VelocityUpdate& update) const {
+void RigidTool::change_velocities(VelocityUpdate& update) {
   if (free && in_whole_steps) fly(update);
   std::vector<Vector> given(free ? update.body.owned() : 0, Vector::Zero());
   for_each_change(*this, update, [&](int i, const Vector& change) {

@@ -54,12 +54,12 @@ struct RigidTool {
     return {std::move(all), shape, travel, friction, place, free ? std::make_shared<FreeMotion>(*free) : nullptr};
   }
 
-  void change_velocities(VelocityUpdate& update) const;  // collective where it has a mass
+  void change_velocities(VelocityUpdate& update);  // collective where it has a mass
   std::optional<RigidTool> in_substeps(const MovingPoints& moving) const;
   static constexpr bool acts_at_start = false;
 
  private:
-  void fly(VelocityUpdate& update) const;
+  void fly(VelocityUpdate& update);
 };
 
 }  // namespace strut

@@ -10,7 +10,7 @@ namespace strut {
 struct PointTangent;
 
 // Collective. The linearized operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
-// `directions` holds v in the place of y: a copy of the body's sites, or these themselves where no block is ordinary.
+// `directions`: a copy of the body's sites that holds v in the place of y.
 // `tangents`: of the owned points by correspondence (tangent.hpp); if null, those of the elastic moduli, without the
 // geometric stiffness (of the order stress/modulus), which is left out of ordinary points in any case.
 // `scratch`: a copy of body.force_states, or these themselves: forces and the next stresses do without.

@@ -51,32 +51,12 @@ void widen(const StoredField& stored, Field& field) {
   for (std::size_t i = 0; i < stored.size(); ++i) field[i] = stored[i].cast<double>();
 }
 
-// Sites that hold a field in the place of y: the body's own, which get their places back in the end, unless bonds along
-// their directions need these meanwhile.
-class Directions {
- public:
-  explicit Directions(Body& body) : own_(body.domain.sites) {
-    if (!body.force_states.scalars.empty()) {
-      copy_ = own_;
-      return;
-    }
-    places_.reserve(own_.size());
-    for (const Site& site : own_) places_.push_back(site.current.head<3>().matrix());
+// The body's sites with a field in the place of y, as the tangent takes it.
+void set_directions(const StoredField& field, std::vector<Site>& directions) {
+  for (std::size_t i = 0; i < field.size(); ++i) {
+    directions[i].current.head<3>() = field[i].cast<double>().array();
   }
-  Directions(const Directions&) = delete;
-  ~Directions() {
-    for (std::size_t i = 0; i < places_.size(); ++i) own_[i].current.head<3>() = places_[i].array();
-  }
-  std::vector<Site>& sites() { return copy_.empty() ? own_ : copy_; }
-  void set(const StoredField& field) {
-    for (std::size_t i = 0; i < field.size(); ++i) sites()[i].current.head<3>() = field[i].cast<double>().array();
-  }
-
- private:
-  std::vector<Site>& own_;
-  std::vector<Site> copy_;
-  std::vector<Vector> places_;
-};
+}
 
 // The tridiagonal matrix of Lanczos and its basis.
 struct Lanczos {
@@ -93,13 +73,13 @@ StoredField stored(const Field& field, double scale) {
 
 // From a start in `image`, which is spoiled.
 Lanczos iterate(Body& body, Field& image, int iterations) {
-  Directions directions(body);
+  std::vector<Site> directions = body.domain.sites;
   Lanczos lanczos;
   double length = std::sqrt(inner(body, image, image));
   for (int k = 0; k < iterations; ++k) {
     lanczos.basis.push_back(stored(image, 1 / length));
-    directions.set(lanczos.basis.back());
-    apply_tangent(body, body.domain.halo, directions.sites(), nullptr, body.force_states, image);
+    set_directions(lanczos.basis.back(), directions);
+    apply_tangent(body, body.domain.halo, directions, nullptr, body.force_states, image);
     for (int i = 0; i < body.owned(); ++i) image[i] /= body.density[i];
     lanczos.diagonal.push_back(inner(body, image, lanczos.basis.back()));
     // Against the whole basis: it is short, and ghosts of converged modes would spoil the residual.
@@ -126,11 +106,10 @@ StoredField combine(const std::vector<StoredField>& basis, const Eigen::VectorXd
 
 }  // namespace
 
-// Of the basis and the image; of places, or sites where these are needed.
+// Basis, image and directions.
 double CriticalTimeStep::bytes(const Body& body) {
   const double fields = basis_size * sizeof(Eigen::Vector3f) + sizeof(Vector);
-  const double seen = body.force_states.scalars.empty() ? sizeof(Vector) : sizeof(Site);
-  return fields * body.owned() + seen * static_cast<double>(body.domain.sites.size());
+  return fields * body.owned() + static_cast<double>(sizeof(Site) * body.domain.sites.size());
 }
 
 void CriticalTimeStep::serialize(Archive& archive, const Body& body) {
