@@ -1,0 +1,36 @@
+#include "solvers/explicit/pushed_points.hpp"
+
+#include <algorithm>
+
+namespace strut {
+
+// A tool meets points between steps, too, by these velocities before the levels of the next step but one are there.
+std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
+                                        std::span<const Vector> velocities, double t, double dt) {
+  constexpr double steps = 2, near = 0.05;  // so many spacings besides, for what changes meanwhile
+  std::vector<std::uint8_t> marks(body.owned(), 0);
+  contact.mark_touching(marks);
+  bool any = contact.any();
+  for (const RigidTool& tool : tools_of(conditions)) {
+    if (!tool.free) continue;
+    any = true;
+    const Vector offset = tool.offset(t);
+    for (const int i : tool.points) {
+      const Vector place = body.current(i) - offset;
+      const Surface at = std::visit([&](const auto& shape) { return tool.met_by(i, shape, place); }, tool.shape);
+      const double closing = std::max(0.0, at.normal.dot(tool.free->velocity - velocities[i]));
+      if (at.gap < steps * dt * closing + near * body.domain.cloud.spacings[i]) marks[i] = 1;
+    }
+  }
+  return any ? marks : std::vector<std::uint8_t>();
+}
+
+bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others) {
+  if (others.empty()) return false;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    if (some[i] && others[i]) return true;
+  }
+  return false;
+}
+
+}  // namespace strut
