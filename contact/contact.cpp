@@ -57,11 +57,8 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   contact_pair.skins = skin_distances_by_speed(kinematics, blocks, contact_pair.mean_velocity, contact_pair.skin, dt);
   contact_pair.pairs =
       find_pairs(kinematics, blocks, radius_of(contact_pair.model.law), contact_pair.skins, broken_before_);
-  if (contact_pair.surfaces) {
-    contact_pair.surfaces->take(blocks, contact_pair.pairs);
-  } else if (contact_pair.model.friction > 0) {
-    contact_pair.couples.take(kinematics.domain, contact_pair.pairs.owned);
-  }
+  if (contact_pair.surfaces) contact_pair.surfaces->take(blocks, contact_pair.pairs);
+  if (contact_pair.model.friction > 0) contact_pair.couples.take(kinematics.domain, contact_pair.pairs.owned);
   contact_pair.frame = frame_of(kinematics, blocks, contact_pair.pairs);
   contact_pair.searched = true;
   contact_pair.meets = false;
@@ -195,7 +192,8 @@ void Contact::add_friction(const Kinematics& kinematics, double dt, const Slidin
   const Model& model = contact_pair.model;
   if (contact_pair.surfaces) {
     const auto& law = std::get<SurfaceLaw>(model.law);
-    contact_pair.surfaces->add_friction(sliding, law, model.friction, pairs, force_density, contact_pair.friction);
+    contact_pair.surfaces->add_friction(kinematics, sliding, law, model.friction, pairs, contact_pair.couples,
+                                        force_density, contact_pair.friction);
   } else {
     const auto& law = std::get<PairLaw>(model.law);
     contact::add_friction(kinematics, law, model.friction, dt, pairs, loads, contact_pair.couples, force_density,

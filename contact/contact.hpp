@@ -103,7 +103,7 @@ class Contact {
     std::vector<Vector> places = {};  // of blocks.points, m
     SkinDistances skins = {};
     Pairs pairs = {};
-    Couples couples = {};  // of friction of points
+    Couples couples = {};  // of friction
     bool searched = false;
     std::vector<std::size_t> broken_counts = {};  // how many bonds of blocks.points had broken
     // As of the last look.

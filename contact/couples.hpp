@@ -1,5 +1,5 @@
-// Friction between points acts midway between them, beside both, and would turn their bodies: what it turns of a body
-// is the neighborhood of the point, its family and itself (patch.hpp).
+// Friction between points acts midway between them, friction of surfaces where these are: beside the points, whose
+// bodies it would turn. What it turns of a body is the neighborhood of the point, its family and itself (patch.hpp).
 #pragma once
 
 #include <span>

@@ -34,6 +34,7 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other,
   return {.reach = reach,
           .threshold = other.share(beyond),
           .slope = other.slope(beyond),
+          .depth = beyond,
           .area = (nodes ? 1 : 0.5) * domain.volume(i) / spacing,
           .spacing = spacing,
           .volume = domain.volume(i),
@@ -295,17 +296,18 @@ struct Rubbing {
   Vector reaction(const Vector& eta) const { return twist.cross(Vector(eta - middle)) - drag; }
 };
 
-// A force on the point, N, and what it makes of the patch that the point feels.
-Rubbing rubbing_of(const Patch& patch, const Vector& force) {
-  return {force / patch.weight, patch.per_couple * patch.middle.cross(force), patch.middle};
+// A force on the point's body at a place, seen from the point, N, and what its reaction there makes of the patch that
+// the point feels.
+Rubbing rubbing_of(const Patch& patch, const Vector& place, const Vector& force) {
+  return {force / patch.weight, patch.per_couple * (patch.middle - place).cross(force), patch.middle};
 }
 
 }  // namespace
 
-// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, less its own: where the point is if
-// the patch `turns` with its points, else the mean of theirs.
+// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, less its own: at a place, seen from
+// the point, if the patch `turns` with its points, else the mean of theirs.
 template <class MotionOf>
-Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, bool turns,
+Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const Vector& place, bool turns,
                          const MotionOf& motion) const {
   Vector mean = Vector::Zero(), turning = Vector::Zero();
   over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
@@ -313,23 +315,33 @@ Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, 
     mean += part;
     if (turns) turning += (eta - patch.middle).cross(part);
   });
-  return mean / patch.weight + patch.middle.cross(patch.per_couple * turning) - motion(static_cast<int>(k));
+  const Vector arm = patch.middle - place;
+  return mean / patch.weight + arm.cross(patch.per_couple * turning) - motion(static_cast<int>(k));
 }
 
-Patch Surfaces::felt_patch(const Pairs& pairs, std::size_t k) const {
+Patch Surfaces::felt_patch(const Pairs& pairs, std::size_t k, const Vector& place) const {
   PatchSums sums;
   over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
     sums.add(pairs.sites[partner].volume() * Smoothing(reach).value(distance2), eta);
   });
-  return sums.patch(sums.middle().norm());
+  return sums.patch((sums.middle() - place).norm());
 }
 
-void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,
-                            std::vector<Vector>& force_density, std::vector<Vector>& friction) {
+// Seen from a point that touches: midway between the surface of its body and that of the other one.
+Vector Surfaces::between_surfaces(std::size_t k) const {
+  return (points_[places_[k]].depth - 0.5 * overlaps_[places_[k]]) * gradient_[k].stableNormalized();
+}
+
+void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law,
+                            double coefficient, Pairs& pairs, Couples& couples, std::vector<Vector>& force_density,
+                            std::vector<Vector>& friction) {
   std::vector<Vector> ways(pairs.sites.size(), Vector::Zero());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways[k] = sliding.times * sliding.of[pairs.owned[k]];
   exchange_records(pairs, ways);
   std::vector<Rubbing> rubbing(pairs.sites.size());
+  std::vector<Couples::Neighborhood> own(pairs.owned.size());
+  std::vector<Vector> turned(pairs.owned.size(), Vector::Zero());
+  if (!sliding.is_trial) couples.bring_to_present(kinematics);
   friction.assign(pairs.owned.size(), Vector::Zero());
   grips_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
   if (!sliding.is_trial) slips_before_ = slips_;
@@ -337,16 +349,21 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
     Vector& slip = slips_[places_[k]];
     slip.setZero();
     if (!facing_[k].touches()) continue;
-    const Patch patch = felt_patch(pairs, k);
+    Vector place = Vector::Zero();
+    if (!sliding.is_trial) place = between_surfaces(k);
+    if (!place.isZero(0)) own[k] = couples.of(kinematics, pairs.owned[k], place.norm());
+    if (!own[k].patch.turns) place.setZero();  // nothing could take up the couple
+    const Patch patch = felt_patch(pairs, k, place);
     const Vector normal = gradient_[k].stableNormalized();
-    slip =
-        slips_before_[places_[k]] + slip_of(pairs, k, patch, !sliding.is_trial, [&](int site) { return ways[site]; });
+    slip = slips_before_[places_[k]] - sliding.times * own[k].spin.cross(place) +
+           slip_of(pairs, k, patch, place, !sliding.is_trial, [&](int site) { return ways[site]; });
     slip -= slip.dot(normal) * normal;
-    slip = bearable(patch, Vector::Zero(), slip);
+    slip = bearable(patch, place, slip);
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
     const double most = coefficient * facing_[k].push * gradient_[k].norm(), wanted = stiffness * slip.norm();
     friction[k] = yielding_spring(most, stiffness, slip);
-    rubbing[k] = rubbing_of(patch, friction[k]);
+    rubbing[k] = rubbing_of(patch, place, friction[k]);
+    turned[k] = place.cross(friction[k]);
     if (!sliding.is_trial) continue;
     const bool slides = wanted > most;
     grips_[k] = {.along = friction[k].stableNormalized(),
@@ -357,6 +374,7 @@ void Surfaces::add_friction(const Sliding& sliding, const SurfaceLaw& law, doubl
                  .slides = slides};
   }
   exchange_records(pairs, rubbing);
+  if (!sliding.is_trial) couples.add_forces(kinematics.domain, own, turned, force_density);
   if (!any_touches_) return;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
@@ -408,12 +426,13 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
     changes[k].tension = facing_[k].stiffness * share;
     if (grips_.empty()) continue;
     const Grip& grip = grips_[k];
-    Vector slip = slip_of(pairs, k, grip.patch, false, [&](int site) { return changes[site].of_place; });
+    Vector slip =
+        slip_of(pairs, k, grip.patch, Vector::Zero(), false, [&](int site) { return changes[site].of_place; });
     slip -= slip.dot(grip.normal) * grip.normal;
     slip = bearable(grip.patch, Vector::Zero(), slip);
     if (grip.slides) slip -= slip.dot(grip.along) * grip.along;
     drags[k] = grip.spring * slip + grip.by_share * share * grip.along;
-    changes[k].friction = rubbing_of(grip.patch, drags[k]);
+    changes[k].friction = rubbing_of(grip.patch, Vector::Zero(), drags[k]);
   }
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {

@@ -4,10 +4,11 @@
 // opposite, and what a contact has stored it gives back. With a_i = A_i p(g_i)/slope_i and η = y_j − y_i
 //   f_i = Σ_j (a_i V_j W'_i + a_j V_i W'_j) η/|η|.
 //
-// Friction is a spring from each such point to the patch that it feels, which takes the reaction where the point is: in
-// the same shares, and as a couple (patch.hpp). It yields at μ times the normal force (Coulomb): what sticks does not
-// creep. In equilibria it follows the mean of the points instead of the patch as it turns: pressed and dragged surfaces
-// turn between their points, which as slip would be a compliance of its own.
+// Friction is a spring from each such point to the patch that it feels. It acts at one place, where both surfaces are:
+// there the point's own neighborhood (couples.hpp) and the patch take it, as a force and a couple (patch.hpp). It
+// yields at μ times the normal force (Coulomb): what sticks does not creep. In equilibria the place is the point
+// itself, and the spring follows the mean of the patch's points instead of the patch as it turns: pressed and dragged
+// surfaces turn between their points, which as slip would be a compliance of its own.
 #pragma once
 
 #include <functional>
@@ -26,6 +27,7 @@ struct SurfacePoint {
   double reach = 0;      // from how far it sees another body, m
   double threshold = 0;  // ρ from which it touches
   double slope = 0;      // of ρ with the distance there, 1/m
+  double depth = 0;      // below the surface of its body, m
   double area = 0;       // half of its share of the surface, m²: the other body's points have the other half
   double spacing = 0;    // m
   double volume = 0;     // m³
@@ -53,9 +55,9 @@ class Surfaces {
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                 std::vector<Vector>& force_density);
   void for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const;
-  // `friction`: on pairs.owned, N.
-  void add_friction(const Sliding& sliding, const SurfaceLaw& law, double coefficient, Pairs& pairs,
-                    std::vector<Vector>& force_density, std::vector<Vector>& friction);
+  // Collective but in a trial. `friction`: on pairs.owned, N, beside that of `couples`, which has taken pairs.owned.
+  void add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law, double coefficient,
+                    Pairs& pairs, Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);
   // What the last trial has come to is where the next ones start. Before that: the work of friction since the last
   // time, by the mean of the forces at both ends, J; `way`: of owned points since then, m.
   void commit(const std::vector<Vector>& friction);
@@ -97,9 +99,11 @@ class Surfaces {
   void over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const;
   template <class Visit>
   void over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const;
-  Patch felt_patch(const Pairs& pairs, std::size_t k) const;
+  Patch felt_patch(const Pairs& pairs, std::size_t k, const Vector& place) const;
   template <class MotionOf>
-  Vector slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, bool turns, const MotionOf& motion) const;
+  Vector slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const Vector& place, bool turns,
+                 const MotionOf& motion) const;
+  Vector between_surfaces(std::size_t k) const;
   void set_smallest_reaches(const Pairs& pairs);
   void set_volumes(Pairs& pairs) const;
   void take_broken(const Domain& domain, const Pairs& pairs);

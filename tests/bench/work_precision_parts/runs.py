@@ -82,7 +82,7 @@ class Runner:
             "deck",
             section("Discretization", parameter("Type", "Exodus"), parameter("Input Mesh File", mesh),
                     parameter("Points", method.points), parameter("Influence Function", method.influence),
-                    parameter("Degenerate Points", "Drop")),
+                    parameter("Degenerate Points", "Drop Any")),
             section("Materials", section("solid", model, material.keys)),
             section("Blocks", section("all", parameter("Block Names", "all"), parameter("Material", "solid"),
                                       parameter("Horizon Factor", method.horizon, "double"))),

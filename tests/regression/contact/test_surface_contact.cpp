@@ -87,11 +87,12 @@ TEST(SurfaceContact, FrictionIsMuTimesTheLoadOnEqualLattices) {
 
 // On a plate inclined by θ, that is with the weight so inclined, a block sticks where tan θ < μ, and else slides with
 // g (sin θ − μ cos θ). Its weight comes on slowly, so that it does not ring and lift off, and pulls it down the slope
-// from then on.
+// from then on. It touches from the start: a block that falls by 3e-4 spacings first rings by 60 % of its weight, and
+// walks where it hardly presses.
 TEST(SurfaceContact, BlockOnAnIncline) {
   const RunFolder folder;
   Parts parts =
-      on_held_plate(folder, cubes(1, {0, 0, 0}, 16, 10, 2, h) + cubes(2, {3.2 * h, 2.9 * h, 2 * h}, 4, 4, 2, h));
+      on_held_plate(folder, cubes(1, {0, 0, 0}, 16, 10, 2, h) + cubes(2, {3.2 * h, 2.9 * h, 1.99 * h}, 4, 4, 2, h));
   const std::string hold = parts.conditions;
   const double g = 2e5, start = 100e-6, t = 100e-6, mu = 0.3;
   parts.times = key("Final Time", "200e-6");
@@ -233,16 +234,16 @@ Turning turning(Simulation& run, const Motion& motion) {
 
 // A ball of voxels that rolls down a slope, from 20 m/s on, over 11 spacings. A ball of whole voxels has flat places,
 // whose edges throw it up; that of cells which know what is in them trembles by some hundredths of a spacing.
-// Rolling: v = ω r with r from the middle to the points that feel the other body, where friction acts: between half a
-// spacing above the ball's lowest place and half a spacing below the plate's top (measured: 0.44 below it, as the
-// plate's points feel first). And a = g sin α/(1 + I/(m r²)), 5/7 g sin α of a sphere, but for what trembling takes,
-// less than 5 %. Sliding it would have 7/5 of this.
+// Rolling: v = ω r with r from the middle to where the surfaces are, between that of the ball and that of the plate,
+// which overlap by 0.06 spacings. Measured: 0.07 below the plate's top, of which 0.02 to 0.05 are creep: the springs of
+// friction are strained anew at each place (0.13 on a slope of 0.3). And a = g sin α/(1 + I/(m r²)), 5/7 g sin α of a
+// sphere, but for what trembling takes, less than 5 %. Sliding it would have 7/5 of this.
 TEST(SurfaceContact, BallOfVoxelsRollsDownASlope) {
   const RunFolder folder;
   if (folder.world.size() > 1)
     GTEST_SKIP() << "3000 steps; what ranks might do differently is seen by the shorter runs";
   const int radius = 8;
-  const double g = 2e5, slope = 0.3, down = g / std::hypot(1, slope), along_it = slope * down, speed = 20;
+  const double g = 2e5, slope = 0.1, down = g / std::hypot(1, slope), along_it = slope * down, speed = 20;
   const Vector middle(6 * h, 6 * h, (2 + radius) * h);
   write_ball_on_plate(folder, radius, 29, middle);
   Parts parts = on_held_plate(folder, "");
@@ -269,7 +270,7 @@ TEST(SurfaceContact, BallOfVoxelsRollsDownASlope) {
   const double height = heights / steps, rolling = speeds / rates;
   const double acceleration = (steps * times[2] - times[0] * speeds) / (steps * times[1] - times[0] * times[0]);
   EXPECT_NEAR(inertia, 0.4 * radius * radius * h * h, 0.01 * radius * radius * h * h) << "a sphere";
-  EXPECT_NEAR(rolling, height, 0.5 * h);
+  EXPECT_NEAR(rolling, height, 0.1 * h);
   EXPECT_NEAR(acceleration, 5.0 / 7 * along_it, 0.05 * 5.0 / 7 * along_it);
   EXPECT_LT(end.balance_error, 1e-4);
 }
