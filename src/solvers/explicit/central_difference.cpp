@@ -108,7 +108,8 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
 // where there is neither. A tool meets points between steps, too, by these velocities before the levels of the next
 // step but one are there.
 std::vector<std::uint8_t> CentralDifference::pushed(std::span<const Vector> velocities, double dt) const {
-  constexpr double steps = 2, near = 0.05;  // so many spacings besides, for what changes meanwhile
+  // So many spacings besides, for what changes meanwhile; a gap of a round number is not left to round-off.
+  constexpr double steps = 2, near = 0.05 + 1e-6;
   std::vector<std::uint8_t> marks(body_.owned(), 0);
   contact_.mark_touching(marks);
   bool any = contact_.any();

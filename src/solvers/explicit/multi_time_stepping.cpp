@@ -40,6 +40,10 @@ constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays
 // energy, and bounds go up and down with vibrations.
 constexpr double slack = 1.25;
 
+// Of a frequency bound: those of points that are the same but for their places differ by so much at the most, and have
+// the same level.
+constexpr double round_off = 1e-9;
+
 // What a step of which frequency bound costs, in classes that are an eighth of an octave wide.
 class FrequencyHistogram {
  public:
@@ -62,7 +66,7 @@ class FrequencyHistogram {
  private:
   double bound(int c) const { return fastest_ * std::exp2(-static_cast<double>(c) / classes_per_octave); }
   int class_of(double frequency_bound) const {
-    const double c = std::floor(classes_per_octave * std::log2(fastest_ / frequency_bound));
+    const double c = std::floor(classes_per_octave * std::log2((1 + round_off) * fastest_ / frequency_bound));
     return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
   }
   // Of the same time, with steps for points of the frequency bound bound(c) and below.
@@ -74,8 +78,9 @@ class FrequencyHistogram {
 
 // A point of a higher level is at most `margin` times as fast in its own steps as one of level 0.
 int level_of(double frequency_bound, double bound, double margin) {
-  if (!(frequency_bound > bound)) return 0;
-  return std::clamp(static_cast<int>(std::ceil(std::log2(frequency_bound / (margin * bound)))), 1, max_level);
+  const double least = (1 - round_off) * frequency_bound;
+  if (!(least > bound)) return 0;
+  return std::clamp(static_cast<int>(std::ceil(std::log2(least / (margin * bound)))), 1, max_level);
 }
 
 // The cost of a step of a point, in that of one of level 0.

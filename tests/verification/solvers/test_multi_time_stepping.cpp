@@ -150,6 +150,23 @@ TEST(MultiTimeStepping, StayAsTheyAreWhileABodyVibrates) {
   EXPECT_EQ(body.time_levels, levels);
 }
 
+// Where something pushes points, level 0 is chosen so that the fastest of these is just within level 1: whatever the
+// round-off of a frequency bound that is divided by a margin and multiplied by it again.
+TEST(MultiTimeStepping, HaveTwoSubstepsAtTheMostWhereAPointIsPushed) {
+  for (const double ratio : {200.0, 400.0, 600.0, 800.0}) {  // one number in two has such round-off
+    Body body = bar(ratio, stabilized(MeanGradientStabilization{0.05}));
+    advance_stress(body, 0, true);
+    std::vector<std::uint8_t> pushed(body.owned(), 0);
+    for (int i = 0; i < body.owned(); ++i) pushed[i] = body.domain.reference(i)[0] < h ? 1 : 0;
+    for (int n = 1; n < 40; ++n) {
+      const double safety_factor = 0.6 + 4e-3 * n;  // the margin is 0.6 by it
+      body.time_levels.clear();
+      MultiTimeStepping().choose(body, safety_factor, {0, 1}, pushed);
+      EXPECT_EQ(max_level(body), 1) << ratio << ", " << safety_factor;
+    }
+  }
+}
+
 // Points at the surface are faster than those within: less than what is worth while.
 TEST(MultiTimeStepping, AreNotForABodyThatIsAlikeEverywhere) {
   const Communicator world;
