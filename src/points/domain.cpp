@@ -383,11 +383,13 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
 struct Search {
   const CellGrid& grid;
   const LeftOut& left_out;
-  const std::vector<Crack>& cracks;
+  const std::vector<std::vector<Crack>>& cracks;  // of each body
   double reach;
 
-  bool is_cut(const Vector& a, const Vector& b) const {
-    return std::any_of(cracks.begin(), cracks.end(), [&](const Crack& crack) { return crosses(crack, a, b); });
+  bool is_cut(const CandidatePool& pool, int i, int j) const {
+    const std::vector<Crack>& here = cracks[pool.bodies[i]];
+    return std::any_of(here.begin(), here.end(),
+                       [&](const Crack& crack) { return crosses(crack, pool.positions[i], pool.positions[j]); });
   }
 };
 
@@ -395,7 +397,7 @@ struct Search {
 template <class Visit>
 void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, Visit&& visit) {
   for_each_within(search.grid, pool, i, search.reach, [&](int j) {
-    if (!search.left_out.contains(i, j) && !search.is_cut(pool.positions[i], pool.positions[j])) visit(j);
+    if (!search.left_out.contains(i, j) && !search.is_cut(pool, i, j)) visit(j);
   });
 }
 
@@ -403,13 +405,14 @@ void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, V
 std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
                                                            const std::vector<int>& order) {
   std::vector<std::pair<int, std::int64_t>> pairs;
-  if (search.cracks.empty()) return pairs;
+  if (std::ranges::all_of(search.cracks, [](const std::vector<Crack>& of_body) { return of_body.empty(); }))
+    return pairs;
   for (std::size_t local = 0; local < order.size(); ++local) {
     const int i = order[local];
     for_each_within(search.grid, pool, i, search.reach, [&](int j) {
       const Vector xi = pool.positions[j] - pool.positions[i];
       if (!bonded(pool.deltas[i], pool.deltas[j], xi) || search.left_out.contains(i, j)) return;
-      if (search.is_cut(pool.positions[i], pool.positions[j])) pairs.emplace_back(local, pool.ids[j]);
+      if (search.is_cut(pool, i, j)) pairs.emplace_back(local, pool.ids[j]);
     });
   }
   std::sort(pairs.begin(), pairs.end());
@@ -603,12 +606,17 @@ std::vector<LatticeFrame> frames_with_images(const std::vector<LatticeFrame>& fo
   return frames;
 }
 
-// Cracks and their images.
-std::vector<Crack> with_images(const std::vector<Crack>& cracks, const Images& images) {
-  std::vector<Crack> all = cracks;
-  if (cracks.empty()) return all;
-  for (int image = 1; image < images.count(); ++image) {
-    for (const Crack& crack : cracks) all.push_back(image_of(crack, images[image]));
+// Cracks cut all bodies, their images the body that is mirrored. By body.
+std::vector<std::vector<Crack>> with_images(const std::vector<Crack>& cracks, const std::vector<BlockBonds>& bonds,
+                                            const Images& images) {
+  std::vector<std::vector<Crack>> all;
+  for (const BlockBonds& block : bonds) {
+    if (block.body >= static_cast<int>(all.size())) all.resize(block.body + 1, cracks);
+  }
+  for (int body = 0; body < static_cast<int>(all.size()); ++body) {
+    for (const int image : images.of_body(body)) {
+      for (const Crack& crack : cracks) all[body].push_back(image_of(crack, images[image]));
+    }
   }
   return all;
 }
@@ -686,7 +694,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
   for (std::size_t i = 0; i < stencils.of.size(); ++i) any_lists = any_lists || stencils.is_listed(static_cast<int>(i));
   const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
   const LeftOut apart = left_out(cloud, bonds, all, offers, pool, grid, reach, communicator);
-  const std::vector<Crack> all_cracks = with_images(cracks, all.images);
+  const std::vector<std::vector<Crack>> all_cracks = with_images(cracks, bonds, all.images);
   const Search search{grid, apart, all_cracks, reach};
   const Order order = order_of(stencils, search, pool, cloud.blocks);
   PointCloud mine = reordered(cloud, order.points);

@@ -38,4 +38,7 @@ std::string sudden_failure(const Body& body);
 // A warning for each block whose bonds break by quadratic correspondence.
 std::string noisy_cracks(const Body& body);
 
+// A line for each block whose bonds break by their energy and, several in a step, may give some.
+std::string breaks_under_pressure(const Body& body);
+
 }  // namespace strut

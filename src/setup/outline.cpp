@@ -199,4 +199,25 @@ std::string improbable_scales(const Scene& scene, const std::vector<Trajectory>&
   return text.str();
 }
 
+std::string large_elastic_strains(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,
+                                  double duration) {
+  // The strain of an impact, from which steps fall (1.05 times the frequency is borne): a step that falls gives to
+  // what rings (docs/decisions.md, Steps that follow the frequency bound). What flows or is viscous does not ring on.
+  constexpr double large = 0.05;
+  if (scene.quasi_static || scene.control.fixed_dt > 0) return "";
+  const double difference = largest_difference(scene, trajectories, start, duration);
+  std::ostringstream text;
+  text.precision(2);
+  for (const MaterialBlock& block : scene.body.blocks) {
+    const Viscosity& viscosity = block.material.viscosity;
+    const double part = difference / wave_speed(block.material);
+    if (!(part > large) || block.is_ordinary() || std::isfinite(yield_ratio(block.material))) continue;
+    if (viscosity.linear > 0 || viscosity.quadratic > 0) continue;
+    text << "block '" << block.name << "': elastic, and speeds are " << part << " of its wave speed apart: by strains "
+         << "of that order its energy is off by about as much, as its law is a rate form and steps that fall while it "
+         << "vibrates give it some; told from 1 % on, kept better with Linear Viscosity\n";
+  }
+  return text.str();
+}
+
 }  // namespace strut

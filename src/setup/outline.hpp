@@ -29,4 +29,10 @@ std::string improbable_temperatures(const Body& body);
 std::string improbable_scales(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,
                               double duration);
 
+// Collective. A line for each elastic block by correspondence of an explicit run in which speeds at the start are so
+// far apart that its energy is not kept: by strains of some percent its rate form is off, and steps fall while it
+// rings.
+std::string large_elastic_strains(const Scene& scene, const std::vector<Trajectory>& trajectories, double start,
+                                  double duration);
+
 }  // namespace strut

@@ -136,6 +136,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += improbable_temperatures(scene.body);
   scene.warnings += mass_of_shared_nodes(scene.body, taken);
   scene.warnings += improbable_scales(scene, ways, start, duration);
+  scene.warnings += large_elastic_strains(scene, ways, start, duration);
   scene.warnings += overlaps(scene.body);
   scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
   scene.warnings += filled_tools(scene, start);
@@ -145,6 +146,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);
   scene.warnings += noisy_cracks(scene.body);
+  scene.warnings += breaks_under_pressure(scene.body);
   scene.warnings += bonded_contacts(deck, scene.body.domain);
   scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
   if (scene.quasi_static) {

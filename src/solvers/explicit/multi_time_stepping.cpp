@@ -26,9 +26,6 @@ constexpr double most_turn = 0.6;
 // measured on one rank, for each substep has exchanges of its own.
 constexpr double cost_of_substep = 1.5;
 
-// Families between points of level h and those of level h − 2 or less (docs/theory.md, Multi-time-stepping).
-constexpr int families_between_levels = 2;
-
 // Contact acts once a step, on points of level 1 at the most and no nearer than this to those of higher levels: an
 // impulse a step is in resonance with what is faster than most_turn allows there (docs/theory.md, Multi-time-stepping).
 constexpr int families_around_contact = 3;
@@ -39,6 +36,10 @@ constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays
 // A point's level falls when its frequency bound could be so much larger on the lower one: each change takes or gives
 // energy, and bounds go up and down with vibrations.
 constexpr double slack = 1.25;
+
+// Of a frequency bound: those of points that are the same but for their places differ by so much at the most, and have
+// the same level.
+constexpr double round_off = 1e-9;
 
 // What a step of which frequency bound costs, in classes that are an eighth of an octave wide.
 class FrequencyHistogram {
@@ -62,7 +63,7 @@ class FrequencyHistogram {
  private:
   double bound(int c) const { return fastest_ * std::exp2(-static_cast<double>(c) / classes_per_octave); }
   int class_of(double frequency_bound) const {
-    const double c = std::floor(classes_per_octave * std::log2(fastest_ / frequency_bound));
+    const double c = std::floor(classes_per_octave * std::log2((1 + round_off) * fastest_ / frequency_bound));
     return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
   }
   // Of the same time, with steps for points of the frequency bound bound(c) and below.
@@ -74,8 +75,9 @@ class FrequencyHistogram {
 
 // A point of a higher level is at most `margin` times as fast in its own steps as one of level 0.
 int level_of(double frequency_bound, double bound, double margin) {
-  if (!(frequency_bound > bound)) return 0;
-  return std::clamp(static_cast<int>(std::ceil(std::log2(frequency_bound / (margin * bound)))), 1, max_level);
+  const double least = (1 - round_off) * frequency_bound;
+  if (!(least > bound)) return 0;
+  return std::clamp(static_cast<int>(std::ceil(std::log2(least / (margin * bound)))), 1, max_level);
 }
 
 // The cost of a step of a point, in that of one of level 0.
@@ -138,11 +140,14 @@ void exchange(const Body& body, const Halo& halo, std::vector<std::uint8_t>& num
   halo.exchange(numbers);
 }
 
-// Points near those of level h are of level h − 1 at least. Few points are of level 2 and more: where no ghost is, each
-// of them raises its neighbors, and other families are not looked at.
+// In the family of a point of level h all are of level h − 1 at least (docs/theory.md, Multi-time-stepping). Few points
+// are of level 2 and more: where no ghost is, each of them raises its neighbors, and other families are not looked at.
 void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   const int owned = body.owned();
-  for (int n = 0; n < families_between_levels; ++n) {
+  double highest[] = {0};
+  for (const std::uint8_t h : levels) highest[0] = std::max<double>(highest[0], h);
+  body.domain.communicator.max(highest);
+  for (int n = 1; n < highest[0]; ++n) {
     const std::vector<std::uint8_t> before = levels;
     const auto is_high = [&before](int i) { return before[i] >= 2; };
     const auto raise = [&](int i, int j) {
@@ -275,7 +280,8 @@ small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster,
 double MultiTimeStepping::choose(Body& body, double safety_factor, const PresentStep& present,
                                  const std::vector<std::uint8_t>& pushed) {
   const std::vector<std::uint8_t> before = std::move(*body.time_levels);
-  const double margin = std::min(1.0, most_turn / safety_factor), bearable = present.slack * present.bound;
+  const double margin = std::min(1.0, most_turn / safety_factor);
+  const double bearable = (1 + round_off) * present.slack * present.bound;
   FrequencyBounds bounds = frequency_bounds_of(body);
   std::vector<std::uint8_t> around = pushed;
   if (body.domain.communicator.max(pushed.empty() ? 0.0 : 1.0) > 0) {  // a rank without points has no marks

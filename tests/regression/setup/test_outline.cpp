@@ -135,6 +135,40 @@ TEST(Improbable, SpeedsAboveTheWaveSpeedAreWarnedOf) {
   }
 }
 
+// In an elastic cube whose halves part at a tenth of the wave speed the balance of energy is off by a tenth (measured,
+// by either sign); metal flows, viscosity takes what rings, and a fixed step does not fall.
+TEST(LargeElasticStrains, AreToldOf) {
+  const auto tells = [](const Parts& of) { return told_of(of).find("of its wave speed apart") != std::string::npos; };
+  Parts parts = flying();
+  EXPECT_FALSE(tells(parts)) << "a hundredth";
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-458.6*z/5e-3");
+  EXPECT_TRUE(tells(parts));
+  Parts flows = parts, viscous = parts, fixed = parts;
+  flows.materials = copper(key("Yield Stress", "1e8"));
+  viscous.materials =
+      changed(copper(), key("Density", "8930"), key("Density", "8930") + key("Linear Viscosity", "0.1"));
+  fixed.verlet = key("Fixed dt", "1e-8");
+  EXPECT_FALSE(tells(flows));
+  EXPECT_FALSE(tells(viscous));
+  EXPECT_FALSE(tells(fixed));
+}
+
+// K > 5/3 G is a Poisson's ratio above 1/4.
+TEST(BreaksUnderPressure, AreToldOfWhereTheyMayGiveEnergy) {
+  const auto tells = [](const std::string& ratio) {
+    Parts parts;
+    parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "8930") +
+                                            key("Young's Modulus", "117e9") + key("Poisson's Ratio", ratio));
+    parts.damage = section("tough", key("Damage Model", "Bond Energy") + key("Fracture Energy", "1e5"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                        key("Damage Model", "tough"));
+    return told_of(parts).find("several that break in one step under pressure may give some") != std::string::npos;
+  };
+  EXPECT_TRUE(tells("0.3"));
+  EXPECT_FALSE(tells("0.25"));
+  EXPECT_FALSE(tells("0.2"));
+}
+
 // 4 x 4 points of the lowest layer have their centers 0.5 mm above z = 0, of the next 1.5 mm.
 TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   Parts parts;

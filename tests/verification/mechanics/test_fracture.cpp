@@ -387,6 +387,28 @@ TEST(Fracture, PointsWithoutBondsHaveNoLaw) {
 
 // ---- Cracks that are there from the start --------------------------------------------------------------------------
 
+// By the symmetry planes of one body, cracks have no image in another.
+TEST(Cracks, AreMirroredWithTheirBody) {
+  const Communicator world;
+  constexpr double h = 1e-3;
+  LatticeSpec spec{{10, 4, 8}, h, 2.1};
+  spec.is_filled = [](const Eigen::Array3i& cell) { return cell[0] < 4 || (cell[0] >= 6 && cell[2] >= 3); };
+  PointCloud cloud = lattice_cloud(spec, world);
+  cloud.block_names = {"one", "other"};
+  for (std::size_t i = 0; i < cloud.size(); ++i) cloud.blocks[i] = cloud.positions[i][0] < 5 * h ? 0 : 1;
+  const std::vector<Crack> cracks{DiskCrack{Vector(2 * h, 2 * h, 5 * h), Vector::UnitZ(), 1.2 * h}};
+  const auto bonds_of_one = [&](const std::vector<Mirror>& mirrors) {
+    const Domain domain = make_domain(partitioned(cloud, world), {{2.1 * h, 0}, {2.1 * h, 1}}, world, cracks, mirrors);
+    std::int64_t count = 0;
+    for (int i = 0; i < domain.owned; ++i) {
+      if (domain.cloud.blocks[i] == 0) domain.families.for_each(i, [&](int) { ++count; });
+    }
+    return world.sum(count);
+  };
+  const Mirror below_the_other{.on = Vector(0, 0, 3 * h), .normal = Vector::UnitZ(), .body = 1};  // the image is in one
+  EXPECT_EQ(bonds_of_one({below_the_other}), bonds_of_one({}));
+}
+
 TEST(Cracks, CutBondsOnce) {
   const Communicator world;
   LatticeSpec spec = block_of(kinds[0], 1);
