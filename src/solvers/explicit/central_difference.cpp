@@ -98,7 +98,8 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
   if (!control_.subcycling || control_.fixed_dt > 0) return;
   const double safety = control_.safety_factor;
   report.frequency_bound = multi_stepping_.choose(
-      body_, safety, {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay() / safety}, pushed);
+      body_, safety, {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0, longest_stay() / safety}, pushed,
+      damped());
   restrict_conditions();
   levels_anew_ = multi_stepping_.anew();
   if (levels_anew_) bound_of_step_ = multi_stepping_.bound();
@@ -124,6 +125,18 @@ std::vector<std::uint8_t> CentralDifference::pushed(std::span<const Vector> velo
     }
   }
   return any ? marks : std::vector<std::uint8_t>();
+}
+
+// Points whose motion a condition damps. Empty where none does.
+std::vector<std::uint8_t> CentralDifference::damped() const {
+  std::vector<std::uint8_t> marks;
+  conditions_.visit([&]<class Type>(const Type& one) {
+    if constexpr (Type::stage == Stage::drags) {
+      marks.resize(body_.owned(), 0);
+      for (const auto& drag : one.drags) marks[drag.point] = 1;
+    }
+  });
+  return marks;
 }
 
 bool CentralDifference::pushes_exposed_points() const {

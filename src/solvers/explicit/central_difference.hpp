@@ -94,6 +94,7 @@ class CentralDifference {
   void reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed);
   void restrict_conditions();
   std::vector<std::uint8_t> pushed(std::span<const Vector> velocities, double dt) const;
+  std::vector<std::uint8_t> damped() const;
   bool any_exposed(const std::vector<std::uint8_t>& marks) const;
   bool pushes_exposed_points() const;
   void serialize_work(Archive& archive);
