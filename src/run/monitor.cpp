@@ -186,6 +186,7 @@ void Monitor::serialize(Archive& archive) {
   archive.number("told_error", told_error_);
   archive.number("next_undeclared", next_undeclared_);
   archive.number("next_tools", next_tools_);
+  archive.number("next_energy", next_energy_);
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
 }
 
@@ -196,6 +197,7 @@ void Monitor::warn(What what, const std::string& text) {
 
 void Monitor::check_energy(const Ledger& ledger, bool last) {
   const double error = ledger.balance_error;
+  next_energy_ = ledger.time + pause_;
   if (++ledgers_ <= first_ledgers && !last && std::isfinite(error)) return;
   const std::string text = at(ledger.time) + balance_of(ledger);
   const double limit = (ledger.gained > 0 ? of_gains : 1) * limits_.balance_error;

@@ -24,6 +24,9 @@ class Monitor {
   // on; else they are free.
   void check_step(const CentralDifference& solver);    // after advance_velocity()
   void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
+  // Whether the ledger is to be looked at, also where nothing is written: the error of the balance is a part of the
+  // largest energy so far, which is not that of the end.
+  bool is_energy_due(double time) const { return time >= next_energy_; }
   void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
   // What the points do not resolve, after a step with diagnostics: told once, and never the end of a run.
   void check_resolution(const Ledger& ledger, bool last);
@@ -52,7 +55,7 @@ class Monitor {
     failing,
     count
   };
-  static constexpr double looks = 200;  // in a run, for bodies inside each other, and for tools between points
+  static constexpr double looks = 200;  // in a run, at energies, bodies inside each other, tools between points
   static constexpr double costly = 10;  // of these looks, one is for material without contact
   void passed(What what, const std::string& text);
   void tell_once(What what, const std::string& text);
@@ -63,7 +66,8 @@ class Monitor {
   deck::Watch limits_;
   double pause_;  // s, between looks
   // s
-  double next_look_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_look_, next_tools_ = next_look_;
+  double next_look_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_look_, next_tools_ = next_look_,
+         next_energy_ = next_look_;
   const Body& body_;
   std::function<void(const std::string&)> tell_;
   double first_step_ = 0;  // s, stable

@@ -57,7 +57,7 @@ bool ExplicitRunControl::observe(CentralDifference& solver) {
   services_.writers.history.gather(solver.impulses(), solver.contact(), services_.scene.body.domain);
   const auto ledger = services_.writers.write(
       services_.scene.body, solver, [&] { return solver.reactions(); }, last);
-  if (ledger || last) {
+  if (ledger || last || services_.monitor.is_energy_due(solver.time())) {
     const Ledger now = ledger ? *ledger : solver.ledger();
     services_.monitor.check_energy(now, last);
     services_.monitor.check_resolution(now, last);
@@ -84,7 +84,7 @@ bool ExplicitRunControl::prepare_next(CentralDifference& solver) {
   const double next = solver.time() + solver.dt();
   const int step = solver.steps() + 1;
   return next >= services_.deck.solver.final_time || ending_ || saving_ || services_.writers.due(step, next) ||
-         checkpoint.due(step, next);
+         services_.monitor.is_energy_due(next) || checkpoint.due(step, next);
 }
 
 }  // namespace strut

@@ -72,7 +72,7 @@ Ledger load_through(const RunServices& services, QuasiStatic& solver) {
     if (over) save = checkpoint.due_at_the_end();
     if (save || checkpoint.due(solver.steps(), solver.time())) checkpoint.write(solver.steps(), solver.time());
     const auto ledger = record(last);
-    if (ledger || last) monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
+    monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
     monitor.check_failed(solver.time());
     monitor.check_passing(solver.time(), solver.contact());
     monitor.check_undeclared(solver.time(), solver.contact());

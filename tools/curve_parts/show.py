@@ -6,6 +6,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from strut_tools import save_picture
 
 # How the tables begin.
 CURVE = ["Time (s)", "Strain (1)"]
@@ -75,7 +76,7 @@ def figure(path, title, times, strain, names, stresses, found, front):
     for panel in panels:
         panel.grid(alpha=0.3)
     drawing.suptitle(title, fontsize=12)
-    drawing.savefig(path, dpi=110)
+    save_picture(drawing, path, dpi=110)
     plt.close(drawing)
 
 

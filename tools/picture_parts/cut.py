@@ -2,6 +2,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
+from strut_tools import save_picture
 
 from .result import Result, clock_of, stem, title
 from .surface import edge_of
@@ -70,6 +71,6 @@ def picture(path, out, variable, axis):
     both[0].set_ylabel("z, mm")
     figure.colorbar(drawn, ax=both, label=title(variable), shrink=0.8, aspect=30)
     figure.suptitle(stem(path), fontsize=12)
-    figure.savefig(out, dpi=110)
+    save_picture(figure, out, dpi=110)
     plt.close(figure)
     return out

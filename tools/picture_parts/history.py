@@ -4,7 +4,7 @@ import os
 
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import fail, rows_of
+from strut_tools import fail, rows_of, save_picture
 
 from .result import clock_of, stem, title
 
@@ -34,7 +34,7 @@ def finished(figure, panels, clock, out):
     for axes in panels:
         axes.grid(alpha=0.3)
         axes.margins(x=0)
-    figure.savefig(out, dpi=110)
+    save_picture(figure, out, dpi=110)
     plt.close(figure)
     return out
 

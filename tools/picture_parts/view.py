@@ -2,7 +2,7 @@
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
-from strut_tools import fail
+from strut_tools import fail, save_picture
 
 from . import painter, rigid
 from .result import Result, clock_of, stem, title, unit_of
@@ -276,7 +276,7 @@ def figure_of(scene, rows):
 
 
 def save(figure, out):
-    figure.savefig(out, dpi=DPI)
+    save_picture(figure, out, dpi=DPI)
     plt.close(figure)
     return out
 

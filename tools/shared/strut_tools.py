@@ -124,6 +124,12 @@ def check_output(path, *read):
                  f"{path} is read: expected another file to write")
 
 
+def check_input(path):
+    """A pipe without a writer would be waited for without an end."""
+    if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+        fail(f"{path} is a pipe or a device, expected a file")
+
+
 def own_file(folder, name, *read, is_ours=None):
     """The path of a file that a tool names by itself, ready to be written: what is there is no file that is read, and if it is
     a link to anything, that stays. `is_ours`: whether what is there is by this tool; else it is the user's, and stays, too."""
@@ -140,6 +146,21 @@ def own_file(folder, name, *read, is_ours=None):
 def begins(path, text):
     with open(path, "rb") as file:
         return file.read(len(text)) in (text.encode(), b"")
+
+
+MARK = "strut"  # as the program that made a picture
+
+
+def save_picture(figure, path, **words):
+    """A picture that says who made it, as own_file asks."""
+    figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, **words)
+
+
+def is_our_picture(path):
+    """Or empty."""
+    with open(path, "rb") as file:
+        head = file.read(4096)
+    return not head or b"Software\0" + MARK.encode() in head
 
 
 # Libraries that crash, and those that print

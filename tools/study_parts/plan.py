@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass, field
 
 from decks import Deck, Recipe, value_of
-from strut_tools import fail, nearest
+from strut_tools import check_input, fail, nearest, number
 
 KEYS = ("deck", "vary NAME", "set KEY", "set recipe LINE", "curve", "collect", "plot")
 
@@ -37,6 +37,7 @@ class Study:
 def read(path, converge=None):
     """Of a file. With `converge` nothing has to vary: the recipe's spacing may, and something is read off the runs."""
     study = Study(path)
+    check_input(path)
     try:
         with open(path) as file:
             lines = [line.split("#")[0].strip() for line in file]
@@ -89,9 +90,22 @@ def take_vary(study, where, names, value):
     bad = next((r for r in rows if len(r) != len(names)), None)
     if bad is not None or not rows:
         fail(f"{where}: expected values of {', '.join(names)}, one set after the other with | between, found '{value}'")
+    if twice := doubles(rows):
+        fail(f"{where}: '{', '.join(twice[0])}' and '{', '.join(twice[1])}' are one value: expected each run once")
     if any(name in known for name in names for known, _ in study.vary) or not all(re.fullmatch(r"[A-Za-z]\w*", n) for n in names):
         fail(f"{where}: '{', '.join(names)}': expected names of letters, digits and _, each once")
     study.vary.append((names, rows))
+
+
+def doubles(rows):
+    """Two rows of the same values, numbers by what they are: 1 and 1.0."""
+    seen = {}
+    for row in rows:
+        values = tuple(number(word) if number(word) is not None else word for word in row)
+        if values in seen:
+            return seen[values], row
+        seen[values] = row
+    return None
 
 
 def filled(text, case, where):

@@ -12,7 +12,7 @@ import nrrd
 import points
 import scanco
 import units
-from strut_tools import captured, fail, nearest
+from strut_tools import captured, check_input, fail, nearest
 
 VTK_READERS = {".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImage", "vtkMetaImageReader"),
                ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
@@ -63,6 +63,7 @@ def read(path, raw=None, array=None, unit=None):
         return slices(sorted_naturally(glob.glob(path)), path)
     if not os.path.exists(path):
         fail(f"{path} does not exist")
+    check_input(path)
     ending = ending_of(path)
     if os.path.isdir(path):
         names = [os.path.join(path, name) for name in os.listdir(path) if ending_of(name) in TIFF]

@@ -223,7 +223,8 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
   length_.begin_levels();
   if (!control_.subcycling || control_.fixed_dt > 0) return;
   report.frequency_bound =
-      multi_stepping_.choose(body_, control_.safety_factor, length_.present(body_.fracture != nullptr), pushed);
+      multi_stepping_.choose(body_, control_.safety_factor, length_.present(body_.fracture != nullptr), pushed,
+                             damped_points(body_, conditions_));
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }

@@ -177,6 +177,27 @@ void spread(const Body& body, int families, std::vector<std::uint8_t>& marks) {
   }
 }
 
+// Of each body, the points that move damped ones have one bound, so that they are of one level: between the impulses of
+// coarser steps a damper lets the velocity decay, and an impulse does the work of the mean of the velocities before and
+// after it, which is then more than that over its step. The bound is that of all points whose level reaches there.
+void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBounds& bounds) {
+  std::vector<std::uint8_t> reaching = damped;
+  spread(body, 1, damped);
+  spread(body, 1 + families_between_levels, reaching);
+  std::vector<double> most(body.blocks.size(), 0);  // of bodies, which are no more than blocks
+  const auto of_body = [&](int i) -> double& { return most[body.domain.blocks[body.domain.cloud.blocks[i]].body]; };
+  for (int i = 0; i < body.owned(); ++i) {
+    if (reaching[i]) of_body(i) = std::max(of_body(i), bounds.values[i]);
+  }
+  body.domain.communicator.max(most);
+  over_points(body, [&](int i, bool may) {
+    if (!damped[i]) return;
+    bounds.values[i] = of_body(i);
+    if (!may) bounds.floor = std::max(bounds.floor, bounds.values[i]);
+  });
+  bounds.floor = body.domain.communicator.max(bounds.floor);
+}
+
 // The frequency bound of level 0 that leaves the marked points level 1.
 double floor_of_pushed(const Body& body, const FrequencyBounds& bounds, double margin,
                        const std::vector<std::uint8_t>& marks) {
@@ -278,11 +299,12 @@ small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster,
 }  // namespace
 
 double MultiTimeStepping::choose(Body& body, double safety_factor, const PresentStep& present,
-                                 const std::vector<std::uint8_t>& pushed) {
+                                 const std::vector<std::uint8_t>& pushed, const std::vector<std::uint8_t>& damped) {
   const std::vector<std::uint8_t> before = std::move(*body.time_levels);
   const double margin = std::min(1.0, most_turn / safety_factor);
   const double bearable = (1 + round_off) * present.slack * present.bound;
   FrequencyBounds bounds = frequency_bounds_of(body);
+  if (body.domain.communicator.max(damped.empty() ? 0.0 : 1.0) > 0) even_out(body, damped, bounds);
   std::vector<std::uint8_t> around = pushed;
   if (body.domain.communicator.max(pushed.empty() ? 0.0 : 1.0) > 0) {  // a rank without points has no marks
     spread(body, families_around_contact, around);

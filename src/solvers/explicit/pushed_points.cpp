@@ -26,6 +26,17 @@ std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& cond
   return any ? marks : std::vector<std::uint8_t>();
 }
 
+std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions) {
+  std::vector<std::uint8_t> marks;
+  conditions.visit([&]<class Type>(const Type& one) {
+    if constexpr (Type::stage == Stage::drags) {
+      marks.resize(body.owned(), 0);
+      for (const auto& drag : one.drags) marks[drag.point] = 1;
+    }
+  });
+  return marks;
+}
+
 bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others) {
   if (others.empty()) return false;
   for (std::size_t i = 0; i < some.size(); ++i) {

@@ -15,6 +15,9 @@ namespace strut {
 std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                                         std::span<const Vector> velocities, double t, double dt);
 
+// Points whose motion a condition damps. Empty where none does.
+std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions);
+
 bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others);  // empty: of none
 
 }  // namespace strut

@@ -85,6 +85,27 @@ TEST(Monitor, LooksAtTheEnergyAtTheEndHoweverEarlyItIs) {
   expect_words(outcome(folder, parts).error, {"at t = 5e-06 s", "balance of energy", "Watch > Balance Error"});
 }
 
+// A body whose energy leaves through its end: the error at the end is a part of the largest energy, also where no line
+// and no frame is written on the way.
+TEST(Monitor, KnowsTheLargestEnergyWhereNothingIsWritten) {
+  const auto error_at_end = [](const std::string& history) {
+    const RunFolder folder({.nx = 2, .ny = 2, .nz = 20});
+    Parts parts;
+    parts.conditions =
+        along("blow", "Body Force", "foot", "z", "if (t &lt; 2e-6) { value = 1e10; } else { value = 0; }") +
+        section("end", key("Type", "Non-Reflecting End") + key("Node Set", "top") + key("Normal", "0 0 1"));
+    parts.times = key("Final Time", "30e-6");
+    parts.history = history.empty() ? "" : key("Filename", folder.operator/("history.csv").string()) + history;
+    testing::internal::CaptureStdout();
+    run(folder.write("deck.xml", parts.text()), folder.world);
+    const std::string said = testing::internal::GetCapturedStdout(), words = "balance error ";
+    const std::size_t at = said.find(words);
+    return folder.world.rank() == 0 ? std::stod(said.substr(at + words.size())) : 1;
+  };
+  // Between two looks, a two-hundredth of the run, the largest energy changes by a few percent.
+  EXPECT_NEAR(error_at_end("") / error_at_end(key("Frequency", "1") + section("Variables", "")), 1, 0.1);
+}
+
 // What a monitor tells of these balances, `error` being a part of the largest energy, one after the other; whether it
 // ends the run; after the lines of a start that do not count.
 struct Told {

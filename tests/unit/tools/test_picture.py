@@ -123,6 +123,15 @@ class Pictures(InFolder):
         self.made("h.csv", "pictures/")
         self.assertEqual((self.folder / "bar.e").read_bytes(), before)
         self.assertGreater((self.folder / "pictures/h-energies.png").stat().st_size, 5000)
+        self.made("h.csv", "pictures/")  # once more, over its own
+
+    def test_a_folder_keeps_a_picture_that_somebody_else_has_made(self):
+        (self.folder / "h.csv").write_text("Time,Kinetic_Energy,Balance_Error\n0,1,0\n1,2,0\n")
+        (self.folder / "pictures").mkdir()
+        theirs = self.folder / "pictures/h-energies.png"
+        theirs.write_bytes(b"\x89PNG\r\n\x1a\n a photograph")
+        self.assertIn("h-energies.png is there and was not written by this tool", self.error("h.csv", "pictures/"))
+        self.assertEqual(theirs.read_bytes(), b"\x89PNG\r\n\x1a\n a photograph")
 
     def scene(self, name, **wanted):
         return view.Scene(Result(str(self.folder / name)), view.Wanted(**wanted))

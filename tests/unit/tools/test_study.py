@@ -306,6 +306,9 @@ class Studies(InFolder):
             status, _, errors = self.study("bar.study", "out", "--list")
             self.assertEqual((status, errors.count("\n")), (1, 1), errors)
             return errors
+        self.assertIn("line 3: '1' and '1e0' are one value: expected each run once", error("vary speed = 10 20", "vary speed = 1 2 1e0"))
+        os.mkfifo(self.folder / "pipe.study")
+        self.assertIn("pipe.study is a pipe or a device", self.study("pipe.study", "out", "--list")[2])
         self.assertIn("line 3: there is no key 'very speed' (did you mean", error("vary speed", "very speed"))
         self.assertIn("no key 'Boundary Conditions > flight > Valu' (did you mean 'Value'?)", error("> Value", "> Valu"))
         self.assertIn("no section 'Solvr' (did you mean 'Solver'?)", error("Solver", "Solvr"))
