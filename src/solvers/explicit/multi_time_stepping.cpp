@@ -183,7 +183,7 @@ void spread(const Body& body, int families, std::vector<std::uint8_t>& marks) {
 void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBounds& bounds) {
   std::vector<std::uint8_t> reaching = damped;
   spread(body, 1, damped);
-  spread(body, 1 + families_between_levels, reaching);
+  spread(body, max_level, reaching);  // levels fall by one a family
   std::vector<double> most(body.blocks.size(), 0);  // of bodies, which are no more than blocks
   const auto of_body = [&](int i) -> double& { return most[body.domain.blocks[body.domain.cloud.blocks[i]].body]; };
   for (int i = 0; i < body.owned(); ++i) {
