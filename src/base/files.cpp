@@ -122,6 +122,16 @@ bool same_file(const fs::path& one, const fs::path& other) {
          fs::equivalent(folder_of(a), folder_of(b), failure);
 }
 
+std::string unreadable(const fs::path& file) {
+  std::error_code failure;
+  const fs::file_status status = fs::status(file, failure);
+  const std::string name = file.string();
+  if (!fs::exists(status)) return name + ": no such file, or it may not be read";
+  if (fs::is_directory(status)) return name + ": it is a directory";
+  if (!fs::is_regular_file(status)) return name + ": it is a pipe or a device; expected a file";
+  return std::ifstream(file) ? "" : name + ": no such file, or it may not be read";
+}
+
 bool is_of_kind(const fs::path& file, FileKind kind) {
   const std::string head = head_of(file);
   return holds_nothing(head) || known(kind).is_one(head);
@@ -132,8 +142,10 @@ std::string obstacle(const fs::path& file, FileKind kind) {
   std::error_code failure;
   const fs::file_status status = fs::status(file, failure);
   const bool there = fs::exists(status), regular = fs::is_regular_file(status);
-  const bool takes_lines = kind == FileKind::log && there && !fs::is_directory(status);  // a terminal, a pipe
-  if (there && !regular && !takes_lines) return name + " is a folder or a device; expected a file that may be replaced";
+  const bool takes_lines =
+      kind == FileKind::log && fs::is_character_file(status);  // a terminal; a pipe may wait for ever
+  if (there && !regular && !takes_lines)
+    return name + " is a folder, a pipe or a device; expected a file that may be replaced";
   if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;
   if (!regular || is_of_kind(file, kind)) return "";
   const bool hdf5 = head_of(file).starts_with("\x89HDF");

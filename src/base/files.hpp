@@ -12,6 +12,10 @@ namespace strut {
 // names that differ in capital letters at the most, which some file systems take for one.
 bool same_file(const std::filesystem::path& one, const std::filesystem::path& other);
 
+// Why a file cannot be read: a sentence that begins with its name; nothing where it can. A pipe without a writer would
+// be waited for without an end.
+std::string unreadable(const std::filesystem::path& file);
+
 // What our programs write. A lock is an empty file; the others are known by how they begin. Of what is unchecked, who
 // replaces it looks at it first.
 enum class FileKind { result, history, checkpoint, lock, log, mesh, unchecked };

@@ -90,7 +90,8 @@ Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, 
 constexpr std::uintmax_t largest_deck = 1'000'000;  // bytes; a long one has twenty thousand
 
 std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream;
+  if (fs::is_regular_file(file)) stream.open(file, std::ios::binary);  // to open a pipe is to wait
   if (!fs::exists(file)) throw Error(file.string() + ": the deck does not exist");
   if (!fs::is_regular_file(file) || !stream) throw Error(file.string() + ": the deck is not a file that can be read");
   if (fs::file_size(file) > largest_deck) {

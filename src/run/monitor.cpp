@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "conditions/crossing.hpp"
+#include "conditions/tool_gap.hpp"
 #include "contact/passing.hpp"
 #include "contact/undeclared.hpp"
 #include "mechanics/fracture/broken_family.hpp"
@@ -157,8 +158,10 @@ void Monitor::check_undeclared(double time, const contact::Contact& contact) {
 }
 
 void Monitor::check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
-  if (tools.empty() || told_[crossing] || time < next_tools_) return;
+  if (tools.empty() || time < next_tools_) return;
   next_tools_ = time + pause_;
+  if (!told_[meeting]) check_meeting(time, conditions, tools);
+  if (told_[crossing]) return;
   const std::vector<Vector> places = present_places(body_.domain);
   std::size_t n = 0;
   conditions.visit([&]<class One>(const One& one) {
@@ -177,6 +180,25 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
       tell_once(crossing, text.str());
     }
   });
+}
+
+// That tools which overlap from the start on are meant to: two plates of one punch, say.
+void Monitor::check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
+  const std::vector<RigidTool> all = tools_of(conditions);
+  overlapped_.resize(all.size() * all.size(), 0);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    for (std::size_t m = 0; m < n; ++m) {
+      if (!may_meet(all[m], all[n])) continue;
+      const bool overlap = gap_between(all[m], all[n], time) < 0;
+      std::uint8_t& before = overlapped_[n * all.size() + m];
+      if (overlap && before == apart) {
+        warn(meeting, at(time) + "the tools '" + tools[m].name + "' and '" + tools[n].name +
+                          "' pass through each other: tools stop points only, and nothing is between them; expected "
+                          "material there, or an end before (Final Time)");
+      }
+      if (before == 0) before = overlap ? together : apart;
+    }
+  }
 }
 
 void Monitor::serialize(Archive& archive) {

@@ -2,6 +2,7 @@
 // that pass through each other.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -53,6 +54,7 @@ class Monitor {
     crossing,
     breaking,
     failing,
+    meeting,
     count
   };
   static constexpr double looks = 200;  // in a run, at energies, bodies inside each other, tools between points
@@ -60,6 +62,7 @@ class Monitor {
   void passed(What what, const std::string& text);
   void tell_once(What what, const std::string& text);
   void warn(What what, const std::string& text);
+  void check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
   void check_springs(const Ledger& ledger);
   void check_stretch(double time);
 
@@ -70,6 +73,8 @@ class Monitor {
          next_energy_ = next_look_;
   const Body& body_;
   std::function<void(const std::string&)> tell_;
+  static constexpr std::uint8_t apart = 1, together = 2;  // how two tools were at the first look; 0: it is to come
+  std::vector<std::uint8_t> overlapped_ = {};
   double first_step_ = 0;  // s, stable
   int ledgers_ = 0;
   double told_error_ = 0;  // of the balance

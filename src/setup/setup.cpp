@@ -142,6 +142,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_tools(scene, ways, spacing, start, duration);
   scene.warnings += apart_tools(scene, start, duration);
+  scene.warnings += meeting_tools(scene, start, duration);
   scene.warnings += overruled_motions(deck, scene, start, duration);
   scene.warnings += thin_members(scene.body);
   scene.warnings += sudden_failure(scene.body);

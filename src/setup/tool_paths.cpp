@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "conditions/tool_gap.hpp"
+
 namespace strut {
 
 namespace {
@@ -166,6 +168,36 @@ std::string apart_tools(const Scene& scene, double start, double duration) {
       text << "before about t = " << start + *touch << " s\n";
     } else {
       text << "until the end: only loads and impacts may bring them together; where should it stand, in m?\n";
+    }
+  }
+  return text.str();
+}
+
+std::string meeting_tools(const Scene& scene, double start, double duration) {
+  const Body& body = scene.body;
+  const std::vector<RigidTool> tools = tools_of(scene.conditions);
+  if (std::none_of(tools.begin(), tools.end(), [](const RigidTool& tool) { return tool.free != nullptr; })) return "";
+  const std::vector<Vector> velocities = predicted_velocities(scene.conditions, start, first_moment * duration, body);
+  std::vector<double> stopped;  // s after the start
+  for (const RigidTool& tool : tools) {
+    const double gap = smallest_gap(tool, body, velocities, start, 0);
+    stopped.push_back(gap > 0 ? first_touch(tool, body, velocities, start, duration, gap).value_or(duration) : 0);
+  }
+  std::ostringstream text;
+  text.precision(3);
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    for (std::size_t m = 0; m < n; ++m) {
+      if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
+      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / looks) < 0; };
+      const double until = std::min(stopped[m], stopped[n]);
+      int k = 1;
+      while (k <= looks && duration * k / looks <= until * (1 + as_good_as_none) && !met(k)) ++k;
+      if (k > looks || duration * k / looks > until * (1 + as_good_as_none)) continue;
+      text
+          << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
+          << "' meet by about t = " << start + duration * k / looks
+          << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
+             "expected material between them, or an end before (Final Time)\n";
     }
   }
   return text.str();

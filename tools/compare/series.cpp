@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 #include "io/exodus/exodus.hpp"
 
 namespace strut::compare {
@@ -36,9 +37,9 @@ void read_row(const std::string& line, std::vector<Variable>& columns) {
 }
 
 Series read_history(const std::filesystem::path& path) {
+  if (const std::string why = unreadable(path); !why.empty()) throw Error(why);
   std::ifstream file(path);
   std::string line;
-  if (!file) throw Error(path.string() + ": no such file, or it may not be read");
   int row = 0;
   do {  // what begins with # says who wrote it
     if (!std::getline(file, line)) throw Error(path.string() + ": it is empty");

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 
 namespace strut::mesh {
 
@@ -346,9 +347,8 @@ std::vector<Entries> lines_of(const std::filesystem::path& path, std::istream& f
 }  // namespace
 
 std::vector<Body> read_recipe(const std::filesystem::path& path) {
-  if (std::filesystem::is_directory(path)) throw Error(path.string() + ": it is a directory");
+  if (const std::string why = unreadable(path); !why.empty()) throw Error(why);
   std::ifstream file(path);
-  if (!file) throw Error(path.string() + ": no such file, or it may not be read");
   std::vector<std::string> problems;
   std::vector<Body> bodies;
   std::set<std::string> names;

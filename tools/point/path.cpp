@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "base/files.hpp"
 
 namespace strut::point {
 namespace {
@@ -49,8 +50,8 @@ Path uniaxial(const StressPrescribed& prescribed, double rate, double final) {
 }
 
 Path read_path(const std::filesystem::path& file, const StressPrescribed& prescribed) {
+  if (const std::string why = unreadable(file); !why.empty()) throw Error(why);
   std::ifstream in(file);
-  if (!in) throw Error(file.string() + ": cannot be read");
   Path path{prescribed, {}};
   std::string line;
   bool header_allowed = true;

@@ -75,7 +75,7 @@ void set_trial_reads(bool wanted) { trial_reads = wanted; }
 
 bool is_hdf5(const std::filesystem::path& file) {
   std::string magic(4, '\0');  // the rest may be damaged
-  std::ifstream(file, std::ios::binary).read(magic.data(), 4);
+  if (std::filesystem::is_regular_file(file)) std::ifstream(file, std::ios::binary).read(magic.data(), 4);
   return magic == "\x89HDF";
 }
 

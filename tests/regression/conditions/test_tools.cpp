@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "regression/bodies.hpp"
+#include "run/simulation.hpp"
 
 namespace strut::regression {
 namespace {
@@ -285,6 +286,34 @@ TEST(FreeTool, FollowsItsForce) {
   EXPECT_NEAR(punch.offset(t)[0], -2 * t + 3 * t * t, 1e-12 * 2 * t);
   EXPECT_NEAR(end.external - *first, 0.25 * ((6 * t - 2) * (6 * t - 2) - 4), 1e-12);
   EXPECT_LT(end.balance_error, 1e-12);
+}
+
+// Two blocks beside the bar, or on both sides of it, 2 mm from each other, of which one flies at 100 m/s: they meet at
+// 20 us.
+TEST(FreeTool, IsToldWhereItMeetsAnotherTool) {
+  const auto said = [](const std::string& first, const std::string& second, const std::string& mass) {
+    const RunFolder folder;
+    Parts parts;
+    const auto box = [](const std::string& name, const std::string& x, const std::string& end,
+                        const std::string& keys) {
+      return tool(name, "Rigid Box", key("Lower Corner", x + " 0 0") + key("Upper Corner", end + " 4e-3 6e-3") + keys);
+    };
+    parts.conditions = box("hammer", first, first == "-2e-3" ? "-1e-3" : "11e-3", mass) +
+                       box("anvil", second, second == "13e-3" ? "14e-3" : "6e-3", "");
+    parts.times = key("Final Time", "30e-6");
+    testing::internal::CaptureStdout();
+    run(folder.write("deck.xml", parts.text()), folder.world);
+    const std::string text = testing::internal::GetCapturedStdout();
+    return folder.world.rank() == 0 ? text : "";
+  };
+  const std::string flies = key("Mass", "1e-6") + key("Speed X", "100");
+  const std::string apart = said("10e-3", "13e-3", flies);
+  if (apart.empty()) return void((said("-2e-3", "5e-3", flies), said("10e-3", "13e-3", key("Travel X", "100*t"))));
+  // One of a hundred looks after it: 0.3 us.
+  EXPECT_NE(apart.find("the tools 'hammer' and 'anvil' meet by about t = 2.01e-05 s"), std::string::npos) << apart;
+  EXPECT_NE(apart.find("the tools 'hammer' and 'anvil' pass through each other"), std::string::npos) << apart;
+  EXPECT_EQ(said("-2e-3", "5e-3", flies).find("the tools"), std::string::npos) << "the bar stops it";
+  EXPECT_EQ(said("10e-3", "13e-3", key("Travel X", "100*t")).find("the tools"), std::string::npos) << "as prescribed";
 }
 
 TEST(FreeTool, IsToldWhereKeysDoNotFit) {

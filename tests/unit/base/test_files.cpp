@@ -1,5 +1,6 @@
 // Which names are of one file, and which file may be replaced by which.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <fstream>
@@ -95,6 +96,20 @@ TEST_F(Files, AFileIsReplacedByOneOfItsKindOnly) {
   EXPECT_NE(obstacle(folder / "no/file", FileKind::log).find("there is no folder"), std::string::npos);
   EXPECT_EQ(obstacle("/dev/null", FileKind::log), "") << "loses nothing";
   EXPECT_NE(obstacle("/dev/null", FileKind::result), "");
+}
+
+// A pipe without a reader or a writer would be waited for without an end.
+TEST_F(Files, APipeIsNeitherReadNorWritten) {
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const FileKind kind : {FileKind::log, FileKind::mesh, FileKind::result, FileKind::unchecked}) {
+    EXPECT_NE(obstacle(pipe, kind).find("is a folder, a pipe or a device"), std::string::npos);
+  }
+  EXPECT_NE(unreadable(pipe).find("it is a pipe or a device"), std::string::npos);
+  EXPECT_NE(unreadable("/dev/zero").find("it is a pipe or a device"), std::string::npos);
+  EXPECT_NE(unreadable(folder / ".").find("it is a directory"), std::string::npos);
+  EXPECT_NE(unreadable(folder / "none").find("no such file"), std::string::npos);
+  EXPECT_EQ(unreadable(write("file", "text")), "");
 }
 
 }  // namespace

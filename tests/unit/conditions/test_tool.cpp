@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "conditions/rigid_tool.hpp"
+#include "conditions/tool_gap.hpp"
 
 namespace strut {
 namespace {
@@ -131,6 +131,29 @@ TEST(Tool, TravelsAsItsFunctionsOfTimeSay) {
   RigidTool tool{{}, box, {Function::parse("2*t"), std::nullopt, Function::parse("-0.25")}};
   EXPECT_EQ(tool.offset(3), Vector(6, 0, -0.25));
   EXPECT_EQ((RigidTool{{}, box, {}}).offset(3), Vector::Zero());
+}
+
+// Closed forms of what two convex bodies are apart along the line that separates them.
+TEST(ToolGap, IsTheDistanceBetweenTwoTools) {
+  const auto gap = [](const Shape& one, const Shape& other) {
+    const RigidTool a{.shape = one}, b{.shape = other};
+    EXPECT_NEAR(gap_between(a, b, 0), gap_between(b, a, 0), 1e-9);
+    return gap_between(a, b, 0);
+  };
+  const HalfSpace floor{Vector(0, 0, 1), Vector::UnitZ()}, lid{Vector(3, 3, 4), -Vector::UnitZ()};
+  const Box box{Vector(0, 0, 2), Vector(1, 1, 3)};
+  EXPECT_EQ(gap(floor, lid), 3);
+  EXPECT_EQ(gap(floor, box), 1);
+  EXPECT_EQ(gap(lid, box), 1);
+  EXPECT_EQ(gap(box, Box{Vector(1.5, 5, 2), Vector(2, 6, 3)}), 4);
+  EXPECT_LT(gap(floor, HalfSpace{Vector(0, 0, 9), Vector::UnitX()}), 0) << "which meet somewhere";
+  EXPECT_LT(gap(floor, HalfSpace{Vector::Zero(), Vector::UnitZ()}), 0);
+  constexpr double found = 1e-9;  // places on an axis of 1e4 m are known to 1e-12, far from where they matter
+  const Cylinder roll{Vector(7, 0, 6), Vector::UnitX(), 0.5};
+  EXPECT_NEAR(gap(roll, floor), 4.5, found);
+  EXPECT_NEAR(gap(roll, Cylinder{Vector(1, 8, 9), Vector::UnitY(), 1}), 1.5, found);
+  EXPECT_NEAR(gap(roll, box), 2.5, found);
+  EXPECT_LT(gap(roll, Box{Vector(-3, -1, 5), Vector(-2, 1, 7)}), 0);
 }
 
 }  // namespace

@@ -1,0 +1,14 @@
+// How far two rigid tools are from each other.
+#pragma once
+
+#include "conditions/rigid_tool.hpp"
+
+namespace strut {
+
+// At time t (s), m; nothing below where they overlap, as tools without ends do that are not parallel.
+double gap_between(const RigidTool& one, const RigidTool& other, double t);
+
+// Whether one of both moves as forces drive it, so that nobody has said that they are to overlap.
+inline bool may_meet(const RigidTool& one, const RigidTool& other) { return one.free || other.free; }
+
+}  // namespace strut
