@@ -31,8 +31,12 @@ T same(double value) {
 
 inline bool any(bool is) { return is; }
 inline bool any(const Mask& is) {
+#ifdef __AVX512F__
+  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(is), reinterpret_cast<__m512i>(is)) != 0;
+#else
   const Mask none{};
   return std::memcmp(&is, &none, sizeof is) != 0;
+#endif
 }
 
 using std::exp, std::log, std::expm1, std::sqrt;

@@ -61,6 +61,32 @@ STRUT_INLINE Lanes lanes_of(const Of& of) {
   return values;
 }
 
+#ifndef __AVX512F__
+namespace detail {
+
+struct alignas(Lanes) Ones {
+  double lane[lane_count];
+};
+inline constexpr std::array<Ones, 1 << lane_count> ones = [] {
+  std::array<Ones, 1 << lane_count> table{};
+  for (unsigned mask = 0; mask < table.size(); ++mask) {
+    for (int l = 0; l < lane_count; ++l) table[mask].lane[l] = mask >> l & 1;
+  }
+  return table;
+}();
+
+}  // namespace detail
+#endif
+
+// 1 in the lanes whose bit is set, 0 in others.
+STRUT_INLINE Lanes ones_in(unsigned bits) {
+#ifdef __AVX512F__
+  return lanes(RawLanes(_mm512_maskz_mov_pd(static_cast<__mmask8>(bits), _mm512_set1_pd(1))));
+#else
+  return Eigen::Map<const Lanes, Eigen::AlignedMax>(detail::ones[bits].lane);
+#endif
+}
+
 // ---- Numbers that follow upon each other in each record: registers of records, transposed --------------------------
 
 namespace detail {

@@ -108,26 +108,14 @@ struct OfCluster {
   // waiting for them.
   template <class Visit, class Fetch>
   void for_each(Visit&& visit, const Fetch& fetch) const {
-    constexpr std::size_t ahead = 8;
+    constexpr std::size_t ahead = 16;
     const std::size_t size = cluster.near.size();
     for (std::size_t n = 0; n < std::min(ahead, size); ++n) fetch(cluster.near[n]);
     for (std::size_t n = 0; n < size; ++n) {
       if (n + ahead < size) fetch(cluster.near[n + ahead]);
-      visit(cluster.near[n], Eigen::Map<const Lanes, Eigen::AlignedMax>(presence[cluster.mask[n]].lanes));
+      visit(cluster.near[n], small::ones_in(cluster.mask[n]));
     }
   }
-
- private:
-  struct alignas(Lanes) Presence {
-    double lanes[Cluster::width];
-  };
-  static constexpr std::array<Presence, 1 << Cluster::width> presence = [] {
-    std::array<Presence, 1 << Cluster::width> table{};
-    for (unsigned mask = 0; mask < table.size(); ++mask) {
-      for (int l = 0; l < Cluster::width; ++l) table[mask].lanes[l] = mask >> l & 1;
-    }
-    return table;
-  }();
 };
 
 template <class Family>

@@ -55,13 +55,16 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
   }
   over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
     const Vector3<T> eta = apart(sites[j].current, y);
-    const std::array<T, 6> q = squares(xi);
+    const auto& [x, y, z] = xi.c;
+    const std::array<T, 6> q{T(x * x), T(y * y), T(z * z), T(x * y), T(y * z), T(z * x)};  // the first three twice
     for (int r = 0; r < 3; ++r) {
       const T weighted = w * eta.c[r];
       for (int k = 0; k < 6; ++k) second[r][k] += weighted * q[k];
     }
   });
-  for (int r = 0; r < 3; ++r) std::copy_n(second[r], 6, N.second[r]);
+  for (int r = 0; r < 3; ++r) {
+    for (int k = 0; k < 6; ++k) N.second[r][k] = k < 3 ? T(0.5 * second[r][k]) : second[r][k];
+  }
   return N;
 }
 
@@ -72,24 +75,23 @@ inline Vector3<ScalarOf<Family>> quadratic_far_force(const Family& family, const
                                                      Weight weight) {
   using T = ScalarOf<Family>;
   const auto mu = family.template own<3>([&](int i) { return multipliers[i].data(); });
-  Vector3<T> linear = zero_vector<T>(), quadratic = zero_vector<T>(), corrected = zero_vector<T>();
+  Vector3<T> sum = zero_vector<T>();
   over(
       family, sites, weight,
       [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
         const QuadraticState& there = states[j];
-        const std::array<T, 6> q = squares(xi);
+        const auto& [x, y, z] = xi.c;
+        const T half[3] = {T(0.5 * x), T(0.5 * y), T(0.5 * z)};
         for (int r = 0; r < 3; ++r) {
-          T a = there.first[3 * r] * xi.c[0] + there.first[3 * r + 1] * xi.c[1] + there.first[3 * r + 2] * xi.c[2];
-          T b = there.second[6 * r] * q[0] + there.second[6 * r + 1] * q[1] + there.second[6 * r + 2] * q[2];
-          b += there.second[6 * r + 3] * q[3] + there.second[6 * r + 4] * q[4] + there.second[6 * r + 5] * q[5];
-          const T d = there.offset[r] - there.correction[3 * r] * mu[0] - there.correction[3 * r + 1] * mu[1] -
-                      there.correction[3 * r + 2] * mu[2];
-          linear.c[r] += w * a, quadratic.c[r] += w * b, corrected.c[r] += w * d;
+          const double *A = there.first + 3 * r, *B = there.second + 6 * r, *D = there.correction + 3 * r;
+          T t = there.offset[r] - D[0] * mu[0] - D[1] * mu[1] - D[2] * mu[2];
+          t += x * (A[0] - B[0] * half[0] - B[3] * y - B[5] * z);
+          t += y * (A[1] - B[1] * half[1] - B[4] * z);
+          t += z * (A[2] - B[2] * half[2]);
+          sum.c[r] += w * t;
         }
       },
       states);
-  Vector3<T> sum;
-  for (int r = 0; r < 3; ++r) sum.c[r] = linear.c[r] - quadratic.c[r] + corrected.c[r];
   return sum;
 }
 
