@@ -27,6 +27,12 @@ namespace strut {
 
 enum class Part;
 
+// Whether point i, or a ghost, has failed.
+inline bool has_failed(const ForceStates& states, std::size_t i) {
+  return (!states.tensors.empty() && states.tensors[i].failed() > 0) ||
+         (!states.quadratics.empty() && states.quadratics[i].failed > 0);
+}
+
 class Fracture {
  public:
   // Collective. Of a body whose families are whole.

@@ -222,9 +222,9 @@ std::vector<std::uint8_t> CentralDifference::pushed_now() const {
 void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
   length_.begin_levels();
   if (!control_.subcycling || control_.fixed_dt > 0) return;
-  report.frequency_bound =
-      multi_stepping_.choose(body_, control_.safety_factor, length_.present(body_.fracture != nullptr), pushed,
-                             damped_points(body_, conditions_));
+  const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
+  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor,
+                                                  length_.present(body_.fracture != nullptr), {pushed, damped});
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }

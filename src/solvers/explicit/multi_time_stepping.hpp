@@ -11,6 +11,7 @@
 #include "base/archive.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/mechanics.hpp"
+#include "solvers/explicit/time_step_levels.hpp"
 
 namespace strut {
 
@@ -21,14 +22,7 @@ class MultiTimeStepping {
   // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
   // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
   // the step will be such a part of the stable one. The present step stays as it is, unless another is much better.
-  // `pushed`: whether contact acts on an owned point; empty where there is none. `damped`: whether a condition damps
-  // the motion of one; empty: of none.
-  struct PresentStep {
-    double bound;  // 1/s, the frequency bound that it was chosen for; 0: there is none
-    double slack;  // so many times as much is bearable
-  };
-  double choose(Body& body, double safety_factor, const PresentStep& present, const std::vector<std::uint8_t>& pushed,
-                const std::vector<std::uint8_t>& damped);
+  double choose(Body& body, double safety_factor, const PresentStep& present, const ActedOn& acted_on);
 
   // Whether an owned point is too near to such of several substeps for contact to push it. Empty: no point is.
   const std::vector<std::uint8_t>& exposed() const { return exposed_; }

@@ -87,7 +87,7 @@ double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, 
   return estimated && since >= least_growth * dt_ ? since : dt_;
 }
 
-MultiTimeStepping::PresentStep StepLength::present(bool bonds_may_break) const {
+PresentStep StepLength::present(bool bonds_may_break) const {
   return {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0,
           longest_stay(bonds_may_break) / control_.safety_factor};
 }

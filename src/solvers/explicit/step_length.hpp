@@ -43,7 +43,7 @@ class StepLength {
 
   // Time-step levels: whether they are to be chosen anew; what they must know of the present step; what was chosen.
   bool levels_due() const { return levels_due_; }
-  MultiTimeStepping::PresentStep present(bool bonds_may_break) const;
+  PresentStep present(bool bonds_may_break) const;
   void begin_levels() { levels_due_ = false, estimate_due_ = true; }
   void take_levels(const MultiTimeStepping& chosen);
 
