@@ -35,7 +35,7 @@ template <class T>
 requires requires(T& value) { value.data(); }
 auto& number_of(T& value, int n) { return value.data()[n]; }
 
-// What a set knows of each field, whatever its type.
+// The interface of a field to its set, whatever its type.
 class AnyField {
  public:
   AnyField(At at, std::vector<FieldPart> parts) : at(at), parts(std::move(parts)) {}

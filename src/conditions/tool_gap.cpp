@@ -48,7 +48,7 @@ double gap(const Box& box, const HalfSpace& half) {
   return half.normal.dot(nearest - half.point);
 }
 
-// Of faces across one axis: edges that pass each other aslant are farther apart.
+// The gap between faces across one axis: edges that pass each other aslant are farther apart.
 double gap(const Box& box, const Box& other) {
   return (box.lower - other.upper).cwiseMax(other.lower - box.upper).maxCoeff();
 }

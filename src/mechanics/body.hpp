@@ -236,7 +236,7 @@ struct MaterialBlock {
   FieldSet fields;
   // The law's own, number by number.
   FieldRef<small::Tiles> state = fields.add<small::Tiles>(At::integration_point, {});
-  // Of quadratic correspondence; of others body.points are these.
+  // Integration points of quadratic correspondence; in other formulations body.points are these.
   FieldRef<CellPoints> cells = fields.add<CellPoints>(At::integration_point, CellPoints::parts(), When::if_used);
   PointField<std::uint8_t> flowed =
       fields.of_points<std::uint8_t>({.name = "flowed",

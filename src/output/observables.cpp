@@ -170,7 +170,7 @@ void with_part(const FieldSet& fields, const std::string& variable, const Take& 
   }
 }
 
-// Of a field that is declared as one, of points or of blocks; of integration points the mean.
+// The observable of a declared field, of points or of blocks: the mean over integration points.
 Observable declared(const FieldPart& part) {
   const auto fill = [variable = part.variable, width = part.width](const Body& body, std::vector<double>& out) {
     out.assign(static_cast<std::size_t>(body.owned()) * width, 0);

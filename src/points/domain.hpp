@@ -57,16 +57,6 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
 // The owned points as they were read.
 PointCloud whole_cloud(const Domain& domain);
 
-// What a step takes of a point of each block for its bonds, in ns, roughly; whether any are summed by stencils.
-struct BondCosts {
-  std::vector<double> of_block;
-  bool by_stencils = false;
-};
-
-// Collective, for a partition. `spacings`: the mean one of each block, m; 0 where it has no points.
-BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
-                     const Communicator& communicator);
-
 // What is wrong with a family, or nullptr: a shape tensor needs at least four neighbors that span space.
 // `spread`: Σ V ξ⊗ξ of the family.
 const char* degeneracy(std::size_t neighbors, const Tensor& spread);

@@ -6,6 +6,7 @@
 #include "mechanics/cost.hpp"
 #include "points/bounding_box.hpp"
 #include "points/domain.hpp"
+#include "points/neighbors/stencils.hpp"
 #include "setup/blocks.hpp"
 #include "setup/contact.hpp"
 

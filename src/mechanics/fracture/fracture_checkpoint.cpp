@@ -1,4 +1,4 @@
-// What a checkpoint keeps of bonds that have broken.
+// The state of broken bonds in checkpoints.
 #include <algorithm>
 #include <cmath>
 

@@ -10,7 +10,8 @@ namespace strut {
 
 using small::TileRow;
 
-// The tile of a group's records where they stand in it in the order of the lanes, else a copy. The tile of the next
+// The tile of a group's records where they fill it in the order of the lanes, else a copy: the other records of a tile
+// are those of another group, which another thread may write. The tile of the next
 // group, so many tiles on, is fetched ahead: there are too many streams for the processor to see it coming. Row: const
 // where they are only read.
 template <std::size_t numbers, std::size_t ahead, class Row = TileRow>
@@ -20,7 +21,7 @@ class GroupTile {
 
   template <class Tiles>
   GroupTile(Tiles& all, const Places& places, int count) {
-    bool own = places[0] % LaneGroup::width == 0;
+    bool own = count == LaneGroup::width && places[0] % LaneGroup::width == 0;
     for (int l = 1; l < count; ++l) own = own && places[l] == places[0] + l;
     rows_ = own ? all.tile_of(places[0]) : copy_.data();
     if (own) {

@@ -26,13 +26,13 @@ struct Mirrored {
 Mirrored mirrored(std::vector<Mirror> mirrors, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
                   double reach, const Communicator& communicator);
 
-// What others than the owner's own families may need of a point: itself (image 0) and its images.
+// A place of a point that the families of other points may need: its own (image 0), or that of an image.
 struct Offered {
   int point, image;
   Vector place;
 };
 
-// Of the points of this rank, whose `reach` is the largest horizon.
+// The places of the points of this rank. `reach`: the largest horizon.
 std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored,
                              double reach);
 

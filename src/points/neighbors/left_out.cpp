@@ -10,7 +10,7 @@ namespace strut {
 
 namespace {
 
-// Of each block: whether one of its body asks for it.
+// For each block: whether a block of its body asks for bonds through material.
 std::vector<char> concerned(const std::vector<BlockBonds>& bonds) {
   std::vector<char> blocks;
   for (const BlockBonds& block : bonds) {
@@ -69,7 +69,7 @@ class Joints {
   }
 
  private:
-  // Those that take X to the same place as `image` does.
+  // Visits the images that take X to the same place as `image` does.
   template <class Visit>
   void for_each_image_at(int body, const Vector& X, int image, const Visit& visit) const {
     const Images& images = mirrored_.images;

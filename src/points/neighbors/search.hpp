@@ -31,7 +31,8 @@ void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, V
   });
 }
 
-// Of the owned points in their order, those who would be bonded but for a crack, as Domain has them.
+// Pairs of an owned point, in the order given, and a point to which it would be bonded but for a crack
+// (Domain::parted).
 std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
                                                            const std::vector<int>& order);
 

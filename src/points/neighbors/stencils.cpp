@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "points/domain.hpp"
-
 namespace strut {
 
 Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<Vector>& positions,

@@ -39,4 +39,15 @@ void for_each_neighbor(const Stencils& stencils, const Search& search, const Can
   }
 }
 
+// The time that a step takes for the bonds of a point of each block, in ns, roughly; whether any are summed by
+// stencils.
+struct BondCosts {
+  std::vector<double> of_block;
+  bool by_stencils = false;
+};
+
+// Collective, for a partition. `spacings`: the mean one of each block, m; 0 where it has no points.
+BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
+                     const Communicator& communicator);
+
 }  // namespace strut

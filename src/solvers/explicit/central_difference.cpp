@@ -179,7 +179,7 @@ void CentralDifference::constrain(double impulse_time) {
   reactions_.take(impulses, mid_steps_, impulse_time, length_.previous_dt());
 }
 
-// Of loads and friction, too, once velocities are final.
+// Adds the work of loads and friction, once velocities are final.
 void CentralDifference::count_work(double impulse_time) {
   ImpulseWork& work = energies_.at_impulse();
   const double part = impulse_time / static_cast<double>(load_times_.size());

@@ -18,13 +18,13 @@ class EnergyAccount {
   void begin_impulse();
   ImpulseWork& at_impulse() { return impulse_; }
   void end_impulse(const MidSteps& steps) { impulse_ = impulse_.split(steps); }
-  // Of impulses between whole steps.
+  // Adds the work of impulses between whole steps.
   void add(const ImpulseWork& work) { done_ = done_ + work.before + work.after; }
 
   // Collective. At the time of the impulses; `dt`: of the step after it.
   Ledger ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact, const MidSteps& steps,
                 double time, double dt);
-  // What the body holds at the start has been put in.
+  // Counts the energy that the body holds at the start as put in.
   void begin_with(const Ledger& ledger) { initial_ += ledger.gained; }
 
   void serialize(Archive& archive);

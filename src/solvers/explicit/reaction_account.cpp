@@ -16,7 +16,7 @@ void ReactionAccount::add_mirrors(const Body& body, const std::vector<Vector>& f
   }
 }
 
-// What a substep gives belongs to the step before this impulse.
+// The impulses of substeps belong to the step before this impulse.
 void ReactionAccount::take(const ReactionImpulses& now, const MidSteps& steps, double impulse_time,
                            double previous_dt) {
   const double before = steps.before;

@@ -58,7 +58,7 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   levels_due_ =
       frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps || exposed_are_pushed;
   if (control_.fixed_dt > 0) {
-    // What round-off leaves after the last full step is no step of its own.
+    // The rest that round-off leaves after the last full step is no step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
     // Equal steps to the end: a jump in dt at the last one would cost energy.

@@ -37,7 +37,7 @@ class StepLength {
   // Collective. For the step after `time`, which does not pass `final_time`. `exposed_are_pushed`: contact acts on
   // points the levels of which do not allow for it.
   void choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body);
-  // What all ranks found at the end of a step: the largest frequency bound (1/s) and damping of a point.
+  // Takes the largest frequency bound (1/s) and damping of a point on any rank at the end of a step.
   void take(double frequency_bound, double damping) { frequency_bound_ = frequency_bound, damping_ = damping; }
   void count_step() { ++steps_, ++steps_since_estimate_; }
 

@@ -51,11 +51,11 @@ constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays
 // energy, and bounds go up and down with vibrations.
 constexpr double slack = 1.25;
 
-// Of a frequency bound: those of points that are the same but for their places differ by so much at the most, and have
+// Relative: frequency bounds of points that are the same but for their places differ by so much at the most, and have
 // the same level.
 constexpr double round_off = 1e-9;
 
-// What a step of which frequency bound costs, in classes that are an eighth of an octave wide.
+// The cost of steps by frequency bound, in classes that are an eighth of an octave wide.
 class FrequencyHistogram {
  public:
   static constexpr int classes_per_octave = 8, octaves = 32, classes = classes_per_octave * octaves;
@@ -80,7 +80,7 @@ class FrequencyHistogram {
     const double c = std::floor(classes_per_octave * std::log2((1 + round_off) * fastest_ / frequency_bound));
     return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
   }
-  // Of the same time, with steps for points of the frequency bound bound(c) and below.
+  // The cost of the same time, with steps for points of the frequency bound bound(c) and below.
   double cost(int c) const;
 
   double fastest_, margin_;
@@ -115,7 +115,7 @@ bool may_be_subcycled(const Body& body, std::size_t block) {
   return true;
 }
 
-// Of a whole step of a point, also while it is in rigid motion: it will not stay so.
+// The cost of a whole step of a point, also while it is in rigid motion: it will not stay so.
 double cost_of_point(const Body& body, int i) { return body.block_of(i).is_quadratic() ? cost_of_quadratic : 1; }
 
 // Calls visit(i, whether it may have a higher level) for the owned points.
@@ -170,7 +170,7 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
-// Of each body, the points that move damped ones have one bound, so that they are of one level: between the impulses of
+// In each body the points that move damped ones have one bound, so that they are of one level: between the impulses of
 // coarser steps a damper lets the velocity decay, and an impulse does the work of the mean of the velocities before and
 // after it, which is then more than that over its step. The bound is that of all points whose level reaches there.
 void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBounds& bounds) {
@@ -221,7 +221,7 @@ TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double boun
   return {std::move(levels), bound, work};
 }
 
-// What costs least; points between stiff ones count, too.
+// The levels that cost least; points between stiff ones count, too.
 TimeStepLevels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin) {
   FrequencyHistogram histogram(bounds.largest, margin);
   for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));

@@ -14,7 +14,7 @@ struct PresentStep {
   double slack;  // so many times as much is bearable
 };
 
-// What acts on owned points once a step, whatever their levels. Empty: on none.
+// Marks of the owned points that something acts on once a step, whatever their levels. Empty: none.
 struct ActedOn {
   const std::vector<std::uint8_t>& pushed;  // by contact, or a tool with a mass
   const std::vector<std::uint8_t>& damped;  // by a condition

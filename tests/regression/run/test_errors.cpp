@@ -400,8 +400,8 @@ TEST_F(Mistake, OutputThatCannotBeWritten) {
     fs::create_directory(folder / "taken.e");
     fs::create_directory(folder / "taken.csv");
   });
-  expect_error(changed(deck, "@/result.e", "@/taken.e"), {"taken.e", "is a folder or a device"});
-  expect_error(changed(deck, "@/history.csv", "@/taken.csv"), {"taken.csv", "is a folder or a device"});
+  expect_error(changed(deck, "@/result.e", "@/taken.e"), {"taken.e", "is a folder, a pipe or a device"});
+  expect_error(changed(deck, "@/history.csv", "@/taken.csv"), {"taken.csv", "is a folder, a pipe or a device"});
 }
 
 TEST_F(Mistake, BothHorizonsOrNone) {

@@ -378,7 +378,7 @@ TEST(DeckErrors, WhatIsReadIsNotReplaced) {
   for (const auto& [name, problem] : {std::pair("soft.e", "is the input mesh"),
                                       {"hard.e", "is the input mesh"},
                                       {"deck.e", "is this deck"},
-                                      {"folder.e", "is a folder or a device"}}) {
+                                      {"folder.e", "is a folder, a pipe or a device"}}) {
     const std::string text = changed(full_deck, "value=\"bar\"", "value=\"" + (folder / name).string() + "\"");
     EXPECT_EQ(folder.error(text), "deck.xml: 1 problem\n  Output > Output Filename: '" + std::string(name) + "' " +
                                       problem + "; expected a file that may be replaced");

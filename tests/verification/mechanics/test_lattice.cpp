@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 
+#include "mechanics/kernels/group_tile.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "verification/probes.hpp"
 
@@ -224,6 +225,24 @@ TEST(StepReport, TellsTheWorstFailureOfTheFirstPointWhicheverComesFirst) {
     EXPECT_EQ(all.failure->kind, Kind::no_stress);
   } while (std::next_permutation(failures.begin(), failures.end(),
                                  [](const Failure& a, const Failure& b) { return a.point < b.point; }));
+}
+
+// The other records of its tile belong to another group, which another thread may write meanwhile.
+TEST(GroupTile, AGroupThatDoesNotFillATileWorksOnACopy) {
+  small::Tiles states;
+  states.assign(LaneGroup::width, std::array{1.0, 2.0});
+  const auto rows_of = [&](int count) {
+    std::array<int, LaneGroup::width> places;
+    for (int l = 0; l < LaneGroup::width; ++l) places[l] = std::min(l, count - 1);
+    const GroupTile<2, 1> tile(states, places, count);
+    for (int n = 0; n < 2; ++n) small::lanes(tile.rows()[n]) += 1;
+    const bool is_copy = tile.rows() != states.tile_of(0);
+    tile.give_back(states, places, count);
+    return is_copy;
+  };
+  EXPECT_TRUE(rows_of(3));
+  for (int k = 0; k < LaneGroup::width; ++k) EXPECT_EQ(states.at(k, 1), k < 3 ? 3.0 : 2.0) << k;
+  EXPECT_FALSE(rows_of(LaneGroup::width));
 }
 
 }  // namespace
