@@ -46,7 +46,7 @@ class StiffPart : public testing::TestWithParam<Case> {};
 
 // Noise in every motion that the bar has, undamped. What is kept is an energy that differs from the sum by terms of the
 // order of (ω Δt)², so that the balance of noise swings by some percent; a resonance grows without bound, tenfold in a
-// hundred steps without the points between (multi_time_stepping.cpp: smooth_levels).
+// hundred steps without the points between (time_step_levels.cpp: smooth_levels).
 TEST_P(StiffPart, SwingsOnWithoutGrowth) {
   const Case& c = GetParam();
   const bool by_mean = c.mean > 0;
@@ -201,6 +201,23 @@ TEST(MultiTimeStepping, HaveTwoSubstepsAtTheMostWhereAPointIsPushed) {
       EXPECT_EQ(max_level(body), 1) << ratio << ", " << safety_factor;
     }
   }
+}
+
+// The points that move a damped point have one level, whatever the number of their body: numbers of bodies may have
+// gaps.
+TEST(MultiTimeStepping, AreOneForAllThatMoveDampedPoints) {
+  Body body = bar(400, stabilized(MeanGradientStabilization{0.05}));
+  for (BlockHorizons& block : body.domain.blocks) block.body = 5;
+  advance_stress(body, 0, true);
+  std::vector<std::uint8_t> damped(body.owned(), 0);
+  for (int i = 0; i < body.owned(); ++i) damped[i] = body.domain.reference(i)[0] < h ? 1 : 0;
+  MultiTimeStepping().choose(body, 0.8, {0, 1}, {{}, damped});
+  const int most = max_level(body);
+  EXPECT_GT(most, 1);
+  const auto below_it = [&](int i) {
+    return body.domain.reference(i)[0] < 3 * h ? static_cast<double>(most - body.time_levels[i]) : 0.0;
+  };
+  EXPECT_EQ(largest_over(body, below_it), 0);
 }
 
 // Points at the surface are faster than those within: less than what is worth while.
