@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -42,14 +43,16 @@ class Archive {
   // at(k, c): a reference to component c of the k-th point.
   template <class At>
   void field(const std::string& name, int width, At&& at) {
-    std::vector<double>& values = column(name, width).values;
-    std::size_t n = 0;
-    for (std::size_t k = 0; n < values.size(); ++k) {
-      for (int c = 0; c < width; ++c) pass(at(k, c), values[n++]);
-    }
+    numbers(
+        name, width, [&](std::size_t k, int c) { return static_cast<double>(at(k, c)); },
+        [&](std::size_t k, int c, double number) {
+          auto& own = at(k, c);
+          own = static_cast<std::remove_reference_t<decltype(own)>>(number);
+        });
   }
 
-  // The same of numbers that are not where a reference can lead: get(k, c), set(k, c, number).
+  // A field whose numbers no reference leads to: get(k, c) returns component c of the k-th point, set(k, c, number)
+  // changes it.
   template <class Get, class Set>
   void numbers(const std::string& name, int width, Get&& get, Set&& set) {
     std::vector<double>& values = column(name, width).values;

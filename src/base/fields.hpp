@@ -28,12 +28,17 @@ struct FieldPart {
   int width = 0;         // so many numbers; 0: as the type has
 };
 
-// The numbers of a value, one by one. Records that are values of fields have such a function of their own.
+// The numbers of a value, one by one: a number, a vector or tensor, a record that lists its members as `numbers`. Other
+// records have such a function of their own.
 template <class T>
 requires std::is_arithmetic_v<T> T& number_of(T& value, int) { return value; }
 template <class T>
 requires requires(T& value) { value.data(); }
 auto& number_of(T& value, int n) { return value.data()[n]; }
+
+template <class Record>
+requires requires { std::remove_const_t<Record>::numbers; }
+auto& number_of(Record& record, int n) { return record.*(Record::numbers[n]); }
 
 // The interface of a field to its set, whatever its type.
 class AnyField {

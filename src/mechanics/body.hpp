@@ -159,17 +159,14 @@ struct OrdinaryPoint {
   double dilatation = 0;       // θ
   double energy = 0;           // W, J/m³; current after a step with diagnostics
 
+  static constexpr double OrdinaryPoint::*numbers[] = {&OrdinaryPoint::weighted_volume, &OrdinaryPoint::dilatation,
+                                                       &OrdinaryPoint::energy};
   static std::vector<FieldPart> parts() {
     return {{.name = "weighted_volume", .unit = "m⁵", .meaning = "m", .width = 1},
             {.name = "dilatation", .unit = "1", .meaning = "θ", .kept = true, .width = 1},
             {.name = "energy", .unit = "J/m³", .meaning = "W", .kept = true, .width = 1}};
   }
 };
-template <class Point>
-requires std::same_as<std::remove_const_t<Point>, OrdinaryPoint>
-auto& number_of(Point& point, int n) {
-  return n == 0 ? point.weighted_volume : n == 1 ? point.dilatation : point.energy;
-}
 
 // What the artificial viscosity of a block keeps of a point.
 struct ViscousPoint {
@@ -178,6 +175,8 @@ struct ViscousPoint {
   double damping = 0;   // part of the critical damping of the fastest wave between points
   double edge = 0;      // of a cube as large as the whole cell, of which a node on a symmetry plane has a part, m
 
+  static constexpr double ViscousPoint::*numbers[] = {&ViscousPoint::pressure, &ViscousPoint::work,
+                                                      &ViscousPoint::damping, &ViscousPoint::edge};
   static std::vector<FieldPart> parts() {
     return {
         {.name = "viscous_pressure",
@@ -196,11 +195,6 @@ struct ViscousPoint {
         {.name = "edge", .unit = "m", .meaning = "of a cube as large as the cell", .width = 1}};
   }
 };
-template <class Point>
-requires std::same_as<std::remove_const_t<Point>, ViscousPoint>
-auto& number_of(Point& point, int n) {
-  return n == 0 ? point.pressure : n == 1 ? point.work : n == 2 ? point.damping : point.edge;
-}
 
 // Artificial viscosity of von Neumann & Richtmyer (1950) and Landshoff (1955): where the volume shrinks at the rate D,
 // a pressure q = ρ l |D| (b₁ c + b₂² l |D|) resists it, l the distance of points and c the speed of longitudinal waves.
@@ -273,7 +267,7 @@ struct MaterialBlock {
     const std::size_t slot = slot_of_cell(k);
     return (slot / small::Tiles::width * 4 + q) * small::Tiles::width + slot % small::Tiles::width;
   }
-  // Of a cell, in tiles of cells.
+  // The position of the cell of points[k] among the slots of all tiles of cells.
   std::size_t slot_of_cell(std::size_t k) const {
     const auto inside = static_cast<std::size_t>(interior);
     return k < inside ? k : k - inside + in_tiles(inside);
@@ -282,7 +276,7 @@ struct MaterialBlock {
   typename L::State state_of(std::size_t place) const {
     return state_in<L>(state, place);
   }
-  // Of a law point as it is now.
+  // The elastic moduli of a law point in its present state.
   materials::Moduli moduli(std::size_t place) const {
     return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); },
                       material.law);

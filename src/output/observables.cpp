@@ -158,13 +158,13 @@ std::vector<Observable> fixed_properties() {
   };
 }
 
-// Calls take(field, part, the number that the part begins with) for the part with this name as an output variable.
+// Calls take(field, the number that the part begins with) for the part with this name as an output variable.
 template <class Take>
 void with_part(const FieldSet& fields, const std::string& variable, const Take& take) {
   for (const auto& field : fields.all()) {
     int first = 0;
     for (const FieldPart& part : field->parts) {
-      if (part.variable == variable && field->bytes() > 0) take(*field, part, first);
+      if (part.variable == variable && field->bytes() > 0) take(*field, first);
       first += part.width;
     }
   }
@@ -175,13 +175,13 @@ Observable declared(const FieldPart& part) {
   const auto fill = [variable = part.variable, width = part.width](const Body& body, std::vector<double>& out) {
     out.assign(static_cast<std::size_t>(body.owned()) * width, 0);
     const auto number = [&](int i, int c) -> double& { return out[static_cast<std::size_t>(i) * width + c]; };
-    with_part(body.fields, variable, [&](const AnyField& field, const FieldPart&, int first) {
+    with_part(body.fields, variable, [&](const AnyField& field, int first) {
       for (int i = 0; i < body.owned(); ++i) {
         for (int c = 0; c < width; ++c) number(i, c) = field.number(i, first + c);
       }
     });
     for (const MaterialBlock& block : body.blocks) {
-      with_part(block.fields, variable, [&](const AnyField& field, const FieldPart&, int first) {
+      with_part(block.fields, variable, [&](const AnyField& field, int first) {
         const int places = field.at == At::point ? 1 : block.places_a_point();
         for (std::size_t k = 0; k < block.points.size(); ++k) {
           for (int c = 0; c < width; ++c) {

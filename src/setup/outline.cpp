@@ -209,10 +209,9 @@ std::string large_elastic_strains(const Scene& scene, const std::vector<Trajecto
   std::ostringstream text;
   text.precision(2);
   for (const MaterialBlock& block : scene.body.blocks) {
-    const Viscosity& viscosity = block.material.viscosity;
     const double part = difference / wave_speed(block.material);
     if (!(part > large) || block.is_ordinary() || std::isfinite(yield_ratio(block.material))) continue;
-    if (viscosity.linear > 0 || viscosity.quadratic > 0) continue;
+    if (block.material.viscosity.any()) continue;
     text << "block '" << block.name << "': elastic, and speeds are " << part << " of its wave speed apart: by strains "
          << "of that order its energy is off by about as much, as its law is a rate form and steps that fall while it "
          << "vibrates give it some; told from 1 % on, kept better with Linear Viscosity\n";

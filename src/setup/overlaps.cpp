@@ -19,9 +19,7 @@ constexpr double least_horizon = 1.5;  // edges of a cube of the point's volume
 bool is_crowded(const Domain& domain, int i) {
   const double volume = domain.volume(i), horizon = domain.horizon(i);
   if (domain.families.lattice(i) || horizon < least_horizon * std::cbrt(volume)) return false;
-  double sum = volume;
-  domain.families.for_each(i, [&](int j) { sum += domain.volume(j); });
-  return sum > crowded * 4 * std::numbers::pi / 3 * horizon * horizon * horizon;
+  return volume + family_volume(domain, i) > crowded * 4 * std::numbers::pi / 3 * horizon * horizon * horizon;
 }
 
 std::string crowds(const Body& body) {

@@ -1,9 +1,8 @@
-#include "base/fields.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstdint>
 
+#include "base/fields.hpp"
 #include "base/math/tensors.hpp"
 
 namespace strut {
@@ -11,12 +10,8 @@ namespace {
 
 struct Record {
   double first = 1, second = 2;
+  static constexpr double Record::*numbers[] = {&Record::first, &Record::second};
 };
-template <class R>
-  requires std::same_as<std::remove_const_t<R>, Record>
-auto& number_of(R& record, int n) {
-  return n == 0 ? record.first : record.second;
-}
 
 // As a member of some state would: each field is one declaration.
 struct State {
