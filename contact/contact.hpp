@@ -84,9 +84,9 @@ class Contact {
   // one.
   void add_where_touched(double amount, std::span<double> of_points) const;
 
-  // Those that touch, or come to in a step like the last, of points; of surfaces those that feel a force.
+  // Marks owned points that touch, or will in a step like the last one; by surfaces, those that feel a force.
   void mark_touching(std::span<std::uint8_t> marks) const;
-  // Those that the last search has found near others.
+  // Marks owned points that the last search has found near points of others.
   void mark_near(std::span<std::uint8_t> marks) const;
 
   int searches() const { return searches_; }  // so far, of all interactions

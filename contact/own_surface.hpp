@@ -1,4 +1,4 @@
-// What contact of surfaces must know of a body's own surface. A mesh tells the surface of each cell by two integrals
+// The own surface of a body, as contact of surfaces needs it. A mesh tells the surface of each cell by two integrals
 // (CellShape): a plane through it, and how these planes turn from cell to cell, its curvature. From them come
 //
 // - how deep a point lies below the surface: from there it touches another body;
@@ -13,7 +13,7 @@
 
 namespace strut::contact {
 
-// Of the points of two blocks, as BlockPair::points has them.
+// Numbers of the points of two blocks, in the order of BlockPair::points.
 struct OwnSurface {
   std::vector<double> depths;   // m; that of a half cell where the mesh tells nothing
   std::vector<double> volumes;  // in ρ, m³

@@ -111,7 +111,7 @@ void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
   set_volumes(pairs);
 }
 
-// Those that ρ is made of.
+// Sets the volumes that the share ρ sums.
 void Surfaces::set_volumes(Pairs& pairs) const {
   std::vector<double> volumes(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) volumes[k] = volumes_[places_[k]];

@@ -8,7 +8,7 @@ namespace strut {
 // At time t (s), m; nothing below where they overlap, as tools without ends do that are not parallel.
 double gap_between(const RigidTool& one, const RigidTool& other, double t);
 
-// Whether one of both moves as forces drive it, so that nobody has said that they are to overlap.
+// Whether forces drive at least one of two tools: the deck then does not say that they shall overlap.
 inline bool may_meet(const RigidTool& one, const RigidTool& other) { return one.free || other.free; }
 
 }  // namespace strut

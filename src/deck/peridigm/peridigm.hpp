@@ -15,9 +15,9 @@ void translate_peridigm(List& deck, Problems& problems);
 // Its sections Output, Output1, "Output Data" … and Compute Class Parameters, as one Output of fields and one History.
 void translate_outputs(List& deck, Problems& problems);
 
-// Whether it has sections or keys that only Peridigm's decks need.
+// Whether a deck has sections or keys that only decks of Peridigm need.
 bool is_peridigms(List& deck);
-// Of what was translated: what means another thing here than there, a note each.
+// Adds a note for each key that means another thing in this program than in Peridigm.
 void tell_differences(List& deck, Problems& problems);
 
 // Of a list, by name; null where it has none.
