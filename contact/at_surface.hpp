@@ -1,7 +1,7 @@
 // Which points the surface of their body may be of.
 #pragma once
 
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut::contact {
 

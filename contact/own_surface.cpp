@@ -7,11 +7,11 @@
 
 #include "contact/at_surface.hpp"
 #include "contact/laws/surface.hpp"
-#include "points/bounding_box.hpp"
-#include "points/cell_reach.hpp"
-#include "points/mirror.hpp"
-#include "points/nearby_ranks.hpp"
-#include "points/neighbors/cell_grid.hpp"
+#include "topology/bounding_box.hpp"
+#include "topology/cell_reach.hpp"
+#include "topology/mirror.hpp"
+#include "topology/nearby_ranks.hpp"
+#include "topology/neighbors/cell_grid.hpp"
 
 namespace strut::contact {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut::contact {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "contact/at_surface.hpp"
-#include "points/bounding_box.hpp"
-#include "points/nearby_ranks.hpp"
-#include "points/neighbors/cell_grid.hpp"
+#include "topology/bounding_box.hpp"
+#include "topology/nearby_ranks.hpp"
+#include "topology/neighbors/cell_grid.hpp"
 
 namespace strut::contact {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "contact/contact.hpp"
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut::contact {
 

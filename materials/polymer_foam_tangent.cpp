@@ -1,11 +1,10 @@
 // The consistent tangent of the polymeric foam: through the return in principal values, and the spectral derivative of
 // the trial. Only solvers that look for equilibrium call it.
-#include "materials/polymer_foam.hpp"
-
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "materials/polymer_foam.hpp"
 #include "materials/spectral.hpp"
 
 namespace strut::materials {

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "contact/search/bounding_volumes.hpp"
-#include "points/neighbors/cell_grid.hpp"
+#include "topology/neighbors/cell_grid.hpp"
 
 namespace strut::contact {
 

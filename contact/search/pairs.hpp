@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut::contact {
 

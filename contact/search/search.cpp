@@ -8,8 +8,8 @@
 
 #include "contact/search/candidates.hpp"
 #include "contact/search/clusters.hpp"
-#include "points/bounding_box.hpp"
-#include "points/nearby_ranks.hpp"
+#include "topology/bounding_box.hpp"
+#include "topology/nearby_ranks.hpp"
 
 namespace strut::contact {
 

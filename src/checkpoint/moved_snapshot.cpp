@@ -4,7 +4,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "points/sent_to_ranks.hpp"
+#include "topology/sent_to_ranks.hpp"
 
 namespace strut {
 

@@ -57,8 +57,8 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
   });
 }
 
-void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
-                       ImpulseWork& work, ReactionImpulses& impulses) {
+void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
+                       ReactionImpulses& impulses) {
   VelocityUpdate update{t, steps, body, impulses};
   conditions.visit([&]<class Type>(Type& one) {
     if constexpr (Type::stage != Stage::forces) take_turn(one, update);

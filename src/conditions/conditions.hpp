@@ -49,8 +49,8 @@ void add_work_of_forces(const Conditions& conditions, double t, double impulse_t
 
 // Changes the velocities after the impulse of forces at time t, which carry each point on for its step, to what the
 // conditions allow. Adds the work of these changes, and the impulses of conditions that have a reaction.
-void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body,
-                       ImpulseWork& work, ReactionImpulses& impulses);
+void change_velocities(Conditions& conditions, double t, const PointTimeSteps& steps, Body& body, ImpulseWork& work,
+                       ReactionImpulses& impulses);
 
 // What acts at times between whole steps.
 Conditions in_substeps(const Conditions& conditions, const MovingPoints& moving);

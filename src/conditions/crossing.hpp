@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "conditions/rigid_tool.hpp"
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut {
 

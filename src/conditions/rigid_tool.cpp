@@ -6,7 +6,7 @@
 
 #include "base/parallel/reproducible_sum.hpp"
 #include "conditions/velocity_update.hpp"
-#include "points/cell_reach.hpp"
+#include "topology/cell_reach.hpp"
 
 namespace strut {
 

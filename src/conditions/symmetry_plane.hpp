@@ -9,7 +9,7 @@
 
 namespace strut {
 
-// Bodies that end at the plane go on as their mirror images (points/mirror.hpp); their points on it stay there, which
+// Bodies that end at the plane go on as their mirror images (topology/mirror.hpp); their points on it stay there, which
 // only round-off and loads would change. Points of others keep their distance to it.
 struct SymmetryPlane {
   std::vector<int> points = {};

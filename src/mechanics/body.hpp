@@ -21,8 +21,8 @@
 #include "mechanics/formulation/formulation.hpp"
 #include "mechanics/fracture/damage_model.hpp"
 #include "mechanics/stabilization/stabilization.hpp"
-#include "points/domain.hpp"
-#include "points/site.hpp"
+#include "topology/domain.hpp"
+#include "topology/site.hpp"
 
 namespace strut {
 

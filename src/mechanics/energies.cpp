@@ -2,7 +2,7 @@
 
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/point_energy.hpp"
-#include "points/parallel_for.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 

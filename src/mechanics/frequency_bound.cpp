@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mechanics/formulation/quadratic_fit.hpp"
-#include "points/parallel_for.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 

@@ -6,7 +6,7 @@
 #include "base/timing.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/reflected.hpp"
-#include "points/parallel_for.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 

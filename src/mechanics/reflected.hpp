@@ -1,5 +1,5 @@
-// Inside mechanics and solvers: what bonds read of an image of a point by symmetry planes (points/mirror.hpp), from
-// what its original has. Numbers stay, vectors turn, tensors turn on both sides.
+// Inside mechanics and integrators: what bonds read of an image of a point by symmetry planes (topology/mirror.hpp),
+// from what its original has. Numbers stay, vectors turn, tensors turn on both sides.
 #pragma once
 
 #include "mechanics/body.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mechanics/body.hpp"
-#include "points/point_group.hpp"
+#include "topology/point_group.hpp"
 
 namespace strut {
 

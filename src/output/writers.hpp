@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "deck/deck.hpp"
+#include "integrators/ledger.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/text/history.hpp"
 #include "output/mean_forces.hpp"
 #include "output/schedule.hpp"
 #include "output/variables.hpp"
-#include "solvers/ledger.hpp"
 
 namespace strut {
 

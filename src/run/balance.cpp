@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut {
 

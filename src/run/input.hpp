@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "deck/deck.hpp"
-#include "points/cloud.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut {
 

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "deck/deck.hpp"
+#include "integrators/explicit/central_difference.hpp"
+#include "integrators/ledger.hpp"
 #include "mechanics/body.hpp"
 #include "setup/scene.hpp"
-#include "solvers/explicit/central_difference.hpp"
-#include "solvers/ledger.hpp"
 
 namespace strut {
 

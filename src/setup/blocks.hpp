@@ -6,7 +6,7 @@
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
 #include "mechanics/body.hpp"
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut {
 

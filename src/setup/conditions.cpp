@@ -7,11 +7,11 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "points/point_group.hpp"
 #include "setup/contradictions.hpp"
 #include "setup/finite_value.hpp"
 #include "setup/open_ends.hpp"
 #include "setup/sudden_motion.hpp"
+#include "topology/point_group.hpp"
 
 namespace strut {
 

@@ -4,11 +4,11 @@
 #include <optional>
 
 #include "mechanics/cost.hpp"
-#include "points/bounding_box.hpp"
-#include "points/domain.hpp"
-#include "points/neighbors/stencils.hpp"
 #include "setup/blocks.hpp"
 #include "setup/contact.hpp"
+#include "topology/bounding_box.hpp"
+#include "topology/domain.hpp"
+#include "topology/neighbors/stencils.hpp"
 
 namespace strut {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "deck/deck.hpp"
-#include "points/cloud.hpp"
-#include "points/partition.hpp"
+#include "topology/cloud.hpp"
+#include "topology/partition.hpp"
 
 namespace strut {
 

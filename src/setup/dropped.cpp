@@ -7,7 +7,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/portions.hpp"
-#include "points/pieces.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 

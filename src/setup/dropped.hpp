@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut {
 

@@ -6,9 +6,9 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
-#include "points/partition.hpp"
 #include "setup/blocks.hpp"
 #include "setup/dropped.hpp"
+#include "topology/partition.hpp"
 
 namespace strut {
 

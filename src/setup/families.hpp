@@ -2,8 +2,8 @@
 #pragma once
 
 #include "deck/deck.hpp"
-#include "points/domain.hpp"
 #include "setup/dropped.hpp"
+#include "topology/domain.hpp"
 
 namespace strut {
 

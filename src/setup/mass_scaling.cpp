@@ -6,9 +6,9 @@
 
 #include "base/errors.hpp"
 #include "deck/numbers.hpp"
+#include "integrators/explicit/critical_time_step.hpp"
 #include "mechanics/frequency_bound.hpp"
 #include "mechanics/internal_force.hpp"
-#include "solvers/explicit/critical_time_step.hpp"
 
 namespace strut {
 

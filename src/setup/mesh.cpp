@@ -12,10 +12,10 @@
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/grid/grid.hpp"
-#include "points/coincident.hpp"
 #include "setup/blocks.hpp"
 #include "setup/finite_value.hpp"
 #include "setup/mirrors.hpp"
+#include "topology/coincident.hpp"
 
 namespace strut {
 

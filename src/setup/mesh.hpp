@@ -3,7 +3,7 @@
 
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
-#include "points/cloud.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut {
 

@@ -8,8 +8,8 @@
 
 #include "base/errors.hpp"
 #include "conditions/symmetry_plane.hpp"
-#include "points/cell_reach.hpp"
 #include "setup/blocks.hpp"
+#include "topology/cell_reach.hpp"
 
 namespace strut {
 

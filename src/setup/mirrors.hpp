@@ -7,7 +7,7 @@
 #include "base/parallel/communicator.hpp"
 #include "contact/contact.hpp"
 #include "deck/deck.hpp"
-#include "points/domain.hpp"
+#include "topology/domain.hpp"
 
 namespace strut {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <type_traits>
 
-#include "points/planes_through.hpp"
 #include "setup/found_points.hpp"
+#include "topology/planes_through.hpp"
 
 namespace strut {
 

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <type_traits>
 
-#include "points/bounding_box.hpp"
+#include "topology/bounding_box.hpp"
 
 namespace strut {
 

@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "points/point_group.hpp"
 #include "setup/found_points.hpp"
+#include "topology/point_group.hpp"
 
 namespace strut {
 

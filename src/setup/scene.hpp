@@ -9,11 +9,11 @@
 
 #include "conditions/conditions.hpp"
 #include "contact/contact.hpp"
+#include "integrators/explicit/central_difference.hpp"
+#include "integrators/quasi_static/quasi_static.hpp"
 #include "mechanics/body.hpp"
-#include "points/partition.hpp"
 #include "setup/dropped.hpp"
-#include "solvers/explicit/central_difference.hpp"
-#include "solvers/quasi_static/quasi_static.hpp"
+#include "topology/partition.hpp"
 
 namespace strut {
 

@@ -6,8 +6,6 @@
 #include "base/timing.hpp"
 #include "deck/problems.hpp"
 #include "mechanics/make_body.hpp"
-#include "points/partition.hpp"
-#include "points/pieces.hpp"
 #include "setup/blocks.hpp"
 #include "setup/conditions.hpp"
 #include "setup/contact.hpp"
@@ -25,6 +23,8 @@
 #include "setup/undeclared_contact.hpp"
 #include "setup/unheld_bodies.hpp"
 #include "setup/weak_contact.hpp"
+#include "topology/partition.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 

@@ -3,8 +3,8 @@
 
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
-#include "points/cloud.hpp"
 #include "setup/scene.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut {
 

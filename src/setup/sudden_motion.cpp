@@ -7,8 +7,8 @@
 #include <sstream>
 #include <variant>
 
-#include "points/bounding_box.hpp"
 #include "setup/found_points.hpp"
+#include "topology/bounding_box.hpp"
 
 namespace strut {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "points/bounding_box.hpp"
+#include "topology/bounding_box.hpp"
 
 namespace strut {
 

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "base/parallel/portions.hpp"
-#include "points/pieces.hpp"
 #include "setup/found_points.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 

@@ -214,7 +214,7 @@ NOT_DRAWN = {
     "Solver > Wall Time": Not("when a run ends: regression/checkpoint"),
     "Solver > Verbose": Not("what is told"),
     "Solver > Verlet > Fixed dt": COMPOSED,
-    "Solver > Verlet > Mass Scaling dt": Not("the added mass follows from an estimate within 1 %, which a pair may not share: regression/solvers/test_mass_scaling"),
+    "Solver > Verlet > Mass Scaling dt": Not("the added mass follows from an estimate within 1 %, which a pair may not share: regression/integrators/test_mass_scaling"),
     "Solver > Verlet > Most Added Mass": Not("the same"),
     "Solver > QuasiStatic > Number of Load Steps": COMPOSED,
     "Solver > QuasiStatic > Tolerance": COMPOSED,

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "points/cloud.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut::reference {
 

@@ -6,7 +6,7 @@
 
 #include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut::reference {
 
@@ -27,10 +27,8 @@ inline const std::array<Scheme, 4> schemes = {{
 // Density 1 kg/m³.
 inline Body body_by(const Scheme& scheme, const PointCloud& cloud, const materials::AnyLaw& law,
                     const Communicator& world) {
-  const BlockMaterial material{.density = 1,
-                               .law = law,
-                               .stabilization = scheme.stabilization,
-                               .formulation = scheme.formulation};
+  const BlockMaterial material{
+      .density = 1, .law = law, .stabilization = scheme.stabilization, .formulation = scheme.formulation};
   BlockBonds bonds = BlockBonds::per_spacing(scheme.horizon);
   if (scheme.formulation == Formulation::quadratic) bonds.touching = true, bonds.families = FamilyKind::lists;
   return make_body(make_domain(partitioned(cloud, world), {bonds}, world), Influence::one, {material});

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "points/cloud.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut::reference {
 

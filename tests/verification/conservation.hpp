@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "solvers/explicit/central_difference.hpp"
+#include "integrators/explicit/central_difference.hpp"
 
 namespace strut {
 

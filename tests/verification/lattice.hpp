@@ -9,7 +9,7 @@
 #include "mechanics/fracture/fracture.hpp"
 #include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut {
 

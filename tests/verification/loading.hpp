@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "integrators/quasi_static/quasi_static.hpp"
 #include "lattice.hpp"
-#include "solvers/quasi_static/quasi_static.hpp"
 
 namespace strut {
 

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "base/errors.hpp"
+#include "integrators/explicit/central_difference.hpp"
 #include "lattice.hpp"
-#include "solvers/explicit/central_difference.hpp"
 
 namespace strut {
 

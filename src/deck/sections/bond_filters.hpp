@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "deck/forward.hpp"
-#include "points/neighbors/cracks.hpp"
+#include "topology/neighbors/cracks.hpp"
 
 namespace strut::deck {
 

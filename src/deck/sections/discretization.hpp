@@ -8,7 +8,7 @@
 #include "base/math/tensors.hpp"
 #include "deck/forward.hpp"
 #include "mechanics/formulation/formulation.hpp"
-#include "points/neighbors/cracks.hpp"
+#include "topology/neighbors/cracks.hpp"
 
 namespace strut::deck {
 

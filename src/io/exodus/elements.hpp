@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "points/cloud.hpp"
+#include "topology/cloud.hpp"
 
 namespace strut::io {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "points/cloud.hpp"
-#include "points/mirror.hpp"
+#include "topology/cloud.hpp"
+#include "topology/mirror.hpp"
 
 namespace strut {
 class Communicator;

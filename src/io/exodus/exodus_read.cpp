@@ -7,7 +7,7 @@
 #include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
-#include "points/coincident.hpp"
+#include "topology/coincident.hpp"
 
 namespace strut::io {
 

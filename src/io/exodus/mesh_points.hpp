@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/exodus/mesh_slice.hpp"
-#include "points/mirror.hpp"
+#include "topology/mirror.hpp"
 
 namespace strut::io {
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "points/cloud.hpp"
-#include "points/mirror.hpp"
+#include "topology/cloud.hpp"
+#include "topology/mirror.hpp"
 
 namespace strut {
 class Communicator;

@@ -1,7 +1,7 @@
 #include "mechanics/formulation/flow.hpp"
 
 #include "mechanics/formulation/quadratic_fit.hpp"
-#include "points/parallel_for.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 

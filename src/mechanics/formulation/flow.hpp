@@ -1,4 +1,4 @@
-// Inside mechanics and for solvers: cells of quadratic correspondence whose metal begins to flow.
+// Inside mechanics and for integrators: cells of quadratic correspondence whose metal begins to flow.
 //
 // As long as a cell is elastic, its fit has the smallest penalty on H: accurate, and as stiff as the strut. Flow lets
 // strain gather in a hinge, which so steep a fit hinders: a strut three cells thick would bear 16 % too much

@@ -7,7 +7,7 @@
 
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/step_report.hpp"
-#include "points/parallel_for.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 

@@ -1,7 +1,7 @@
 #include "mechanics/formulation/tangent.hpp"
 
 #include "materials/tangent.hpp"
-#include "points/parallel_for.hpp"
+#include "topology/parallel_for.hpp"
 
 namespace strut {
 

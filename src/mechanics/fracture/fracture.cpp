@@ -16,8 +16,8 @@
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
-#include "points/parallel_for.hpp"
-#include "points/planes_through.hpp"
+#include "topology/parallel_for.hpp"
+#include "topology/planes_through.hpp"
 
 namespace strut {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "base/parallel/portions.hpp"
-#include "points/pieces.hpp"
+#include "topology/pieces.hpp"
 
 namespace strut {
 

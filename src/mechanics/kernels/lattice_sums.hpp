@@ -1,4 +1,4 @@
-// The sums over the families of points on a lattice (points/neighbors/lattice.hpp), eight points at a time, without a
+// The sums over the families of points on a lattice (topology/neighbors/lattice.hpp), eight points at a time, without a
 // list of bonds:
 // clang-format off
 //   shapes     K = Σ ω V_j ξ ⊗ ξ                                 (once)

@@ -7,7 +7,7 @@
 
 #include "contact/contact.hpp"
 #include "contact/search/search.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut::contact {
 namespace {

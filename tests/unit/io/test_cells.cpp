@@ -15,8 +15,8 @@
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/grid/grid.hpp"
-#include "points/domain.hpp"
-#include "points/partition.hpp"
+#include "topology/domain.hpp"
+#include "topology/partition.hpp"
 #include "unit/temporary_folder.hpp"
 
 namespace strut::io {

@@ -64,7 +64,9 @@ TEST_F(Resumed, AResultOfAnotherRunIsNotGoneOnWith) {
     EXPECT_EQ(bytes_of(folder / name), before) << name;
   }
   write_result(folder / "left.e", {2}, 2, 3, sum);
-  if (world.rank() == 0) { EXPECT_EQ(read_result(folder / "left.e").times, (std::vector<double>{0, 0.5, 1, 2})); }
+  if (world.rank() == 0) {
+    EXPECT_EQ(read_result(folder / "left.e").times, (std::vector<double>{0, 0.5, 1, 2}));
+  }
 }
 
 // Its first bytes are those of HDF5: the number of records of a classic file would be written over them.
@@ -73,7 +75,9 @@ TEST_F(Resumed, AResultThatWasConvertedStaysAsItIs) {
   write_bytes(folder / "converted.e", content);
   EXPECT_NE(error_of([&] { write_result(folder / "converted.e", {2}, 2, 3, 0); }).find("netCDF-4 (HDF5)"),
             std::string::npos);
-  if (world.rank() == 0) { EXPECT_THROW(keep_records(folder / "converted.e", 3), Error); }
+  if (world.rank() == 0) {
+    EXPECT_THROW(keep_records(folder / "converted.e", 3), Error);
+  }
   world.barrier();
   EXPECT_EQ(bytes_of(folder / "converted.e"), content);
 }

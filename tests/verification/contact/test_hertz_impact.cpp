@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut::contact {
 namespace {

@@ -21,7 +21,7 @@
 #include "contact/search/search.hpp"
 #include "contact/surfaces.hpp"
 #include "mesh/cells.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut::contact {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "contact/search/search.hpp"
 #include "contact/surfaces.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut::contact {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/errors.hpp"
 #include "base/math/rotation.hpp"
+#include "integrators/explicit/central_difference.hpp"
 #include "mechanics/kernels/bonds.hpp"
-#include "solvers/explicit/central_difference.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {

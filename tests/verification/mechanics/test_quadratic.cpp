@@ -1,9 +1,9 @@
 // Quadratic correspondence: cells with a linear strain, the law at four places of each.
 #include <gtest/gtest.h>
 
+#include "integrators/explicit/central_difference.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
-#include "solvers/explicit/central_difference.hpp"
 #include "verification/lattice.hpp"
 
 namespace strut {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "solvers/explicit/central_difference.hpp"
+#include "integrators/explicit/central_difference.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "mechanics/thin_members.hpp"
-#include "points/partition.hpp"
+#include "topology/partition.hpp"
 
 namespace strut {
 namespace {

@@ -1,7 +1,7 @@
 // Elastic waves against closed forms: the dispersion of the discrete operator, and a pulse along a bar.
 #include <gtest/gtest.h>
 
-#include "solvers/explicit/central_difference.hpp"
+#include "integrators/explicit/central_difference.hpp"
 #include "verification/probes.hpp"
 
 namespace strut {

@@ -1,0 +1,307 @@
+#include "integrators/explicit/central_difference.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <span>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "integrators/explicit/pushed_points.hpp"
+#include "mechanics/fracture/fracture.hpp"
+#include "mechanics/mirror_forces.hpp"
+#include "mechanics/rigid_motion.hpp"
+#include "mechanics/serialize.hpp"
+#include "topology/parallel_for.hpp"
+
+namespace strut {
+
+namespace {
+
+// What every point has that shrinks, the slowest, too: a step that took it only while one does would change as soon as
+// a body is struck, and each change costs energy.
+double linear_viscosity(const Body& body) {
+  double most = 0;
+  for (const MaterialBlock& block : body.blocks) most = std::max(most, block.material.viscosity.linear);
+  return most;
+}
+
+}  // namespace
+
+CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
+                                     ToBeRestored)
+    : body_(body),
+      conditions_(std::move(conditions)),
+      contact_(std::move(contact)),
+      control_(control),
+      length_(control),
+      time_(0) {
+  loads_change_ = depend_on_time(conditions_, Stage::forces);
+  body_.time_levels->clear();
+}
+
+CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
+                                     double initial_time)
+    : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored()) {
+  time_ = initial_time;
+  for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
+  find_rigid_motion(body_);
+  energies_.start(body_);
+  start({});
+  const double first = length_.wanted(contact_.stiffness());
+  if (!std::isfinite(first)) return;
+  const std::vector<Vector> velocities = predicted_velocities(conditions_, time_, first, body_);
+  contact_.foresee({body_.domain, velocities, body_.density}, first);
+  // What touches in the first step, or is so near that it soon may, has its levels and its step from the start: a
+  // change once bodies vibrate gives energy.
+  constexpr double soon = 10;  // steps
+  std::vector<std::uint8_t> marks = pushed_points(body_, conditions_, contact_, velocities, time_, soon * first);
+  contact_.mark_near(marks);
+  const bool exposed = any_in_both(marks, multi_stepping_.exposed());
+  if (body_.domain.communicator.max(exposed ? 1.0 : 0.0) > 0) start(marks);
+}
+
+void CentralDifference::start(const std::vector<std::uint8_t>& pushed) {
+  body_.time_levels->clear();
+  StepReport report = advance_stress(body_, 0, true);
+  reassign_levels(report, pushed);
+  sum_all_forces(true);
+  agree(report);
+  length_.estimate(body_);
+}
+
+// ---- A step ---------------------------------------------------------------------------------------------------------
+
+void CentralDifference::advance_velocity(double final_time) {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  length_.choose(time_, final_time, contact_.stiffness(), exposed_are_pushed_, body_);
+  const Timed timed(timer);
+  choose_load_times(final_time);
+  add_loads();
+  const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
+  // Initial velocities are those of the initial time: the first impulse is of half a step.
+  if (steps() == 0) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
+  mid_steps_.before = before / (before + after);
+  for_each_point(0, body_.owned(), [&](int i) { kick(i, impulse_time); });
+  constrain(impulse_time);
+  count_work(impulse_time);
+  if (mid_steps_.before != 0.5) even_out();
+  if (steps() == 0) energies_.begin_with(ledger());
+}
+
+void CentralDifference::advance_position(bool with_diagnostics) {
+  update_rigid_motion(body_);
+  if (body_.fracture) body_.fracture->start_step(body_, body_.velocity, dt());
+  const StepReport between = substeps();
+  drift_to_next_time();
+  StepReport report = advance_stress(body_, dt(), with_diagnostics, time_);
+  take_worse(between.failure, report.failure);
+  if (length_.levels_due()) reassign_levels(report, pushed_now());
+  sum_all_forces(with_diagnostics);
+  agree(report);
+}
+
+void CentralDifference::sum_all_forces(bool with_diagnostics) {
+  sum_forces(body_, with_diagnostics);
+  mirror_forces_ = mirror_forces(body_);
+  contact_.add_forces(kinematics(), dt(), body_.force_density);
+}
+
+// Between time() and the next: the impulses of the points of higher time-step levels. Times of level m come every
+// dt/2^m.
+StepReport CentralDifference::substeps() {
+  StepReport first;
+  const int levels = multi_stepping_.level_count();
+  if (levels == 0) return first;
+  static Teuchos::Time& timer = phase("Substeps");
+  const Timed timed(timer);
+  const int count = 1 << levels;
+  for (int n = 1; n < count; ++n) {
+    const int level = levels - std::countr_zero(static_cast<unsigned>(n));
+    const StepReport report = substep(level, time_ + n * (dt() / count));
+    take_worse(report.failure, first.failure);
+  }
+  return first;
+}
+
+StepReport CentralDifference::substep(int level, double t) {
+  const PointTimeSteps steps = point_steps();
+  const std::vector<int>& moved = multi_stepping_.moved(level);
+  const int count = static_cast<int>(moved.size());
+  for_each_point(0, count, [&](int n) { drift(moved[n], steps); });
+  const double impulse_time = std::ldexp(dt(), -level);
+  const StepReport report = multi_stepping_.forces(body_, level, impulse_time);
+  for_each_point(0, count, [&](int n) { kick(moved[n], impulse_time); });
+  ReactionImpulses& impulses = reactions_.of_substeps();
+  ReactionAccount::add_mirrors(body_, mirror_forces(body_, level, &moved), impulse_time, impulses);
+  ImpulseWork work;
+  change_velocities(conditions_of_level_[level - 1], t, steps, body_, work, impulses);
+  energies_.add(work);
+  return report;
+}
+
+// ---- Its phases -----------------------------------------------------------------------------------------------------
+
+// Loads act once a step, by what they are at time(). With substeps a step is long, and loads that change in it act by
+// their mean over the time of the impulse, at as many times as there are substeps.
+void CentralDifference::choose_load_times(double final_time) {
+  const int count = loads_change_ ? 1 << multi_stepping_.level_count() : 1;
+  load_times_.assign(1, time_);
+  if (count == 1) return;
+  const double begin = time_ - 0.5 * length_.previous_dt(), end = std::min(time_ + 0.5 * dt(), final_time);
+  load_times_.clear();
+  for (int n = 0; n < count; ++n) load_times_.push_back(begin + (n + 0.5) / count * (end - begin));
+}
+
+void CentralDifference::add_loads() {
+  if (load_times_.size() == 1) return add_forces(conditions_, load_times_[0], body_);
+  std::vector<Vector> others(body_.owned(), Vector::Zero());
+  std::swap(others, *body_.force_density);
+  for (const double t : load_times_) add_forces(conditions_, t, body_);
+  const double part = 1 / static_cast<double>(load_times_.size());
+  for_each_point(0, body_.owned(), [&](int i) { body_.force_density[i] = others[i] + part * body_.force_density[i]; });
+}
+
+void CentralDifference::kick(int i, double impulse_time) {
+  body_.previous_velocity[i] = body_.velocity[i];
+  body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
+}
+
+// Velocities to what conditions allow, and their reactions.
+void CentralDifference::constrain(double impulse_time) {
+  energies_.begin_impulse();
+  ReactionImpulses impulses = reactions_.none();
+  PointTimeSteps steps = point_steps();
+  steps.impulse = impulse_time / dt();
+  change_velocities(conditions_, time_, steps, body_, energies_.at_impulse(), impulses);
+  ReactionAccount::add_mirrors(body_, mirror_forces_, impulse_time, impulses);
+  reactions_.take(impulses, mid_steps_, impulse_time, length_.previous_dt());
+}
+
+// Adds the work of loads and friction, once velocities are final.
+void CentralDifference::count_work(double impulse_time) {
+  ImpulseWork& work = energies_.at_impulse();
+  const double part = impulse_time / static_cast<double>(load_times_.size());
+  for (const double t : load_times_) add_work_of_forces(conditions_, t, part, body_, work);
+  const contact::FrictionWork friction = contact_.friction_work(impulse_time, body_.previous_velocity, body_.velocity);
+  work.before.contact += friction.before;
+  work.after.contact += friction.after;
+  energies_.end_impulse(mid_steps_);
+}
+
+// Whoever looks at the body takes the mean of both velocities for the one at the time of the forces: the one before
+// becomes that of a step before as long as the one after.
+void CentralDifference::even_out() {
+  for_each_point(0, body_.owned(), [&](int i) {
+    Vector& before = body_.previous_velocity[i];
+    before = 2 * mid_steps_.velocity(before, body_.velocity[i]) - body_.velocity[i];
+  });
+}
+
+void CentralDifference::drift(int i, const PointTimeSteps& steps) {
+  body_.domain.sites[i].current.head<3>() += steps.of(i) * body_.velocity[i].array();
+}
+
+void CentralDifference::drift_to_next_time() {
+  static Teuchos::Time& timer = phase("Motion and conditions");
+  const Timed timed(timer);
+  const PointTimeSteps steps = point_steps();
+  for_each_point(0, body_.owned(), [&](int i) { drift(i, steps); });
+  time_ = length_.next_time();
+  length_.count_step();
+  updates_ += multi_stepping_.updates_a_point();
+  most_substeps_ = std::max(most_substeps_, 1 << multi_stepping_.level_count());
+}
+
+std::vector<std::uint8_t> CentralDifference::pushed_now() const {
+  return pushed_points(body_, conditions_, contact_, body_.velocity, time_, dt());
+}
+
+// The points that limit the step are chosen anew.
+void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
+  length_.begin_levels();
+  if (!control_.subcycling || control_.fixed_dt > 0) return;
+  const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
+  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor,
+                                                  length_.present(body_.fracture != nullptr), {pushed, damped});
+  restrict_conditions();
+  length_.take_levels(multi_stepping_);
+}
+
+void CentralDifference::restrict_conditions() {
+  conditions_of_level_.clear();
+  for (int m = 1; m <= multi_stepping_.level_count(); ++m) {
+    conditions_of_level_.push_back(in_substeps(conditions_, {multi_stepping_.motion_levels(), m}));
+  }
+}
+
+// One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
+// contact needs.
+void CentralDifference::agree(const StepReport& report) {
+  const std::string no_number = conditions_.first_not_finite();
+  const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
+  std::vector<double> agreed{static_cast<double>(no_number.empty() ? severity(report) : fatal),
+                             static_cast<double>(request_), report.frequency_bound, report.damping,
+                             !exposed.empty() && any_in_both(pushed_now(), exposed) ? 1.0 : 0.0};
+  const std::size_t own = agreed.size();
+  contact_.append_to_agree(kinematics(), agreed);
+  {
+    static Teuchos::Time& timer = phase("Agreement of ranks");
+    const Timed timed(timer);
+    body_.domain.communicator.max(agreed);
+  }
+  agreed_request_ = static_cast<Request>(agreed[1]);
+  request_ = Request::none;
+  length_.take(agreed[2], std::max(agreed[3], linear_viscosity(body_)));
+  exposed_are_pushed_ = agreed[4] > 0;
+  contact_.take_agreed(std::span(agreed).subspan(own), dt());
+  const auto severity = static_cast<Severity>(agreed[0]);
+  went_on_ = severity == passable;
+  warning_.clear();
+  if (severity != harmless) tell(report, no_number);
+}
+
+// Collective. Throws, unless the run may go on with it.
+void CentralDifference::tell(const StepReport& report, const std::string& no_number) {
+  std::ostringstream text;
+  if (!no_number.empty()) {
+    text << no_number;
+  } else if (report.failure) {
+    text << "at t = " << time_ << " s, step " << steps() << " of " << dt()
+         << " s: " << describe(*report.failure, body_);
+  }
+  if (!went_on_) raise_together(body_.domain.communicator, text.str());
+  warning_ = text.str();
+}
+
+// A point that only is turned inside out has a place; others take their neighbors with them.
+CentralDifference::Severity CentralDifference::severity(const StepReport& report) const {
+  if (!report.failure) return harmless;
+  return control_.continue_with_inverted && report.failure->kind == Failure::Kind::inverted ? passable : fatal;
+}
+
+Ledger CentralDifference::ledger() { return energies_.ledger(body_, conditions_, contact_, mid_steps_, time_, dt()); }
+
+void CentralDifference::serialize(Archive& archive) {
+  strut::serialize(archive, body_);
+  multi_stepping_.serialize(archive, body_);
+  length_.serialize(archive, body_);
+  serialize_tools(archive, conditions_, body_.owned());
+  archive.number("time", time_);
+  archive.number("most_substeps", most_substeps_);
+  archive.number("updates", updates_);
+  archive.number("exposed_are_pushed", exposed_are_pushed_);
+  energies_.serialize(archive);
+  reactions_.serialize(archive);
+  mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
+  serialize_mirror_forces(archive, mirror_forces_);
+  contact_.serialize(archive, kinematics(), dt());
+  if (!archive.loading()) return;
+  restrict_conditions();
+  for (MaterialBlock& block : body_.blocks) {
+    if (block.in_rigid_motion) block.rest_frequency_bound = largest_frequency_bound(body_, block);
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,64 @@
+#include "integrators/explicit/energy_account.hpp"
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+#include "mechanics/mechanics.hpp"
+
+namespace strut {
+
+void EnergyAccount::begin_impulse() {
+  add(impulse_);
+  impulse_ = {};
+}
+
+Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact,
+                             const MidSteps& steps, double time, double dt) {
+  raise_together(body.domain.communicator, conditions.first_not_finite());
+  Ledger now;
+  now.time = time;
+  now.dt = dt;
+  const Work done = done_ + impulse_.before;
+  double sums[8] = {0, done.contact - contact.energy(), done.external, done.tools, 0, 0, 0, 0};
+  for (int i = 0; i < body.owned(); ++i) {
+    const Vector &after = body.velocity[i], now_here = 0.5 * (body.previous_velocity[i] + after);
+    sums[0] += 0.5 * body.mass(i) * steps.conserved_square(now_here, after);
+    for (int c = 0; c < 3; ++c) sums[4 + c] += body.mass(i) * now_here[c];
+    sums[7] += 0.5 * body.mass(i) * after.squaredNorm();
+  }
+  body.domain.communicator.sum(sums);
+  // The conserved energy is a difference: of a body at rest that has just been struck nothing is left but its
+  // round-off.
+  constexpr double round_off_of_squares = 1e-9;
+  largest_ = std::max(largest_, round_off_of_squares * sums[7]);
+  const Energies stored = stored_energies(body);
+  now.kinetic = sums[0];
+  now.tool_kinetic = kinetic_energy_of_tools(conditions);
+  now.contact = sums[1];
+  now.external = sums[2];
+  now.tools = sums[3];
+  now.momentum = Vector(sums[4], sums[5], sums[6]);
+  now.elastic = stored.elastic;
+  now.dissipated = stored.dissipated;
+  now.stabilization = stored.stabilization;
+  now.fracture = stored.fracture;
+  now.heat = stored.heat;
+  const double held = now.kinetic + now.tool_kinetic + now.elastic + now.dissipated + now.stabilization + now.fracture;
+  now.balance(held, initial_ + now.tools + now.contact + now.external, largest_);
+  return now;
+}
+
+void EnergyAccount::serialize(Archive& archive) {
+  archive.number("put_in", initial_);
+  archive.number("largest_energy", largest_);
+  const auto serialize = [&archive](const std::string& when, Work& work) {
+    archive.share("external_work" + when, work.external);
+    archive.share("tool_work" + when, work.tools);
+    archive.share("contact_work" + when, work.contact);
+  };
+  serialize("", done_);
+  serialize("_before", impulse_.before);
+  serialize("_after", impulse_.after);
+}
+
+}  // namespace strut

@@ -1,0 +1,117 @@
+#include "integrators/explicit/step_length.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace strut {
+
+namespace {
+
+// The estimate is renewed when the largest frequency bound has grown by this factor since the last one (until then the
+// step shrinks in proportion), and after so many steps in any case, when it may also grow again.
+constexpr double renewal_growth = 1.1;
+constexpr int renewal_steps = 1000;
+
+constexpr double round_off = 1e-6;  // of a step: times are sums of up to millions of steps
+
+// The step grows by this factor at least, when an estimate of the critical time step has been renewed, and to what
+// would have done since the one before.
+constexpr double least_growth = 4.0 / 3;
+
+}  // namespace
+
+// ω² of a sum of operators is at most the sum of theirs. A damping by the velocities of the mid-step before takes as
+// much of the step as the formula of StepReport says.
+double StepLength::critical(double contact_stiffness) const {
+  const double alone = critical_at_estimate_ * std::min(1.0, bound_at_estimate_ / frequency_bound_);
+  const double undamped = alone / std::sqrt(1 + 0.25 * alone * alone * contact_stiffness);
+  return undamped * (std::sqrt(1 + damping_ * damping_) - damping_);
+}
+
+double StepLength::wanted(double contact_stiffness) const {
+  return control_.fixed_dt > 0 ? control_.fixed_dt : control_.safety_factor * critical(contact_stiffness);
+}
+
+void StepLength::estimate(Body& body) {
+  // The estimate takes the force states for its own; a break in the next step asks what they were.
+  std::optional<ForceStates> kept;
+  if (body.fracture) kept = body.force_states;
+  critical_at_estimate_ = critical_time_step_.estimate(body);
+  if (kept) body.force_states = std::move(*kept);
+  bound_at_estimate_ = frequency_bound_;
+  estimate_due_ = false;
+  steps_since_estimate_ = 0;
+}
+
+void StepLength::choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body) {
+  previous_dt_ = dt_;
+  const double left = final_time - time;
+  if (left <= 0 && steps_ > 0) {  // no step follows: velocities at the end are those about one as long as usual
+    if (control_.fixed_dt > 0) dt_ = control_.fixed_dt;
+    return;
+  }
+  // A fixed step is watched, too, more closely where it may have become too large: a warning should be true.
+  const double growth = control_.fixed_dt > critical(contact_stiffness) ? 1.01 : renewal_growth;
+  const bool estimated = estimate_due_;
+  if (estimated) estimate(body);
+  levels_due_ =
+      frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps || exposed_are_pushed;
+  if (control_.fixed_dt > 0) {
+    // The rest that round-off leaves after the last full step is no step of its own.
+    dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
+  } else {
+    // Equal steps to the end: a jump in dt at the last one would cost energy.
+    const double longest = longest_step(contact_stiffness, body.fracture != nullptr, estimated);
+    dt_ = left / std::ceil(left / longest * (1 - round_off));
+    if (levels_anew_) step_of_bound_ = dt_;
+    levels_anew_ = false;
+  }
+  next_time_ = dt_ == left ? final_time : time + dt_;
+}
+
+// As a part of the critical time step. Where bonds break its bound goes up and down with the families of a few points.
+double StepLength::longest_stay(bool bonds_may_break) const {
+  constexpr double most = 0.95, slack = 1.05;
+  const double safety = control_.safety_factor, limit = std::max(most, safety);
+  return bonds_may_break ? limit : std::min(slack * safety, limit);
+}
+
+// Changes that follow a vibration would feed it: the step stays as it is while it is stable, and until it could be much
+// longer.
+double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, bool estimated) {
+  const double now = critical(contact_stiffness), chosen = control_.safety_factor * now;
+  const double since = std::min(chosen, least_chosen_);
+  least_chosen_ = estimated ? chosen : since;
+  if (steps_ == 0 || levels_anew_ || dt_ > longest_stay(bonds_may_break) * now) return chosen;
+  return estimated && since >= least_growth * dt_ ? since : dt_;
+}
+
+PresentStep StepLength::present(bool bonds_may_break) const {
+  return {steps_ > 0 ? bound_of_step_ * step_of_bound_ / dt_ : 0,
+          longest_stay(bonds_may_break) / control_.safety_factor};
+}
+
+void StepLength::take_levels(const MultiTimeStepping& chosen) {
+  levels_anew_ = chosen.anew();
+  if (levels_anew_) bound_of_step_ = chosen.bound();
+}
+
+void StepLength::serialize(Archive& archive, const Body& body) {
+  critical_time_step_.serialize(archive, body);
+  archive.number("steps", steps_);
+  archive.number("steps_since_estimate", steps_since_estimate_);
+  archive.number("dt", dt_);
+  archive.number("limit", critical_at_estimate_);
+  archive.number("frequency_bound", frequency_bound_);
+  archive.number("bound_at_estimate", bound_at_estimate_);
+  archive.number("damping", damping_);
+  archive.number("levels_due", levels_due_);
+  archive.number("estimate_due", estimate_due_);
+  archive.number("levels_anew", levels_anew_);
+  archive.number("least_chosen", least_chosen_);
+  archive.number("bound_of_step", bound_of_step_);
+  archive.number("step_of_bound", step_of_bound_);
+}
+
+}  // namespace strut

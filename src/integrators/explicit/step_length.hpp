@@ -1,0 +1,68 @@
+// The length of explicit steps: a part of the critical time step, which is estimated now and then and watched in
+// between. It stays as it is while it is stable: each change gives or takes energy.
+#pragma once
+
+#include <limits>
+
+#include "base/archive.hpp"
+#include "integrators/explicit/critical_time_step.hpp"
+#include "integrators/explicit/multi_time_stepping.hpp"
+#include "mechanics/mechanics.hpp"
+
+namespace strut {
+
+struct StepControl {
+  double fixed_dt = 0;  // s; 0: from the critical time step
+  double safety_factor = 0.8;
+  bool subcycling = true;               // of the points that limit the step; none with a fixed one
+  bool continue_with_inverted = false;  // inverted points carry no stress but keep their mass while det F ≤ 0
+};
+
+class StepLength {
+ public:
+  explicit StepLength(const StepControl& control) : control_(control) {}
+
+  double dt() const { return dt_; }                    // s, of the step that is under way or comes next
+  double previous_dt() const { return previous_dt_; }  // s, of the one before; 0 before the first
+  double next_time() const { return next_time_; }      // s, at the end of that step
+
+  // 2/ω_max now, s: the last estimate, less where the deformation has gone on and where points touch, by contact of
+  // this stiffness (1/s²).
+  double critical(double contact_stiffness) const;
+  // As long as the control wants, s.
+  double wanted(double contact_stiffness) const;
+
+  // Collective. The critical time step anew.
+  void estimate(Body& body);
+  // Collective. For the step after `time`, which does not pass `final_time`. `exposed_are_pushed`: contact acts on
+  // points the levels of which do not allow for it.
+  void choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body);
+  // Takes the largest frequency bound (1/s) and damping of a point on any rank at the end of a step.
+  void take(double frequency_bound, double damping) { frequency_bound_ = frequency_bound, damping_ = damping; }
+  void count_step() { ++steps_, ++steps_since_estimate_; }
+
+  // Time-step levels: whether they are to be chosen anew; what they must know of the present step; what was chosen.
+  bool levels_due() const { return levels_due_; }
+  PresentStep present(bool bonds_may_break) const;
+  void begin_levels() { levels_due_ = false, estimate_due_ = true; }
+  void take_levels(const MultiTimeStepping& chosen);
+
+  int steps() const { return steps_; }
+  void serialize(Archive& archive, const Body& body);  // collective, at the group of all owned points
+
+ private:
+  double longest_stay(bool bonds_may_break) const;
+  double longest_step(double contact_stiffness, bool bonds_may_break, bool estimated);
+
+  StepControl control_;
+  CriticalTimeStep critical_time_step_;
+  double dt_ = 0, previous_dt_ = 0, next_time_ = 0;                // s
+  double least_chosen_ = std::numeric_limits<double>::infinity();  // s, since the last estimate
+  double bound_of_step_ = 0;                                       // 1/s, the bound that levels were chosen for, and
+  double step_of_bound_ = 0;                                       // s, the step that this led to
+  double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
+  int steps_ = 0, steps_since_estimate_ = 0;
+  bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;
+};
+
+}  // namespace strut

@@ -1,0 +1,272 @@
+#include "integrators/explicit/time_step_levels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "mechanics/cost.hpp"
+#include "mechanics/fracture/fracture.hpp"
+#include "mechanics/frequency_bound.hpp"
+#include "topology/parallel_for.hpp"
+
+namespace strut {
+
+void with_ghosts(const Body& body, std::vector<std::uint8_t>& numbers) {
+  numbers.resize(body.domain.sites.size());
+  body.domain.halo.exchange(numbers);
+}
+
+void spread(const Body& body, int families, std::vector<std::uint8_t>& marks) {
+  with_ghosts(body, marks);
+  for (int n = 0; n < families; ++n) {
+    const std::vector<std::uint8_t> before = marks;
+    for (int i = 0; i < body.owned(); ++i) {
+      body.domain.families.for_each(i, [&](int j) { marks[i] = std::max(marks[i], before[j]); });
+    }
+    marks.resize(body.owned());
+    with_ghosts(body, marks);
+  }
+}
+
+namespace {
+
+constexpr int max_level = 6;
+
+// The fastest motion of a point whose stress is stepped by Δt/2^h turns by no more than twice this angle in its step,
+// and by four times in the step of the level below: less than half a period (docs/theory.md, Multi-time-stepping).
+constexpr double most_turn = 0.6;
+
+// What points cost is not timed in a run, which would then be another on another machine or the second time; these
+// constants are measured (docs/decisions.md, What subcycling costs).
+//
+// A substep of a point, with its share of the points that it moves, beside a whole step of that point: more than is
+// measured on one rank, for each substep has exchanges of its own.
+constexpr double cost_of_substep = 1.5;
+
+constexpr double worth_while = 0.75;    // of the cost of a run without
+constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays as it is
+
+// A point's level falls when its frequency bound could be so much larger on the lower one: each change takes or gives
+// energy, and bounds go up and down with vibrations.
+constexpr double slack = 1.25;
+
+// Relative: frequency bounds of points that are the same but for their places differ by so much at the most, and have
+// the same level.
+constexpr double round_off = 1e-9;
+
+// The cost of steps by frequency bound, in classes that are an eighth of an octave wide.
+class FrequencyHistogram {
+ public:
+  static constexpr int classes_per_octave = 8, octaves = 32, classes = classes_per_octave * octaves;
+
+  FrequencyHistogram(double fastest, double margin) : fastest_(fastest), margin_(margin) {}
+  void add(double frequency_bound, double cost) { costs_[class_of(frequency_bound)] += cost; }
+  void agree(const Communicator& communicator) { communicator.sum(costs_); }
+
+  // Frequency bounds of points of level 0 are below this, where the run costs least.
+  double best() const {
+    int best = 0;
+    const int last = static_cast<int>(classes_per_octave * (max_level + std::log2(margin_)));
+    for (int c = 1; c <= last; ++c) {
+      if (cost(c) < cost(best)) best = c;
+    }
+    return bound(best);
+  }
+
+ private:
+  double bound(int c) const { return fastest_ * std::exp2(-static_cast<double>(c) / classes_per_octave); }
+  int class_of(double frequency_bound) const {
+    const double c = std::floor(classes_per_octave * std::log2((1 + round_off) * fastest_ / frequency_bound));
+    return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
+  }
+  // The cost of the same time, with steps for points of the frequency bound bound(c) and below.
+  double cost(int c) const;
+
+  double fastest_, margin_;
+  std::array<double, classes> costs_{};  // of whole steps of all points in the class
+};
+
+// A point of a higher level is at most `margin` times as fast in its own steps as one of level 0.
+int level_of(double frequency_bound, double bound, double margin) {
+  const double least = (1 - round_off) * frequency_bound;
+  if (!(least > bound)) return 0;
+  return std::clamp(static_cast<int>(std::ceil(std::log2(least / (margin * bound)))), 1, max_level);
+}
+
+// The cost of a step of a point, in that of one of level 0.
+double cost_of(int levels) { return 1 + cost_of_substep * ((1 << levels) - 1); }
+
+double FrequencyHistogram::cost(int c) const {
+  double sum = 0;
+  for (int k = 0; k < classes; ++k) {
+    sum += costs_[k] * cost_of(k < c ? level_of(bound(k), bound(c), margin_) : 0);
+  }
+  return sum * bound(c);
+}
+
+// Whether the points of a block may have smaller steps: not in a body with ordinary points, whose forces act once a
+// step.
+bool may_be_subcycled(const Body& body, std::size_t block) {
+  if (body.fracture && body.fracture->may_break(block)) return false;  // bonds break between whole steps
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    if (body.domain.blocks[b].body == body.domain.blocks[block].body && body.blocks[b].is_ordinary()) return false;
+  }
+  return true;
+}
+
+// The cost of a whole step of a point, also while it is in rigid motion: it will not stay so.
+double cost_of_point(const Body& body, int i) { return body.block_of(i).is_quadratic() ? cost_of_quadratic : 1; }
+
+// Calls visit(i, whether it may have a higher level) for the owned points.
+template <class Visit>
+void over_points(const Body& body, Visit&& visit) {
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const bool may = may_be_subcycled(body, b);
+    for (const int i : body.blocks[b].points) visit(i, may);
+  }
+}
+
+// The frequency bounds of owned points over all ranks: the largest, and the largest of those that may not have a higher
+// level.
+struct FrequencyBounds {
+  std::vector<double> values;
+  double largest = 0, floor = 0;
+};
+
+FrequencyBounds frequency_bounds_of(const Body& body) {
+  FrequencyBounds bounds{frequency_bounds(body)};
+  double agreed[] = {0, 0};
+  over_points(body, [&](int i, bool may) {
+    agreed[0] = std::max(agreed[0], bounds.values[i]);
+    if (!may) agreed[1] = std::max(agreed[1], bounds.values[i]);
+  });
+  body.domain.communicator.max(agreed);
+  bounds.largest = agreed[0], bounds.floor = agreed[1];
+  return bounds;
+}
+
+// In the family of a point of level h all are of level h − 1 at least (docs/theory.md, Multi-time-stepping). Few points
+// are of level 2 and more: where no ghost is, each of them raises its neighbors, and other families are not looked at.
+void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
+  const int owned = body.owned();
+  double highest[] = {0};
+  for (const std::uint8_t h : levels) highest[0] = std::max<double>(highest[0], h);
+  body.domain.communicator.max(highest);
+  for (int n = 1; n < highest[0]; ++n) {
+    const std::vector<std::uint8_t> before = levels;
+    const auto is_high = [&before](int i) { return before[i] >= 2; };
+    const auto raise = [&](int i, int j) {
+      if (i < owned && before[j] > levels[i] + 1) levels[i] = before[j] - 1;
+    };
+    bool high_ghosts = false;
+    for (int j = owned; j < static_cast<int>(before.size()); ++j) high_ghosts = high_ghosts || is_high(j);
+    for (int i = 0; i < owned; ++i) {
+      if (high_ghosts) body.domain.families.for_each(i, [&](int j) { raise(i, j); });
+      if (!high_ghosts && is_high(i)) body.domain.families.for_each(i, [&](int j) { raise(j, i); });
+    }
+    levels.resize(owned);
+    with_ghosts(body, levels);
+  }
+}
+
+// In each body the points that move damped ones have one bound, so that they are of one level: between the impulses of
+// coarser steps a damper lets the velocity decay, and an impulse does the work of the mean of the velocities before and
+// after it, which is then more than that over its step. The bound is that of all points whose level reaches there.
+void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBounds& bounds) {
+  std::vector<std::uint8_t> reaching = damped;
+  spread(body, 1, damped);
+  spread(body, max_level, reaching);  // levels fall by one a family
+  int bodies = 0;
+  for (const BlockHorizons& block : body.domain.blocks) bodies = std::max(bodies, block.body + 1);
+  std::vector<double> most(bodies, 0);
+  const auto of_body = [&](int i) -> double& { return most[body.domain.blocks[body.domain.cloud.blocks[i]].body]; };
+  for (int i = 0; i < body.owned(); ++i) {
+    if (reaching[i]) of_body(i) = std::max(of_body(i), bounds.values[i]);
+  }
+  body.domain.communicator.max(most);
+  over_points(body, [&](int i, bool may) {
+    if (!damped[i]) return;
+    bounds.values[i] = of_body(i);
+    if (!may) bounds.floor = std::max(bounds.floor, bounds.values[i]);
+  });
+  bounds.floor = body.domain.communicator.max(bounds.floor);
+}
+
+// The frequency bound of level 0 that leaves the marked points level 1.
+double floor_of_pushed(const Body& body, const FrequencyBounds& bounds, double margin,
+                       const std::vector<std::uint8_t>& marks) {
+  double most = 0;
+  for (int i = 0; i < body.owned(); ++i) most = std::max(most, marks[i] ? bounds.values[i] : 0);
+  return body.domain.communicator.max(most) / (2 * margin);
+}
+
+double work_of_step(const Body& body, const std::vector<std::uint8_t>& levels) {
+  double work = 0;
+  for (int i = 0; i < body.owned(); ++i) work += cost_of_point(body, i) * cost_of(levels.empty() ? 0 : levels[i]);
+  return body.domain.communicator.sum(work);
+}
+
+// `before`: the levels so far, if any, that points keep which nothing pushes.
+TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
+                          const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& pushed) {
+  std::vector<std::uint8_t> levels(body.owned(), 0);
+  over_points(body, [&](int i, bool may) {
+    if (!may) return;
+    levels[i] = level_of(bounds.values[i], bound, margin);
+    if (before.empty() || before[i] <= levels[i] || (!pushed.empty() && pushed[i])) return;
+    levels[i] = std::max<int>(levels[i], std::min<int>(before[i], level_of(slack * bounds.values[i], bound, margin)));
+  });
+  with_ghosts(body, levels);
+  smooth_levels(body, levels);
+  const double work = work_of_step(body, levels);
+  return {std::move(levels), bound, work};
+}
+
+// The levels that cost least; points between stiff ones count, too.
+TimeStepLevels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin) {
+  FrequencyHistogram histogram(bounds.largest, margin);
+  for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));
+  histogram.agree(body.domain.communicator);
+  const double bound = std::max(histogram.best(), bounds.floor);
+  TimeStepLevels none{{}, bounds.largest, work_of_step(body, {})};
+  if (!(bound < bounds.largest)) return none;
+  TimeStepLevels some = levels_for(body, bounds, bound, margin, {}, {});
+  return some.work * bound < worth_while * none.work * none.bound ? some : none;
+}
+
+}  // namespace
+
+TimeStepLevels choose_levels(Body& body, double safety_factor, const PresentStep& present, const ActedOn& acted_on,
+                             const std::vector<std::uint8_t>& before, bool has_levels) {
+  const Communicator& communicator = body.domain.communicator;
+  const auto any = [&](const std::vector<std::uint8_t>& marks) {  // a rank without points has no marks
+    return communicator.max(marks.empty() ? 0.0 : 1.0) > 0;
+  };
+  const double margin = std::min(1.0, most_turn / safety_factor);
+  const double bearable = (1 + round_off) * present.slack * present.bound;
+  FrequencyBounds bounds = frequency_bounds_of(body);
+  if (any(acted_on.damped)) even_out(body, acted_on.damped, bounds);
+  std::vector<std::uint8_t> around = acted_on.pushed;
+  if (any(acted_on.pushed)) {
+    spread(body, families_around_contact, around);
+    bounds.floor = std::max(bounds.floor, floor_of_pushed(body, bounds, margin, around));
+  }
+  TimeStepLevels best = cheapest_levels(body, bounds, margin);
+  if (!(present.bound > 0 && bearable >= bounds.floor)) return best;
+  TimeStepLevels kept = levels_for(body, bounds, bearable, margin, before, around);
+  const bool of_none = !has_levels && best.bound == bounds.largest && bearable >= bounds.largest;
+  if (!of_none && best.work * best.bound < worth_a_change * kept.work * present.bound) return best;
+  kept.anew = false;
+  return kept;
+}
+
+std::vector<std::uint8_t> motion_levels_of(const Body& body, const std::vector<std::uint8_t>& levels) {
+  std::vector<std::uint8_t> motion_levels(levels.begin(), levels.begin() + body.owned());
+  for_each_point(0, body.owned(), [&](int i) {
+    body.domain.families.for_each(i, [&](int j) { motion_levels[i] = std::max(motion_levels[i], levels[j]); });
+  });
+  return motion_levels;
+}
+
+}  // namespace strut

@@ -1,0 +1,52 @@
+#include "integrators/quasi_static/constraints.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of the length of a direction: what others at its point hold already leaves no more than this of it.
+constexpr double smallest_part = 1e-8;
+
+}  // namespace
+
+Constraints::Constraints(const std::vector<HeldDirection>& held, const Body& body)
+    : free_projection_(body.owned(), Tensor::Identity()), places_(body.owned(), Vector::Zero()) {
+  for (const HeldDirection& one : held) hold(one);
+}
+
+// With y·d = target, in the directions that are still free: y·(F d) = target − (d − F d)·y, and the rest of d is held.
+void Constraints::hold(const HeldDirection& held) {
+  Tensor& free_projection = free_projection_[held.point];
+  const Vector free = free_projection * held.direction;
+  const double length = free.norm();
+  if (length < smallest_part) return;
+  const Vector along = free / length;
+  const double left = held.target - held.direction.dot(places_[held.point]);
+  places_[held.point] += left / length * along;
+  free_projection -= along * along.transpose();
+  directions_.push_back({held.reaction_place, held.point, along});
+}
+
+void Constraints::remove(Field& field) const {
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] = free_projection_[i] * field[i];
+}
+
+void Constraints::keep_constrained(Field& field) const {
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] -= free_projection_[i] * field[i];
+}
+
+void Constraints::add_reactions(const Field& forces, std::vector<Vector>& by_condition) const {
+  for (const auto& [reaction_place, point, along] : directions_) {
+    if (static_cast<std::size_t>(reaction_place) >= by_condition.size()) continue;  // no_reaction, too
+    by_condition[reaction_place] -= along.dot(forces[point]) * along;
+  }
+}
+
+Field Constraints::way_left(const Body& body) const {
+  Field left(body.owned());
+  for (int i = 0; i < body.owned(); ++i) left[i] = places_[i] - body.current(i);
+  keep_constrained(left);
+  return left;
+}
+
+}  // namespace strut

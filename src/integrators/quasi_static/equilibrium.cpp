@@ -1,0 +1,285 @@
+#include "integrators/quasi_static/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "base/timing.hpp"
+#include "mechanics/formulation/flow.hpp"
+#include "mechanics/mirror_forces.hpp"
+#include "mechanics/serialize.hpp"
+
+namespace strut {
+
+namespace {
+
+// Reactions that have become smaller than this part of the largest so far are no scale: what is left of an unloaded
+// body is round-off of its loading.
+constexpr double smallest_scale = 1e-4;
+
+// Of the forces that round-off leaves: what moves a little has others than what rests.
+constexpr double few = 4;
+
+// Of the forces by the round-off of places, those of a body at rest, where terms that cancel are larger: with quadratic
+// correspondence some 200 times. What is more is no round-off: a body that is handed over strained.
+constexpr double most_cancelled = 1e4;
+
+// N, of all points: places are off by ε |X|, and forces by the stiffness of their points, ω² m, times that.
+double round_off_of_places(const Body& body) {
+  double sum = 0;
+  for (const MaterialBlock& block : body.blocks) {
+    for (std::size_t k = 0; k < block.points.size(); ++k) {
+      const int i = block.points[k];
+      const double omega = frequency_bound(body, block, static_cast<int>(k));
+      sum += std::pow(omega * omega * body.mass(i) * body.domain.reference(i).cwiseAbs().maxCoeff(), 2);
+    }
+  }
+  return std::numeric_limits<double>::epsilon() * std::sqrt(body.domain.communicator.sum(sum));
+}
+
+// N, of all points: what is left of the forces of a body at rest.
+double forces_at_rest(Body& body) {
+  advance_by_any_step(body, 1, false);  // of any length: laws in rates see nothing in none
+  double sum = 0;
+  for (int i = 0; i < body.owned(); ++i) sum += (body.domain.volume(i) * body.force_density[i]).squaredNorm();
+  return std::sqrt(body.domain.communicator.sum(sum));
+}
+
+}  // namespace
+
+Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact)
+    : body_(body),
+      conditions_(std::move(conditions)),
+      contact_(std::move(contact)),
+      tools_(tools_of(conditions_), body),
+      committed_(body) {
+  check_equilibria_possible(conditions_);
+  residual_.assign(body.owned(), Vector::Zero());
+  inner_ = outer_ = outer_before_ = forces_before_ = residual_;
+  directions_ = body.domain.sites;
+  const double of_places = round_off_of_places(body);
+  round_off_ = few * std::clamp(forces_at_rest(body), of_places, most_cancelled * of_places);
+  committed_.restore(body);
+  looked_at_.resize(body.owned());
+  for (int i = 0; i < body.owned(); ++i) looked_at_[i] = body.current(i);
+}
+
+void Equilibrium::begin(double t, double dt) {
+  t_ = t, dt_ = dt;
+  constraints_.emplace(held_directions(conditions_, body_, t, dt), body_);
+  tools_.begin(body_, t, dt);
+  check_values();
+}
+
+// Of what acts at the end of the step, before anything is moved by it.
+void Equilibrium::check_values() {
+  const std::vector<Vector> kept = body_.force_density;
+  add_forces(conditions_, t_ + dt_, body_);
+  body_.force_density = kept;
+  raise_together(body_.domain.communicator, conditions_.first_not_finite());
+}
+
+Imbalance Equilibrium::evaluate(bool with_diagnostics) {
+  static Teuchos::Time& timer = phase("Trials");
+  const Timed timed(timer);
+  committed_.restore_materials(body_);
+  const StepReport report = advance_by_any_step(body_, dt_, with_diagnostics);
+  failure_ = report.failure;
+  residual_ = body_.force_density;
+  for (int i = 0; i < body_.owned(); ++i) inner_[i] = body_.domain.volume(i) * residual_[i];
+  mirror_forces_ = mirror_forces(body_);
+  add_forces(conditions_, t_ + dt_, body_);
+  for (int i = 0; i < body_.owned(); ++i) outer_[i] = body_.domain.volume(i) * (body_.force_density[i] - residual_[i]);
+  add_contact();
+  forces_.resize(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) forces_[i] = body_.domain.volume(i) * body_.force_density[i];
+  return measure(report.failure.has_value());
+}
+
+// Contact asks how far points may have moved by their velocities: those of the way from the last trial, in a second.
+void Equilibrium::add_contact() {
+  if (!contact_.any()) return;
+  std::vector<Vector> way(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) {
+    way[i] = body_.current(i) - looked_at_[i];
+    looked_at_[i] += way[i];
+  }
+  const contact::Kinematics kinematics{body_.domain, way, body_.density};
+  std::vector<double> agreed;
+  contact_.append_to_agree(kinematics, agreed);
+  body_.domain.communicator.max(agreed);
+  contact_.take_agreed(agreed, 1);
+  contact_.add_trial_forces(kinematics, step_way(), body_.force_density);
+}
+
+std::vector<Vector> Equilibrium::step_way() const {
+  std::vector<Vector> way(body_.owned());
+  for (int i = 0; i < body_.owned(); ++i) way[i] = body_.current(i) - committed_.place(i);
+  return way;
+}
+
+double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
+
+// Σ f·u ≤ ‖f‖ ‖u‖.
+double Equilibrium::work_of_round_off() const {
+  double sum = 0;
+  for (const Vector& way : step_way()) sum += way.squaredNorm();
+  return round_off_ * std::sqrt(body_.domain.communicator.sum(sum));
+}
+
+// The reactions are what balances the forces in held directions.
+Imbalance Equilibrium::measure(bool failed) {
+  Field of_tools(body_.owned(), Vector::Zero());
+  tools_.add_forces(body_, of_tools);
+  double sums[] = {0, 0, failed ? 1.0 : 0.0};
+  for (int i = 0; i < body_.owned(); ++i) {
+    forces_[i] += of_tools[i];
+    residual_[i] = constraints_->free_projection(i) * forces_[i];
+    outer_[i] -= forces_[i] - residual_[i];
+    sums[0] += residual_[i].squaredNorm();
+    sums[1] += (outer_[i] + of_tools[i]).squaredNorm();
+  }
+  body_.domain.communicator.sum(sums);
+  Imbalance now{std::sqrt(sums[0]), std::sqrt(sums[1]), round_off_, sums[2] > 0};
+  if (!std::isfinite(now.norm + now.scale)) now.failed = true;
+  last_scale_ = now.scale;
+  now.scale = std::max(now.scale, smallest_scale * largest_scale_);
+  return now;
+}
+
+bool Equilibrium::needs_round() const {
+  const Communicator& ranks = body_.domain.communicator;
+  return ranks.max(tools_.violation(ranks.max(tools_.largest_pressure()))) > 1;
+}
+
+bool Equilibrium::contact_has_changed() { return body_.domain.communicator.max(tools_.has_changed() ? 1.0 : 0.0) > 0; }
+
+void Equilibrium::linearize() {
+  static Teuchos::Time& timer = phase("Tangents");
+  const Timed timed(timer);
+  tangents_ = point_tangents(body_, committed_, dt_);
+}
+
+void Equilibrium::apply(const Field& field, Field& result) {
+  static Teuchos::Time& timer = phase("Products");
+  const Timed timed(timer);
+  for (int i = 0; i < body_.owned(); ++i) directions_[i].current.head<3>() = field[i].array();
+  apply_tangent(body_, body_.domain.halo, directions_, &tangents_, body_.force_states, result);
+  for (int i = 0; i < body_.owned(); ++i) result[i] *= body_.domain.volume(i);
+  contact_.add_stiffness(field, result);
+  tools_.add_stiffness(field, result);
+}
+
+void Equilibrium::commit() {
+  largest_scale_ = std::max(largest_scale_, last_scale_);
+  for (int i = 0; i < body_.owned(); ++i) {
+    body_.velocity[i] = (body_.current(i) - committed_.place(i)) / dt_;
+    body_.previous_velocity[i] = body_.velocity[i];
+  }
+  contact_.commit();
+  tools_.commit();
+  outer_before_ = outer_;
+  mirror_forces_before_ = mirror_forces_;
+  forces_before_ = forces_;
+  begin_flow_of_cells();
+}
+
+// Cells that begin to flow have other forces from here on. The difference, which would let the body jump to its next
+// equilibrium, is held at first and fades over the next step: its work is counted as that of loads.
+void Equilibrium::begin_flow_of_cells() {
+  const bool any = body_.domain.communicator.max(begin_flow(body_) ? 1.0 : 0.0) > 0;
+  committed_.take(body_);
+  if (!any) return;
+  const std::vector<Vector> kept = body_.force_density;
+  advance_by_any_step(body_, 0, false);
+  for (int i = 0; i < body_.owned(); ++i) {
+    outer_before_[i] += inner_[i] - body_.domain.volume(i) * body_.force_density[i];
+  }
+  body_.force_density = kept;
+  committed_.restore_materials(body_);
+}
+
+std::vector<Tensor> Equilibrium::contact_springs() {
+  std::vector<Tensor> springs(body_.owned(), Tensor::Zero());
+  contact_.add_springs(springs);
+  tools_.add_springs(springs);
+  return springs;
+}
+
+void Equilibrium::go_back() {
+  committed_.restore(body_);
+  advance_by_any_step(body_, 0, true);
+  add_contact();  // for its energy
+  forces_ = forces_before_;
+  outer_ = outer_before_;
+  mirror_forces_ = mirror_forces_before_;
+  tools_.go_back();
+}
+
+void Equilibrium::serialize(Archive& archive) {
+  if (!archive.loading()) committed_.restore(body_);  // to the last bit, after a trial that was broken off
+  strut::serialize(archive, body_);
+  const auto serialize_field = [&archive](const std::string& name, Field& field) {
+    archive.field(name, 3, [&field](std::size_t i, int c) -> double& { return field[i][c]; });
+  };
+  forces_.resize(body_.owned(), Vector::Zero());
+  serialize_field("forces", forces_);
+  serialize_field("outer_forces", outer_before_);
+  mirror_forces_.resize(body_.domain.mirrors.size(), Vector::Zero());
+  serialize_mirror_forces(archive, mirror_forces_);
+  archive.number("step_begin", t_);
+  archive.number("step_length", dt_);
+  archive.number("largest_scale", largest_scale_);
+  const contact::Kinematics kinematics{body_.domain, body_.velocity, body_.density};
+  contact_.serialize(archive, kinematics, 0);
+  tools_.serialize(archive, body_);
+  if (!archive.loading()) return;
+  forces_before_ = forces_;
+  outer_ = outer_before_;
+  for (int i = 0; i < body_.owned(); ++i) looked_at_[i] = body_.current(i);
+  committed_.take(body_);
+  if (dt_ > 0) constraints_.emplace(held_directions(conditions_, body_, t_, dt_), body_);  // for reactions
+}
+
+double Equilibrium::external_work() const {
+  double sum = 0;
+  for (int i = 0; i < body_.owned(); ++i) {
+    sum += 0.5 * (outer_before_[i] + outer_[i]).dot(body_.current(i) - committed_.place(i));
+  }
+  return sum;
+}
+
+Reactions Equilibrium::reactions(int conditions) const {
+  Reactions all{std::vector<Vector>(conditions, Vector::Zero())};
+  if (conditions == 0 || !constraints_) return all;
+  constraints_->add_reactions(forces_, all.forces);
+  tools_.add_reactions(all.forces);
+  for (std::size_t m = 0; m < mirror_forces_.size(); ++m) {
+    all.forces[body_.domain.mirrors[m].number] += mirror_forces_[m];
+  }
+  body_.domain.communicator.sum(std::span(all.forces.data()->data(), 3 * all.forces.size()));
+  return all;
+}
+
+std::string Equilibrium::weakest_point() const {
+  const Communicator& ranks = body_.domain.communicator;
+  double largest = 0;
+  int worst = -1;
+  for (int i = 0; i < body_.owned(); ++i) {
+    if (residual_[i].norm() > largest || worst < 0) largest = residual_[i].norm(), worst = i;
+  }
+  // A failure counts above any force.
+  const double rating = failure_ ? HUGE_VAL : largest;
+  const double highest = ranks.max(rating);
+  std::string text;
+  if (rating == highest && worst >= 0) {
+    std::ostringstream line;
+    line << "the largest force that is left, " << largest << " N, is at " << locate(body_, worst);
+    text = failure_ ? describe(*failure_, body_) : line.str();
+  }
+  return text;
+}
+
+}  // namespace strut

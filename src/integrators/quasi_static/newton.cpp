@@ -1,0 +1,234 @@
+#include "integrators/quasi_static/newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/timing.hpp"
+#include "integrators/quasi_static/line_search.hpp"
+#include "integrators/quasi_static/preconditioner_matrix.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of the linear systems. Near the solution Newton's own convergence is the limit of what is worth solving for: the
+// residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
+constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
+
+// Of the error, where a point begins to touch a tool: the residual is then that of a stiff spring, and what the body
+// will carry a small part of it.
+constexpr double of_touch = 1e-2;
+constexpr int most_products = 400;
+
+// Damping: where it begins, and below which it ends; factors where the tangent is not positive along the step, where
+// only a short part of the step is downhill, and where the forces fall, quickly or at all.
+constexpr double first_damping = 1e-2, least_damping = 1e-5;
+constexpr double where_unstable = 10, where_short = 4, where_quick = 0.1, where_slow = 0.4;
+constexpr double short_part = 0.1, long_part = 0.5;  // of a step
+constexpr int most_damped = 8;                       // iterations: what takes more is left to relaxation
+constexpr int most_products_damped = 200;            // directions are not worth more, and GMRES not a restart
+
+// Products with multigrid, of one system, after which thin bodies have factors for the rest of the run: the strut that
+// flows, or rubs, is not in multigrid's springs. Below, multigrid is the faster (docs/decisions.md).
+constexpr int most_of_multigrid = 200;
+
+// A hierarchy is kept until systems take so much longer than just after it was made, factors until they take so much
+// longer than others would take to make.
+constexpr double wear = 1.5;
+
+// Whether anything of the way is left but the round-off of times.
+bool is_a_way(const Field& way, const Body& body) {
+  double farthest = 0;  // in spacings
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    farthest = std::max(farthest, way[i].norm() / body.domain.cloud.spacings[i]);
+  }
+  return body.domain.communicator.max(farthest) > 1e-9;
+}
+
+}  // namespace
+
+Newton::Newton(Equilibrium& equilibrium, const Observer& observer)
+    : equilibrium_(equilibrium),
+      observer_(observer),
+      krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
+
+// Of a point alone.
+double Newton::mean_spring(const BlockRows& matrix) const {
+  double sums[] = {0, static_cast<double>(matrix.start.size() - 1)};
+  for (std::size_t i = 0; i + 1 < matrix.start.size(); ++i) sums[0] += matrix.blocks[matrix.start[i]].trace() / 3;
+  equilibrium_.body().domain.communicator.sum(sums);
+  return sums[0] / sums[1];
+}
+
+// Without what is not the body's own: contact would keep points from sliding, too.
+void Newton::renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra) {
+  drag_.resize(extra.size());
+  for (std::size_t i = 0; i < extra.size(); ++i) {
+    const Tensor& free_projection = equilibrium_.constraints().free_projection(static_cast<int>(i));
+    const Tensor own = free_projection * (matrix.blocks[matrix.start[i]] - extra[i]) * free_projection;
+    drag_[i] = own.trace() / std::max(1.0, free_projection.trace());
+  }
+}
+
+void Newton::damp_less(double factor) {
+  damping_ *= factor;
+  if (damping_ < least_damping) damping_ = 0;
+}
+
+void Newton::damp_more(double factor) { damping_ = std::max(first_damping, factor * damping_); }
+
+void Newton::tell_once(const std::string& trouble) {
+  if (trouble.empty() || told_trouble_) return;
+  told_trouble_ = true;
+  if (observer_.load_steps) observer_.load_steps("WARNING: " + trouble);
+}
+
+bool Newton::damping_has_changed() const {
+  return damping_ > 5 * damping_when_new_ || damping_ < 0.2 * damping_when_new_;
+}
+
+void Newton::precondition(const BlockRows& matrix, const std::vector<Tensor>& extra) {
+  Body& body = equilibrium_.body();
+  if (wants_factors_ && !factor_) factor_.emplace(body);
+  is_factorized_ = wants_factors_ && factor_->is_worthwhile() &&
+                   factor_->factorize(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, matrix);
+  if (is_factorized_) {
+    return krylov_.precondition_by([this](const Field& right, Field& x) { factor_->solve(right, x); });
+  }
+  tell_once(krylov_.precondition(matrix, rigid_motions(body)));
+}
+
+void Newton::renew_preconditioner() {
+  static Teuchos::Time& timer = phase("Preconditioner");
+  const Timed timed(timer);
+  Body& body = equilibrium_.body();
+  std::vector<Tensor> extra = equilibrium_.contact_springs();
+  if (damping_ > 0) {
+    for (std::size_t i = 0; i < extra.size(); ++i) extra[i] += damping_ * drag_[i] * Tensor::Identity();
+  }
+  const BlockRows matrix =
+      preconditioner_matrix(body, equilibrium_.tangents(), equilibrium_.constraints(), extra, krylov_.first());
+  precondition(matrix, extra);
+  spring_ = mean_spring(matrix);
+  renew_drag(matrix, extra);
+  damping_when_new_ = damping_;
+  preconditioner_due_ = false;
+  products_when_new_ = 0;
+}
+
+// What is solved once, or again with factors where multigrid took too long.
+Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::Outcome()>& solve) {
+  const Krylov::Outcome first = solve();
+  if (wants_factors_ || first.iterations < most_of_multigrid) return first;
+  wants_factors_ = true;
+  renew_preconditioner();
+  if (!is_factorized_) return first;
+  const Krylov::Outcome second = solve();
+  return {first.iterations + second.iterations, second.converged};
+}
+
+void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_factors_); }
+
+// The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
+int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
+  equilibrium_.linearize();
+  const bool changed = equilibrium_.contact_has_changed();
+  if (preconditioner_due_ || (changed && !is_factorized_) || damping_has_changed()) renew_preconditioner();
+  const Constraints& held = equilibrium_.constraints();
+  Field right = equilibrium_.residual();
+  if (moves) {
+    Field pull(way.size());
+    equilibrium_.apply(way, pull);
+    for (std::size_t i = 0; i < right.size(); ++i) right[i] -= pull[i];
+    held.remove(right);
+  }
+  const auto product = [&](const Field& in, Field& out) {
+    Field free = in;
+    held.remove(free);
+    equilibrium_.apply(free, out);
+    if (damping_ > 0) {
+      for (std::size_t i = 0; i < in.size(); ++i) out[i] += damping_ * drag_[i] * free[i];
+    }
+    held.remove(out);
+    for (std::size_t i = 0; i < in.size(); ++i) out[i] += spring_ * (in[i] - free[i]);
+  };
+  const int most = damping_ > 0 ? most_products_damped : most_products;
+  const Krylov::Outcome outcome = with_another_preconditioner([&] {
+    static Teuchos::Time& timer = phase("Linear solver");
+    const Timed timed(timer);
+    return changed ? krylov_.solve(product, right, Krylov::Measure::error, of_touch, most, step)
+                   : krylov_.solve(product, right, Krylov::Measure::residual, accuracy, most, step);
+  });
+  if (!outcome.converged) damp_more(where_unstable);
+  held.remove(step);
+  for (std::size_t i = 0; i < step.size(); ++i) step[i] += way[i];
+  if (products_when_new_ == 0) products_when_new_ = std::max(10, outcome.iterations);
+  preconditioner_due_ = outcome.iterations > wear * (is_factorized_ ? factor_->products_worth() : products_when_new_);
+  return outcome.iterations;
+}
+
+// The whole of the step where it leaves fewer forces, else as much of it as is downhill. A step that moves what is held
+// is taken whole: there is nothing to compare with. What damping keeps back is the motion that the tangent finds soft
+// or unstable: it is Levenberg's and Marquardt's, or an implicit step of a motion through something viscous.
+Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
+  Body& body = equilibrium_.body();
+  const double power = power_along(equilibrium_, body, step);
+  move_by(body, 1, step);
+  const Imbalance next = equilibrium_.evaluate();
+  if (moves) return next;
+  if (damping_ > 0) ++damped_;
+  if (!next.failed && next.norm < (1 - 1e-4) * now.norm) {
+    damp_less(next.norm < 0.5 * now.norm ? where_quick : where_slow);
+    return next;
+  }
+  if (power <= 0) {
+    damp_more(where_unstable);
+    move_by(body, -1, step);
+    return equilibrium_.evaluate();
+  }
+  double drag = 0;
+  for (std::size_t i = 0; i < step.size(); ++i) drag += damping_ * drag_[i] * step[i].squaredNorm();
+  const Stop stop = search_downhill(equilibrium_, step, power, body.domain.communicator.sum(drag), next);
+  if (stop.fraction < short_part) damp_more(where_short);
+  if (stop.fraction > long_part) damp_less(where_slow);
+  return stop.left;
+}
+
+void Newton::tell(const Search& search, int products) const {
+  if (!observer_.iterations) return;
+  char line[160];
+  std::snprintf(line, sizeof line, "  iteration %2d  %3d products  %.3e N left of %.3e N, damping %.0e%s",
+                search.iterations + 1, products, search.left.norm, search.left.scale, damping_,
+                search.left.failed ? "  failed" : "");
+  observer_.iterations(line);
+}
+
+Search Newton::solve(const Tolerance& tolerance) {
+  Search search;
+  search.left = equilibrium_.evaluate();
+  Field way = equilibrium_.constraints().way_left(equilibrium_.body()), step;
+  bool moves = is_a_way(way, equilibrium_.body());
+  double before = search.left.norm;
+  damping_ = 0, damped_ = 0;
+  for (; search.iterations < tolerance.most_iterations && !search.left.failed; ++search.iterations) {
+    if (damped_ == most_damped) break;
+    if (!moves && is_balanced(search.left, tolerance)) break;
+    const double gain = search.left.norm / before;
+    const double enough = 0.3 * tolerance.relative * search.left.scale / search.left.norm;
+    const double accuracy = moves ? of_first : std::clamp(std::max(0.5 * gain * gain, enough), finest, coarsest);
+    before = search.left.norm;
+    const int products = correct(way, moves, accuracy, step);
+    search.evaluations += products;
+    search.left = advance(search.left, step, moves);
+    tell(search, products);
+    search.interrupted = equilibrium_.body().domain.communicator.max(observer_.stop_requested() ? 1.0 : 0.0) > 0;
+    if (search.interrupted) return search;
+    std::fill(way.begin(), way.end(), Vector::Zero());
+    moves = false;
+  }
+  search.converged = is_balanced(search.left, tolerance);
+  return search;
+}
+
+}  // namespace strut

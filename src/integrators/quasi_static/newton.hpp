@@ -1,0 +1,56 @@
+// Equilibrium by Newton's method: the consistent tangent, GMRES, a search along the step; and damping where the tangent
+// leads nowhere.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "integrators/quasi_static/krylov.hpp"
+#include "integrators/quasi_static/search.hpp"
+#include "integrators/quasi_static/tangent_factor.hpp"
+
+namespace strut {
+
+class Newton {
+ public:
+  Newton(Equilibrium& equilibrium, const Observer& observer);
+
+  // The next search does not depend on earlier ones.
+  void begin_anew() { preconditioner_due_ = true; }
+
+  void serialize(Archive& archive);  // what a resumed run must know of the systems before
+
+  // Collective. From the present places, within the step that the equilibrium has begun.
+  Search solve(const Tolerance& tolerance);
+
+ private:
+  int correct(const Field& way, bool moves, double accuracy, Field& step);
+  Imbalance advance(const Imbalance& now, const Field& step, bool moves);
+  void tell_once(const std::string& trouble);
+  bool damping_has_changed() const;
+  Krylov::Outcome with_another_preconditioner(const std::function<Krylov::Outcome()>& solve);
+  void renew_preconditioner();
+  void precondition(const BlockRows& matrix, const std::vector<Tensor>& extra);
+  double mean_spring(const BlockRows& matrix) const;
+  void renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra);
+  void damp_less(double factor);
+  void damp_more(double factor);
+  void tell(const Search& search, int products) const;
+
+  Equilibrium& equilibrium_;
+  const Observer& observer_;
+  Krylov krylov_;
+  std::optional<TangentFactor> factor_;  // from the first system on
+  double spring_ = 1;                    // N/m, of held directions in the linear systems: as stiff as others
+  int products_when_new_ = 0;
+  bool preconditioner_due_ = true, wants_factors_ = false, is_factorized_ = false;
+  bool told_trouble_ = false;
+
+  // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.
+  double damping_ = 0, damping_when_new_ = 0;
+  std::vector<double> drag_;  // N/m: what a point's near neighbors hold it with
+  int damped_ = 0;            // iterations with damping in this search
+};
+
+}  // namespace strut

@@ -1,0 +1,183 @@
+#include "integrators/quasi_static/quasi_static.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "base/errors.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
+constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried from the start of a step
+constexpr int most_turns = 6;            // of relaxation and Newton, where Newton stalls
+constexpr int turn = 125;                // iterations of relaxation in each, for one of Newton that the deck allows
+constexpr int most_rounds = 30;          // of the multipliers of tools, in a step
+constexpr int easily = 6;                // Newton's iterations of a round after which the next step may be longer
+constexpr double round_off = 1e-9;
+
+// Energies below so much of the work of round-off are nothing to compare errors with: a body that is only carried along
+// has no others. Users are told of errors from 1 % on.
+constexpr double above_round_off = 100;
+
+// A point: 4.8 kB of vectors of GMRES, 0.6 of the tangent, the rest of the near matrix and its hierarchy. Measured:
+// 222 MiB between bodies of 729 and 13,824 points. Beside this, the factors of thin bodies.
+constexpr double newton_bytes = 17e3;
+
+}  // namespace
+
+QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
+                         double initial_time, double final_time, Observer observer)
+    : observer_(std::move(observer)),
+      equilibrium_(body, std::move(conditions), std::move(contact)),
+      newton_(equilibrium_, observer_),
+      relaxation_(equilibrium_, observer_),
+      control_(control),
+      time_(initial_time),
+      final_time_(final_time),
+      longest_((final_time - initial_time) / control.load_steps),
+      dt_(longest_),
+      largest_energy_(energy_of_round_off(body)) {}
+
+double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
+  const double committed = 400.0 * body.owned();  // with forces and trials of contact
+  if (!control.with_tangent) return committed + CriticalTimeStep::bytes(body);
+  return committed + newton_bytes * body.owned() + TangentFactor(body).bytes();
+}
+
+// What moved over the last step goes on at its rate.
+void QuasiStatic::extrapolate() {
+  if (steps_ == 0) return;
+  Body& body = equilibrium_.body();
+  const double factor = dt_ / last_dt_;
+  for (int i = 0; i < body.owned(); ++i) body.domain.sites[i].current.head<3>() += factor * last_step_[i].array();
+}
+
+Search QuasiStatic::search_from_start(bool with_tangent) {
+  newton_.begin_anew();  // or a run that was cut would not go on as one that was not
+  relaxation_.begin_anew();
+  equilibrium_.begin(time_, dt_);
+  extrapolate();
+  // Rounds of the multipliers of tools, each from the equilibrium of the last.
+  Search whole;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Search last = search(with_tangent);
+    whole = {last.converged,
+             whole.iterations + last.iterations,
+             whole.evaluations + last.evaluations,
+             last.left,
+             last.interrupted,
+             round + 1};
+    if (!last.converged || !equilibrium_.needs_round()) return whole;
+    equilibrium_.augment();
+  }
+  whole.converged = false;
+  return whole;
+}
+
+// Where Newton stalls the body is about to jump, folding or crushed in layers: relaxation goes on from there, through
+// states where the tangent is of no use, and Newton ends what it leaves.
+Search QuasiStatic::search(bool with_tangent) {
+  const Tolerance& tolerance = control_.tolerance;
+  Search found = with_tangent ? newton_.solve(tolerance) : relaxation_.solve(tolerance, Relaxation::most(tolerance));
+  const auto goes_on = [&] { return with_tangent && !found.converged && !found.interrupted && !found.left.failed; };
+  const auto add = [&](Search more) {
+    more.iterations += found.iterations, more.evaluations += found.evaluations;
+    found = more;
+  };
+  for (int n = 0; n < most_turns && goes_on(); ++n) {
+    add(relaxation_.solve(tolerance, turn * tolerance.most_iterations));
+    if (goes_on()) add(newton_.solve(tolerance));
+  }
+  iterations_ += found.iterations;
+  evaluations_ += found.evaluations;
+  return found;
+}
+
+// Where Newton turned points inside out there is nothing to go on from: relaxation is tried from the start, but it
+// takes many times as long as Newton, and is left for steps that could not be made by being cut.
+Search QuasiStatic::attempt() {
+  const Search search = search_from_start(control_.with_tangent);
+  if (!search.left.failed || search.interrupted || !control_.with_tangent || dt_ > patience * longest_) return search;
+  equilibrium_.go_back();
+  return search_from_start(false);
+}
+
+void QuasiStatic::serialize(Archive& archive) {
+  equilibrium_.serialize(archive);
+  newton_.serialize(archive);
+  Body& body = equilibrium_.body();
+  archive.points("motion", {body.domain.cloud.ids.begin(), body.domain.cloud.ids.begin() + body.owned()});
+  last_step_.resize(body.owned(), Vector::Zero());
+  archive.field("last_step", 3, [this](std::size_t i, int c) -> double& { return last_step_[i][c]; });
+  archive.number("time", time_);
+  archive.number("dt", dt_);
+  archive.number("last_dt", last_dt_);
+  archive.number("steps", steps_);
+  archive.number("external_work", external_);
+  archive.number("work_of_tools", by_tools_);
+  archive.number("work_of_friction", by_friction_);
+  archive.number("largest_energy", largest_energy_);
+}
+
+bool QuasiStatic::advance() {
+  dt_ = std::min(dt_, final_time_ - time_);
+  for (;;) {
+    const Search search = attempt();
+    if (search.converged) {
+      commit(search);
+      return true;
+    }
+    const std::string where = equilibrium_.weakest_point();
+    equilibrium_.go_back();
+    if (search.interrupted) return false;
+    dt_ *= 0.5;
+    if (dt_ < shortest * longest_) {
+      std::ostringstream text;
+      text << "no equilibrium after t = " << time_ << " s, by load steps down to " << 2 * dt_ << " s: ";
+      raise_together(equilibrium_.body().domain.communicator, where.empty() ? "" : text.str() + where);
+    }
+  }
+}
+
+void QuasiStatic::commit(const Search& search) {
+  Body& body = equilibrium_.body();
+  equilibrium_.evaluate(true);
+  external_ += body.domain.communicator.sum(equilibrium_.external_work());
+  by_tools_ += body.domain.communicator.sum(equilibrium_.tool_work());
+  by_friction_ += body.domain.communicator.sum(equilibrium_.friction_work());
+  largest_energy_ += above_round_off * equilibrium_.work_of_round_off();
+  last_step_.resize(body.owned());
+  for (int i = 0; i < body.owned(); ++i) last_step_[i] = body.current(i) - equilibrium_.start(i);
+  equilibrium_.commit();
+  last_dt_ = dt_;
+  ++steps_;
+  const double left = final_time_ - time_ - dt_;
+  time_ = left > round_off * longest_ ? time_ + dt_ : final_time_;
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "step %4d  t = %.6g s  dt = %.3g s  %2d iterations, %4d evaluations, %.1e of the load left", steps_,
+                time_, dt_, search.iterations, search.evaluations,
+                search.left.scale > 0 ? search.left.norm / search.left.scale : 0.0);
+  observer_.load_steps(line);
+  if (!control_.with_tangent || search.iterations <= easily * search.rounds) dt_ = std::min(2 * dt_, longest_);
+}
+
+Ledger QuasiStatic::ledger() {
+  const Body& body = equilibrium_.body();
+  const Energies stored = stored_energies(body);
+  Ledger now{.time = time_, .dt = last_dt_};
+  now.elastic = stored.elastic, now.dissipated = stored.dissipated, now.stabilization = stored.stabilization;
+  now.heat = stored.heat;
+  now.external = external_;
+  now.tools = by_tools_;
+  now.contact = by_friction_ - body.domain.communicator.sum(contact().energy());
+  now.balance(now.elastic + now.dissipated + now.stabilization, now.external + now.tools + now.contact,
+              largest_energy_);
+  return now;
+}
+
+}  // namespace strut

@@ -1,0 +1,61 @@
+// Slow loading: a series of equilibria, without inertia. Time is that of the loads.
+#pragma once
+
+#include "integrators/ledger.hpp"
+#include "integrators/quasi_static/newton.hpp"
+#include "integrators/quasi_static/relaxation.hpp"
+
+namespace strut {
+
+struct QuasiStaticControl {
+  bool with_tangent = true;  // Newton, and relaxation where it fails; else relaxation alone
+  int load_steps = 10;       // of equal length; shorter ones where one of these finds no equilibrium
+  Tolerance tolerance;
+};
+
+class QuasiStatic {
+ public:
+  QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
+              double initial_time, double final_time, Observer observer);
+
+  // Bytes that the search for equilibria takes on this rank.
+  static double bytes(const Body& body, const QuasiStaticControl& control);
+
+  double time() const { return time_; }
+  double dt() const { return dt_; }
+  int steps() const { return steps_; }
+  int iterations() const { return iterations_; }    // of this run, those in vain too
+  int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
+  const contact::Contact& contact() const { return equilibrium_.contact(); }
+  const Conditions& conditions() const { return equilibrium_.conditions(); }
+
+  // Collective. One load step; false if the observer requested a stop before it was made. Throws Error on all ranks
+  // where none is found, however short. In both cases the body is at its last equilibrium.
+  bool advance();
+
+  // Collective; between load steps. All that the next ones depend on, of the body too. The run that restores it goes on
+  // to the last bit on as many ranks.
+  void serialize(Archive& archive);
+
+  Ledger ledger();                                                                          // collective
+  Reactions reactions(int conditions) const { return equilibrium_.reactions(conditions); }  // collective
+
+ private:
+  Search attempt();
+  Search search(bool with_tangent);
+  Search search_from_start(bool with_tangent);
+  void extrapolate();
+  void commit(const Search& search);
+
+  Observer observer_;
+  Equilibrium equilibrium_;
+  Newton newton_;
+  Relaxation relaxation_;
+  QuasiStaticControl control_;
+  double time_, final_time_, longest_, dt_, last_dt_ = 0;
+  Field last_step_;  // m, of the last load step
+  int steps_ = 0, iterations_ = 0, evaluations_ = 0;
+  double external_ = 0, by_tools_ = 0, by_friction_ = 0, largest_energy_ = 0;
+};
+
+}  // namespace strut

@@ -1,0 +1,37 @@
+// What the methods that find an equilibrium are asked for, and what they answer.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include "integrators/quasi_static/equilibrium.hpp"
+
+namespace strut {
+
+struct Tolerance {
+  double relative = 1e-6;    // the forces that are left, over reactions, loads and contact
+  int most_iterations = 20;  // Newton's
+};
+
+// Callbacks of an equilibrium search.
+struct Observer {
+  std::function<void(const std::string&)> load_steps;  // gets a line for each; on rank 0
+  std::function<void(const std::string&)> iterations;  // gets a line for each; may be empty
+  std::function<bool()> stop_requested;                // whether the run is to end: on any rank, at any time
+};
+
+struct Search {
+  bool converged = false;
+  int iterations = 0;
+  int evaluations = 0;  // of the forces, or of the tangent times a field
+  Imbalance left;
+  bool interrupted = false;
+  int rounds = 1;  // of the multipliers of tools
+};
+
+inline bool is_balanced(const Imbalance& now, const Tolerance& tolerance) {
+  return !now.failed && now.norm <= std::max(tolerance.relative * now.scale, now.round_off);
+}
+
+}  // namespace strut

@@ -1,0 +1,165 @@
+#include "integrators/quasi_static/tangent_factor.hpp"
+
+#include <Eigen/OrderingMethods>
+#include <algorithm>
+#include <optional>
+
+#include "integrators/quasi_static/block_factors.hpp"
+#include "mechanics/point_stiffness.hpp"
+
+namespace strut {
+
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;  // by columns, lower triangle
+
+// Operations of a factorization for each point: as long as some sixty products take with factors, some two hundred
+// without. Struts 2 to 3 cells thick have 3e5 to 5e5.
+constexpr double most_operations = 1e6;
+
+// What a product, with the factors once applied, takes: as long as so many of them for each point.
+constexpr double operations_of_product = 16000;
+
+// Of the resembling matrix, from each point to the ground: what nothing holds would have no factors.
+constexpr double to_ground = 1e-5;
+
+// Pairs of coupled points on a rank: what has more is not ordered (some gigabytes, and as many as ten seconds).
+constexpr std::size_t most_coupled = 10'000'000;
+
+// Owned points in the place of their images.
+class Originals {
+ public:
+  struct Original {
+    int point;  // −1: another rank's
+    Tensor turn;
+  };
+
+  explicit Originals(const Body& body) : owned_(body.owned()) {
+    of_ghosts_.resize(body.domain.sites.size() - owned_, {-1, Tensor::Identity()});
+    for (const ImagePoint& image : body.domain.halo.images()) {
+      of_ghosts_[image.ghost - owned_] = {image.original, image.by.turn};
+    }
+  }
+  Original of(int i) const { return i < owned_ ? Original{i, Tensor::Identity()} : of_ghosts_[i - owned_]; }
+
+ private:
+  int owned_;
+  std::vector<Original> of_ghosts_;
+};
+
+// Which owned points share a family, each point itself first. Nothing where they are too many.
+std::vector<std::vector<int>> coupled_points(const Body& body, const Originals& originals) {
+  std::vector<std::vector<int>> coupled(body.owned());
+  std::vector<int> seen_by(body.owned(), -1);
+  std::size_t pairs = 0;
+  for (int i = 0; i < body.owned(); ++i) {
+    const auto take = [&](int near) {
+      const int j = originals.of(near).point;
+      if (j >= 0 && seen_by[j] != i) seen_by[j] = i, coupled[i].push_back(j);
+    };
+    take(i);
+    body.domain.families.for_each(i, take);
+    for (std::size_t n = 0, near = coupled[i].size(); n < near; ++n) {
+      body.domain.families.for_each(coupled[i][n], take);
+    }
+    pairs += coupled[i].size();
+    if (pairs > most_coupled) return {};
+  }
+  return coupled;
+}
+
+// Entries at the places of a matrix of points, without values.
+Sparse pattern_of(const std::vector<std::vector<int>>& coupled) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < coupled.size(); ++i) {
+    for (const int j : coupled[i]) entries.emplace_back(static_cast<int>(i), j, 1);
+  }
+  Sparse pattern(static_cast<int>(coupled.size()), static_cast<int>(coupled.size()));
+  pattern.setFromTriplets(entries.begin(), entries.end());
+  return pattern;
+}
+
+}  // namespace
+
+// Point i is number place[i].
+struct TangentFactor::Matrix {
+  Originals originals;
+  std::vector<int> place;
+  std::optional<BlockFactors> factors;
+
+  Matrix(const Sparse& pattern, Originals all) : originals(std::move(all)), place(pattern.rows()) {
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+    Eigen::AMDOrdering<int>()(pattern, order);
+    for (int n = 0; n < pattern.rows(); ++n) place[order.indices()[n]] = n;
+    const Sparse ordered = order.inverse() * pattern * order;
+    factors.emplace(Sparse(ordered.triangularView<Eigen::Lower>()));
+  }
+
+  void add(int i, int j, const Tensor& block) { factors->add(place[i], place[j], block); }
+
+  // The part of a point's stiffness that is this rank's, along what is free.
+  void add(const PointStiffness& stiffness, const Constraints& held) {
+    for (std::size_t a = 0; a < stiffness.points.size(); ++a) {
+      for (std::size_t b = 0; b < stiffness.points.size(); ++b) {
+        const auto [i, of_i] = originals.of(stiffness.points[a]);
+        const auto [j, of_j] = originals.of(stiffness.points[b]);
+        if (i < 0 || j < 0) continue;
+        const Tensor block = of_i.transpose() * stiffness.matrix.block<3, 3>(3 * a, 3 * b) * of_j;
+        add(i, j, held.free_projection(i) * block * held.free_projection(j));
+      }
+    }
+  }
+
+  // What holds point i besides: `extra`, bonds to other ranks, the ground, and along held directions a spring.
+  void add_supports(int i, const Tensor& extra, const Constraints& held, const BlockRows& resembling) {
+    const double spring = resembling.blocks[resembling.start[i]].trace() / 3;
+    const Tensor diagonal = extra + to_ground * spring * Tensor::Identity() + resembling.elsewhere[i];
+    const Tensor& free = held.free_projection(i);
+    add(i, i, free * diagonal * free + spring * (Tensor::Identity() - free));
+  }
+};
+
+TangentFactor::TangentFactor(const Body& body) {
+  if (!have_point_stiffness(body)) return;
+  Originals originals(body);
+  const std::vector<std::vector<int>> coupled = coupled_points(body, originals);
+  if (!coupled.empty()) matrix_ = std::make_unique<Matrix>(pattern_of(coupled), std::move(originals));
+  const double too_many = 2 * most_operations;
+  const double of_a_point = matrix_ ? matrix_->factors->operations() / body.owned() : body.owned() > 0 ? too_many : 0;
+  const double most = body.domain.communicator.max(of_a_point);
+  worthwhile_ = most <= most_operations;
+  products_worth_ = most / operations_of_product;
+  if (!worthwhile_) matrix_ = nullptr;
+}
+
+double TangentFactor::bytes() const { return matrix_ ? matrix_->factors->bytes() : 0; }
+
+TangentFactor::~TangentFactor() = default;
+
+bool TangentFactor::factorize(const Body& body, const std::vector<PointTangent>& tangents, const Constraints& held,
+                              const std::vector<Tensor>& extra, const BlockRows& resembling) {
+  bool found = true;
+  if (matrix_) {
+    matrix_->factors->clear();
+    PointStiffness stiffness;
+    for (const MaterialBlock& block : body.blocks) {
+      for (std::size_t k = 0; k < block.points.size(); ++k) {
+        take_point_stiffness(body, block, static_cast<int>(k), tangents, stiffness);
+        matrix_->add(stiffness, held);
+      }
+    }
+    for (int i = 0; i < body.owned(); ++i) matrix_->add_supports(i, extra[i], held, resembling);
+    found = matrix_->factors->factorize();
+  }
+  return body.domain.communicator.max(found ? 0.0 : 1.0) == 0;
+}
+
+void TangentFactor::solve(const Field& right, Field& x) const {
+  if (!matrix_) return;  // a rank without points
+  Field ordered(right.size());
+  for (std::size_t i = 0; i < right.size(); ++i) ordered[matrix_->place[i]] = right[i];
+  matrix_->factors->solve(ordered);
+  for (std::size_t i = 0; i < right.size(); ++i) x[i] = ordered[matrix_->place[i]];
+}
+
+}  // namespace strut

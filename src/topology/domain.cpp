@@ -1,0 +1,178 @@
+#include "topology/domain.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "topology/neighbors/order.hpp"
+#include "topology/partition.hpp"
+
+namespace strut {
+
+namespace {
+
+// Collective.
+std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::vector<double>& horizons,
+                                          const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> bounds(3 * bonds.size(), none);  // of each block the largest, the smallest, negated; the spacing
+  for (std::size_t i = 0; i < horizons.size(); ++i) {
+    double* of_block = &bounds[3 * cloud.blocks[i]];
+    of_block[0] = std::max(of_block[0], horizons[i]);
+    of_block[1] = std::max(of_block[1], -horizons[i]);
+    of_block[2] = std::max(of_block[2], cloud.spacings[i]);
+  }
+  communicator.max(bounds);
+  std::vector<BlockHorizons> blocks;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const double* of_block = &bounds[3 * b];
+    const bool empty = of_block[0] == none;
+    blocks.push_back({empty ? 0 : -of_block[1], empty ? 0 : of_block[0], empty ? 0 : of_block[2], bonds[b].body});
+  }
+  return blocks;
+}
+
+// Cracks cut all bodies, their images the body that is mirrored. By body.
+std::vector<std::vector<Crack>> with_images(const std::vector<Crack>& cracks, const std::vector<BlockBonds>& bonds,
+                                            const Images& images) {
+  std::vector<std::vector<Crack>> all;
+  for (const BlockBonds& block : bonds) {
+    if (block.body >= static_cast<int>(all.size())) all.resize(block.body + 1, cracks);
+  }
+  for (int body = 0; body < static_cast<int>(all.size()); ++body) {
+    for (const int image : images.of_body(body)) {
+      for (const Crack& crack : cracks) all[body].push_back(image_of(crack, images[image]));
+    }
+  }
+  return all;
+}
+
+// The points of a domain in their order, owned ones and ghosts.
+struct Members {
+  std::vector<int> in_pool, local, bodies;  // local: of the pool's members, −1 of those that are left out
+  std::vector<Site> sites;
+  std::vector<std::int64_t> ghost_ids;
+  std::vector<int> ghost_owners;
+};
+
+Members members_of(const CandidatePool& pool, const Order& order, int owned) {
+  Members members{.in_pool = order.points, .local = std::vector<int>(pool.ids.size(), -1)};
+  members.in_pool.insert(members.in_pool.end(), order.ghosts.begin(), order.ghosts.end());
+  members.sites.reserve(members.in_pool.size());
+  for (const int p : members.in_pool) {
+    members.local[p] = static_cast<int>(members.sites.size());
+    Site& site = members.sites.emplace_back();
+    site.reference << pool.positions[p].array(), pool.volumes[p];
+    site.current << pool.positions[p].array(), pool.deltas[p];
+    members.bodies.push_back(pool.bodies[p]);
+    if (p < owned) continue;
+    members.ghost_ids.push_back(pool.ids[p]);
+    members.ghost_owners.push_back(pool.owners[p - owned]);
+  }
+  return members;
+}
+
+void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& pool, const Members& members, int owned,
+                  Families& families) {
+  if (frames.empty()) return;
+  std::vector<Vector> positions;
+  for (const int p : members.in_pool) positions.push_back(pool.positions[p]);
+  Stencils own = stencils_of(frames, positions, members.bodies, owned);
+  families.lattices = std::move(own.lattices);
+  families.lattice_of = std::move(own.of);
+  families.lattice_of.resize(owned);
+  const auto loses = [](const LatticeFrame& frame) { return frame.loses_bonds; };
+  if (std::none_of(frames.begin(), frames.end(), loses)) return;
+  families.off_stencil.assign(owned, 0);
+  for (int c = 0; c < families.lists.count(); ++c) {
+    const Cluster cluster = families.lists[c];
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      const int i = cluster.points[l];
+      const LatticeFamilies* stencil = families.lattice(i);
+      families.off_stencil[i] = stencil && stencil->family_size(i) > cluster.family_size(l);  // for a crack
+    }
+  }
+}
+
+}  // namespace
+
+Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
+                   const std::vector<Crack>& cracks, std::vector<Mirror> mirrors) {
+  const std::vector<double> own_horizons = horizons_of(cloud, bonds);
+  std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
+  double reach = std::numeric_limits<double>::min();  // where there is no point
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    reach = std::max(reach, blocks[b].largest * (1 + 1e-9));
+    blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();
+  }
+  const int owned = static_cast<int>(cloud.size());
+  std::stable_sort(mirrors.begin(), mirrors.end(), [](const Mirror& a, const Mirror& b) { return a.body < b.body; });
+  const Mirrored all = mirrored(std::move(mirrors), cloud, bonds, reach, communicator);
+  const std::vector<Offered> offers = offered(cloud, bonds, all, reach);
+  const CandidatePool pool = candidates_of(cloud, own_horizons, bonds, offers, reach, communicator);
+  const std::vector<LatticeFrame> found =
+      frames_with_images(lattice_frames(cloud, own_horizons, bonds, communicator), pool, owned, all, communicator);
+  Stencils stencils = stencils_of(found, pool.positions, pool.bodies, owned);
+  const std::vector<LatticeFrame> frames = chosen_frames(found, stencils, pool, owned, communicator);
+  if (frames.size() < found.size()) stencils = stencils_of(frames, pool.positions, pool.bodies, owned);
+  bool any_lists = false;
+  for (std::size_t i = 0; i < stencils.of.size(); ++i) any_lists = any_lists || stencils.is_listed(static_cast<int>(i));
+  const CellGrid grid(any_lists ? pool.positions : std::vector<Vector>(), reach);
+  const LeftOut apart = left_out(cloud, bonds, all, offers, pool, grid, reach, communicator);
+  const std::vector<std::vector<Crack>> all_cracks = with_images(cracks, bonds, all.images);
+  const Search search{grid, apart, all_cracks, reach};
+  const Order order = order_of(stencils, search, pool, cloud.blocks);
+  PointCloud mine = reordered(cloud, order.points);
+  mine.positions = {}, mine.volumes = {};
+  Members members = members_of(pool, order, owned);
+  Families families{.lists = lists_of(stencils, search, pool, cloud.blocks, order, members.local)};
+  add_lattices(frames, pool, members, owned, families);
+  Halo halo(communicator, mine.ids, members.ghost_ids, members.ghost_owners, all.images);
+  const int ghosts = static_cast<int>(order.ghosts.size());
+  return {communicator,
+          std::move(mine),
+          order.interior,
+          owned,
+          ghosts,
+          std::move(members.sites),
+          std::move(blocks),
+          std::move(families),
+          std::move(halo),
+          std::move(members.ghost_ids),
+          parted_by_cracks(search, pool, order.points),
+          all.mirrors};
+}
+
+PointCloud whole_cloud(const Domain& domain) {
+  PointCloud cloud = domain.cloud;
+  for (int i = 0; i < domain.owned; ++i) {
+    cloud.positions.push_back(domain.reference(i));
+    cloud.volumes.push_back(domain.volume(i));
+  }
+  return cloud;
+}
+
+double family_volume(const Domain& domain, int i) {
+  double volume = 0;
+  domain.families.for_each(i, [&](int j) { volume += domain.volume(j); });
+  return volume;
+}
+
+Tensor family_spread(const Domain& domain, int i) {
+  Tensor spread = Tensor::Zero();
+  domain.families.for_each(i, [&](int j) {
+    const Vector xi = domain.reference(j) - domain.reference(i);
+    spread += domain.volume(j) * xi * xi.transpose();
+  });
+  return spread;
+}
+
+const char* degeneracy(std::size_t neighbors, const Tensor& spread) {
+  if (neighbors < 4) return "fewer than four neighbors";
+  const Eigen::SelfAdjointEigenSolver<Tensor> eigen(spread, Eigen::EigenvaluesOnly);
+  // A flat family of a lattice has an exact zero; a strut one spacing wide and two long has about 1e-1.
+  if (eigen.eigenvalues()[0] <= 1e-6 * eigen.eigenvalues()[2]) return "neighbors in one plane";
+  return nullptr;
+}
+
+}  // namespace strut

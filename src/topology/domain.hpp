@@ -1,0 +1,70 @@
+// The points of one rank ready for mechanics: owned points and ghosts, families, halo.
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "base/parallel/communicator.hpp"
+#include "topology/cloud.hpp"
+#include "topology/halo.hpp"
+#include "topology/mirror.hpp"
+#include "topology/neighbors/block_bonds.hpp"
+#include "topology/neighbors/cracks.hpp"
+#include "topology/neighbors/families.hpp"
+#include "topology/site.hpp"
+
+namespace strut {
+
+// What the horizons of a block's points turned out to be, over all ranks.
+struct BlockHorizons {
+  double smallest = 0, largest = 0;  // m; 0 where the block has no points
+  double spacing = 0;                // of the points, the largest, m
+  int body = 0;
+};
+
+// Local indices: [0, interior) owned, all neighbors owned; [interior, owned) owned, with ghosts in the family;
+// [owned, owned + ghosts) owned by other ranks, or images of points by symmetry planes.
+struct Domain {
+  Communicator communicator;
+  PointCloud cloud;  // owned points; their positions and volumes have gone to sites
+  int interior = 0;
+  int owned = 0;
+  int ghosts = 0;
+  std::vector<Site> sites;  // owned points and ghosts; they stand where they were read until a solver moves them
+  std::vector<BlockHorizons> blocks;  // one each
+  Families families;
+  Halo halo;
+  std::vector<std::int64_t> ghost_ids;
+  // Owned points, each with the id of one to which it is not bonded for a crack alone; ascending. No ghost stands for
+  // it.
+  std::vector<std::pair<int, std::int64_t>> parted;
+  // Symmetry planes; the images of points by them are ghosts, with ids by Images::id.
+  std::vector<Mirror> mirrors = {};
+
+  Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
+  Vector current(int i) const { return sites[i].current.head<3>().matrix(); }      // y, m
+  double volume(int i) const { return sites[i].volume(); }                         // m³
+  double horizon(int i) const { return sites[i].horizon(); }                       // δ, m
+  std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
+};
+
+// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud; all may lose bonds where there
+// are cracks. Throws Error where mirrors do not meet at 180°/n.
+Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
+                   const std::vector<Crack>& cracks = {}, std::vector<Mirror> mirrors = {});
+
+// The owned points as they were read.
+PointCloud whole_cloud(const Domain& domain);
+
+// What is wrong with a family, or nullptr: a shape tensor needs at least four neighbors that span space.
+// `spread`: Σ V ξ⊗ξ of the family.
+const char* degeneracy(std::size_t neighbors, const Tensor& spread);
+
+// Σ V over the family of owned point i, m³.
+double family_volume(const Domain& domain, int i);
+
+// Σ V ξ⊗ξ over the same, m⁵.
+Tensor family_spread(const Domain& domain, int i);
+
+}  // namespace strut

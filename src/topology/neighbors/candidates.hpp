@@ -1,0 +1,93 @@
+// The points that may be neighbors of this rank's points: its own, those of other ranks nearby, and images by symmetry
+// planes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "topology/bounding_box.hpp"
+#include "topology/cloud.hpp"
+#include "topology/mirror.hpp"
+#include "topology/nearby_ranks.hpp"
+#include "topology/neighbors/block_bonds.hpp"
+#include "topology/neighbors/cell_grid.hpp"
+
+namespace strut {
+
+// The mirrors, and the images that they make.
+struct Mirrored {
+  std::vector<Mirror> mirrors;
+  std::vector<Eigen::AlignedBox3d> boxes;  // of each mirror: that of its body
+  Images images;
+};
+
+// Collective.
+Mirrored mirrored(std::vector<Mirror> mirrors, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
+                  double reach, const Communicator& communicator);
+
+// A place of a point that the families of other points may need: its own (image 0), or that of an image.
+struct Offered {
+  int point, image;
+  Vector place;
+};
+
+// The places of the points of this rank. `reach`: the largest horizon.
+std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored,
+                             double reach);
+
+// The records of what is offered to this rank, each of its place: what other ranks send, then images of its own points.
+template <class Record>
+std::vector<Record> received(const PointCloud& cloud, std::span<const Vector> places,
+                             const std::vector<Record>& records, const std::vector<char>& is_image, double reach,
+                             const Communicator& communicator) {
+  const Eigen::AlignedBox3d box = box_around(cloud.positions);
+  std::vector<Record> all = from_nearby_ranks<Record>(box, places, records, reach, communicator);
+  if (box.isEmpty()) return all;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    if (is_image[k] && box.squaredExteriorDistance(places[k]) <= reach * reach) all.push_back(records[k]);
+  }
+  return all;
+}
+
+// Owned points first, then candidates.
+struct CandidatePool {
+  std::vector<Vector> positions;
+  std::vector<double> volumes;
+  std::vector<std::int64_t> ids;
+  std::vector<double> horizons;
+  std::vector<int> bodies;
+  std::vector<char> asks;      // for bonds through material, or (2) for those that touch
+  std::vector<double> deltas;  // δ, m: horizons are those of the search
+  std::vector<int> owners;     // the ranks of the candidates
+
+  // A point on a symmetry plane, which has the half of its cell that is there, is where its image is.
+  bool is_own_image(int i, int j, const Vector& xi) const {
+    constexpr double round_off = 1e-8;  // of the horizon
+    return ids[i] != ids[j] && Images::original(ids[i]) == Images::original(ids[j]) &&
+           xi.squaredNorm() < round_off * round_off * horizons[i] * horizons[i];
+  }
+};
+
+// The horizons of the search for each owned point, m.
+std::vector<double> horizons_of(const PointCloud& cloud, const std::vector<BlockBonds>& bonds);
+
+// Collective. This rank's points with these horizons, then points of other ranks and images that lie within `reach` of
+// the box of this rank's points.
+CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons,
+                            const std::vector<BlockBonds>& bonds, const std::vector<Offered>& offers, double reach,
+                            const Communicator& communicator);
+
+// Calls visit(j) for all that is within the horizon of pool member i.
+template <class Visit>
+void for_each_within(const CellGrid& grid, const CandidatePool& pool, int i, double reach, Visit&& visit) {
+  const Vector here = pool.positions[i];
+  grid.visit_near(here, [&](int j, const Vector& there) {
+    const Vector xi = there - here;
+    if (xi.squaredNorm() > reach * reach || j == i || pool.bodies[i] != pool.bodies[j]) return;
+    if (pool.is_own_image(i, j, xi)) return;
+    if (bonded(pool.horizons[i], pool.horizons[j], xi)) visit(j);
+  });
+}
+
+}  // namespace strut

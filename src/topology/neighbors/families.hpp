@@ -1,0 +1,197 @@
+// Who is within the horizon of a point: families as neighbor lists, or as stencils of a lattice.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/math/small_tensors.hpp"
+#include "topology/neighbors/lattice.hpp"
+
+namespace strut {
+
+// SIMD: points that kernels take side by side, one per lane, with one list for all of them: who is in the family of
+// any, and in whose. Points of a cluster lie close together, so that most bonds of most of them share their far ends,
+// each of which is read once.
+struct Cluster {
+  static constexpr int width = small::lane_count;
+
+  std::span<const int> points;  // local indices; `width` at most
+  std::span<const int> near;
+  const std::uint8_t* mask;  // of near: bit l is set if it is in the family of points[l]
+
+  std::size_t family_size(std::size_t l) const {  // of points[l]
+    std::size_t size = 0;
+    for (std::size_t n = 0; n < near.size(); ++n) size += mask[n] >> l & 1;
+    return size;
+  }
+};
+
+class ClusterLists {
+ public:
+  class Builder;
+
+  int count() const { return static_cast<int>(first_.size()) - 1; }
+  Cluster operator[](int b) const {
+    const std::span points(points_.data() + first_[b], points_.data() + first_[b + 1]);
+    return {points, std::span(near_.data() + start_[b], near_.data() + end_[b]), mask_.data() + start_[b]};
+  }
+  std::size_t entries() const { return near_.size(); }
+  double bytes() const {
+    return static_cast<double>(points_.size() * sizeof(int) + near_.size() * (sizeof(int) + sizeof(std::uint8_t)) +
+                               first_.size() * (sizeof(int) + 2 * sizeof(std::size_t)));
+  }
+
+  // Where points are numbered in a row: the cluster of point i.
+  int holding(int i) const {
+    const auto begins_after = [this](int point, int b) { return point < points_[b]; };
+    const auto after = std::upper_bound(first_.begin(), first_.end() - 1, i, begins_after);
+    return static_cast<int>(after - first_.begin()) - 1;
+  }
+  // Calls visit(j) over the family of point i, of the same numbering.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    const Cluster cluster = (*this)[holding(i)];
+    const int lane = i - cluster.points[0];
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      if (cluster.mask[n] >> lane & 1) visit(cluster.near[n]);
+    }
+  }
+
+  // The place of the first point of a cluster among those of all.
+  int first(int b) const { return first_[b]; }
+
+  // Appends some members of a cluster of other lists, a bit each, with their families as they are there.
+  void append(const Cluster& cluster, unsigned members) {
+    for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+      if (members >> l & 1) points_.push_back(cluster.points[l]);
+    }
+    for (std::size_t n = 0; n < cluster.near.size(); ++n) {
+      unsigned mask = 0, bit = 1;
+      for (unsigned left = members; left != 0; left &= left - 1, bit <<= 1) {
+        if (cluster.mask[n] & left & -left) mask |= bit;
+      }
+      if (mask == 0) continue;
+      near_.push_back(cluster.near[n]);
+      mask_.push_back(static_cast<std::uint8_t>(mask));
+    }
+    close();
+  }
+
+  // Takes the members of a cluster whose bits are set out of the families that its n-th neighbor is in.
+  void cut(int b, std::size_t n, std::uint8_t members) { mask_[start_[b] + n] &= static_cast<std::uint8_t>(~members); }
+  // Lets go of the neighbors that are in no family of a cluster any more; the others keep their order.
+  void drop_cut(int b) {
+    std::size_t kept = start_[b];
+    for (std::size_t n = start_[b]; n < end_[b]; ++n) {
+      if (mask_[n] == 0) continue;
+      near_[kept] = near_[n];
+      mask_[kept++] = mask_[n];
+    }
+    end_[b] = kept;
+  }
+
+  // Room for so many entries, or more than there will be: what is not filled takes no memory.
+  void reserve(std::size_t entries) { near_.reserve(entries), mask_.reserve(entries); }
+  // Gives all points and neighbors their numbers in `numbers`.
+  void renumber(const std::vector<int>& numbers) {
+    for (int& i : points_) i = numbers[i];
+    for (int& j : near_) j = numbers[j];
+  }
+
+ private:
+  void close() {  // the last cluster
+    first_.push_back(static_cast<int>(points_.size()));
+    end_.push_back(near_.size());
+    start_.push_back(near_.size());
+  }
+
+  std::vector<int> points_, first_{0};  // of the points of a cluster
+  std::vector<std::size_t> start_{0};   // of the list of a cluster; after the last one, where the next would begin
+  std::vector<std::size_t> end_;        // of it
+  std::vector<int> near_;
+  std::vector<std::uint8_t> mask_;
+};
+
+// Adds one cluster after the other. `members`: how many points there are, neighbors included.
+class ClusterLists::Builder {
+ public:
+  Builder(ClusterLists& clusters, std::size_t members) : lists_(clusters), mask_(members, 0) {}
+
+  // for_each(i, visit): calls visit(j) over the family of i. The list is in the order of key(j).
+  template <class ForEach, class Key>
+  void add(std::span<const int> points, const ForEach& for_each, const Key& key) {
+    near_.clear();
+    for (std::size_t lane = 0; lane < points.size(); ++lane) {
+      for_each(points[lane], [&](int j) {
+        if (mask_[j] == 0) near_.push_back(j);
+        mask_[j] |= 1u << lane;
+      });
+    }
+    std::sort(near_.begin(), near_.end(), [&](int a, int b) { return key(a) < key(b); });
+    lists_.points_.insert(lists_.points_.end(), points.begin(), points.end());
+    for (const int j : near_) {
+      lists_.near_.push_back(j);
+      lists_.mask_.push_back(mask_[j]);
+      mask_[j] = 0;
+    }
+    lists_.close();
+  }
+
+  // The same of any number of points, so many at a time as a cluster holds.
+  template <class ForEach, class Key>
+  void add_all(std::span<const int> points, const ForEach& for_each, const Key& key) {
+    for (std::size_t at = 0; at < points.size(); at += Cluster::width) {
+      add(points.subspan(at, std::min<std::size_t>(Cluster::width, points.size() - at)), for_each, key);
+    }
+  }
+
+ private:
+  ClusterLists& lists_;
+  std::vector<std::uint8_t> mask_;  // of all members; 0 between calls
+  std::vector<int> near_;
+};
+
+// Some points of a block, with lists of their own.
+struct SelectedPoints {
+  std::vector<int> places;  // in the block's points
+  ClusterLists lists;
+};
+
+// Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters,
+// of one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids,
+// so that every sum over a family is the same on any number of ranks. Where a lattice may lose bonds its points are in
+// clusters, too: for those who look at bonds one by one, and as the family of those that have lost any.
+struct Families {
+  ClusterLists lists;
+  std::vector<LatticeFamilies> lattices;
+  std::vector<int> lattice_of;    // of owned points: which of lattices, −1 for lists; empty where there is no lattice
+  std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty where no lattice may lose any
+  // Of owned points: those whose bonds to them have broken, local indices. Empty where no bond may break.
+  std::vector<std::vector<int>> broken;
+
+  bool is_off_stencil(int i) const { return !off_stencil.empty() && off_stencil[i]; }
+  // The stencil that is the family of point i; nullptr where a list is.
+  const LatticeFamilies* lattice(int i) const {
+    return lattice_of.empty() || lattice_of[i] < 0 || is_off_stencil(i) ? nullptr : &lattices[lattice_of[i]];
+  }
+
+  // Calls visit(j) over the family of point i.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    if (const LatticeFamilies* stencil = lattice(i)) return stencil->for_each(i, visit);
+    lists.for_each(i, visit);
+  }
+
+  std::size_t size(int i) const {
+    if (const LatticeFamilies* stencil = lattice(i)) return stencil->family_size(i);
+    std::size_t count = 0;
+    lists.for_each(i, [&count](int) { ++count; });
+    return count;
+  }
+  std::size_t bonds() const;  // of all points, both ends counted
+  double bytes() const;
+};
+
+}  // namespace strut

@@ -1,0 +1,232 @@
+#include "topology/neighbors/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "topology/bounding_box.hpp"
+#include "topology/cloud.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths beside the horizon, as bonded() has it
+
+// The farthest cell along one axis that a family can hold.
+int cells_within(const LatticeFrame& frame, int axis) {
+  return static_cast<int>(std::floor(frame.horizon * (1 + tolerance) / frame.spacing[axis]));
+}
+
+// ---- Is it a lattice? ----------------------------------------------------------------------------------------------
+
+struct BodyPoints {
+  std::vector<Vector> positions;
+  double largest_horizon = 0, smallest_horizon = std::numeric_limits<double>::infinity();
+  bool wants_lists = false, wants_stencil = false, loses_bonds = false;
+};
+
+BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizons, const std::vector<BlockBonds>& bonds,
+                     int body) {
+  BodyPoints points;
+  for (const BlockBonds& block : bonds) {
+    points.wants_lists |= block.body == body && block.families == FamilyKind::lists;
+    points.wants_stencil |= block.body == body && block.families == FamilyKind::stencil;
+    points.loses_bonds |= block.body == body && block.may_lose_bonds;
+  }
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (bonds[cloud.blocks[i]].body != body) continue;
+    points.positions.push_back(cloud.positions[i]);
+    points.largest_horizon = std::max(points.largest_horizon, horizons[i]);
+    points.smallest_horizon = std::min(points.smallest_horizon, horizons[i]);
+  }
+  return points;
+}
+
+// The smallest step between coordinates along an axis that is more than round-off; infinite where all are alike.
+double smallest_step(const std::vector<Vector>& positions, int axis, double horizon) {
+  std::vector<double> x;
+  x.reserve(positions.size());
+  for (const Vector& X : positions) x.push_back(X[axis]);
+  std::sort(x.begin(), x.end());
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < x.size(); ++k) {
+    const double step = x[k] - x[k - 1];
+    if (step > 1e-6 * horizon) smallest = std::min(smallest, step);
+  }
+  return smallest;
+}
+
+// Whether all points are at cells of the frame.
+bool fits(const LatticeFrame& frame, const std::vector<Vector>& positions) {
+  return std::all_of(positions.begin(), positions.end(), [&](const Vector& X) { return frame.has(X); });
+}
+
+// Whether a grid over the body takes less than lists would: 64 bytes a point are 16 neighbors.
+bool is_compact(const LatticeFrame& frame, const Eigen::Array3d& size, double points) {
+  Eigen::Array3d cells = (size + 2 * frame.horizon) / frame.spacing.array() + 1;
+  cells[0] = cells[0] / LatticeFamilies::width + 4;
+  return cells.prod() * sizeof(int) <= 64 * points + (1 << 20);
+}
+
+// Collective.
+std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const Communicator& communicator) {
+  const double largest = communicator.max(points.largest_horizon), smallest = communicator.min(points.smallest_horizon);
+  const auto count = communicator.sum(static_cast<std::int64_t>(points.positions.size()));
+  if (count == 0 || points.wants_lists || !(largest - smallest <= 1e-12 * largest)) return {};
+  LatticeFrame frame{
+      .horizon = largest, .body = body, .wanted = points.wants_stencil, .loses_bonds = points.loses_bonds};
+  Eigen::AlignedBox3d mine;
+  for (const Vector& X : points.positions) mine.extend(X);
+  const Eigen::AlignedBox3d box = common_box(mine, communicator);
+  frame.origin = box.min();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = box.sizes()[axis];
+    const double step = communicator.min(smallest_step(points.positions, axis, largest));
+    const double cells = std::round(size / step);
+    frame.spacing[axis] = cells > 0 ? size / cells : largest;  // the mean step is free of round-off
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cells_within(frame, axis) > LatticeFamilies::width) return {};
+  }
+  if (!is_compact(frame, box.sizes().array(), static_cast<double>(count))) return {};
+  if (communicator.max(fits(frame, points.positions) ? 0.0 : 1.0) > 0) return {};
+  return frame;
+}
+
+}  // namespace
+
+bool LatticeFrame::has(const Vector& X) const {
+  const Eigen::Array3d cell = (X - origin).array() / spacing.array();
+  return ((cell - cell.round()).abs() <= tolerance).all();
+}
+
+void LatticeFrame::make_room() {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int pencils = cells_within(*this, axis) / LatticeFamilies::width + 1;
+    origin[axis] -= pencils * LatticeFamilies::width * spacing[axis];
+  }
+}
+
+Eigen::Array3i LatticeFrame::cell_of(const Vector& X) const {
+  return ((X - origin).array() / spacing.array()).round().cast<int>();
+}
+
+std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vector<double>& horizons,
+                                         const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
+  std::vector<int> bodies;
+  for (const BlockBonds& block : bonds) bodies.push_back(block.body);
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  std::vector<LatticeFrame> frames;
+  for (const int body : bodies) {
+    const auto frame = frame_of(points_of(cloud, horizons, bonds, body), body, communicator);
+    if (frame) frames.push_back(*frame);
+  }
+  return frames;
+}
+
+// ---- Slots ---------------------------------------------------------------------------------------------------------
+
+// The grid: pencils along x, then y, then z; wide enough for a stencil about every slot.
+struct LatticeFamilies::Box {
+  Eigen::Array3i low, shape;  // x in pencils
+
+  int place(const Eigen::Array3i& cell) const {
+    const Eigen::Array3i p = Eigen::Array3i(cell[0] / width, cell[1], cell[2]) - low;
+    return (p[2] * shape[1] + p[1]) * shape[0] + p[0];
+  }
+};
+
+LatticeFamilies::LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions,
+                                 const std::vector<int>& members, int owned)
+    : frame_(frame), cell_(positions.size(), -1) {
+  std::vector<Eigen::Array3i> cells;
+  cells.reserve(members.size());
+  Eigen::Array3i low = Eigen::Array3i::Constant(std::numeric_limits<int>::max() / 2), high = -low;
+  for (const int i : members) {
+    cells.push_back(frame.cell_of(positions[i]));
+    low = low.min(cells.back()), high = high.max(cells.back());
+  }
+  if (members.empty()) low = high = Eigen::Array3i::Zero();
+  const Eigen::Array3i margin(2, cells_within(frame, 1), cells_within(frame, 2));
+  low[0] /= width, high[0] /= width;
+  const Box box{low - margin, high - low + 2 * margin + 1};
+  make_rows(box);
+  make_slots(box, members, cells, owned);
+}
+
+void LatticeFamilies::make_rows(const Box& box) {
+  const Vector& h = frame_.spacing;
+  const int far_y = cells_within(frame_, 1), far_z = cells_within(frame_, 2);
+  rows_across_ = 2 * far_y + 1;
+  for (int z = -far_z; z <= far_z; ++z) {
+    for (int y = -far_y; y <= far_y; ++y) {
+      int reach = -1;
+      while (bonded(frame_.horizon, frame_.horizon, Vector((reach + 1) * h[0], y * h[1], z * h[2]))) ++reach;
+      reach_ = std::max(reach_, reach);
+      if (reach >= 0) rows_.push_back({y, z, reach, (z * box.shape[1] + y) * box.shape[0]});
+    }
+  }
+}
+
+void LatticeFamilies::make_slots(const Box& box, const std::vector<int>& members,
+                                 const std::vector<Eigen::Array3i>& cells, int owned) {
+  grid_.assign(static_cast<std::size_t>(box.shape.cast<double>().prod()), 0);
+  for (const Eigen::Array3i& cell : cells) {
+    const int place = box.place(cell), x = cell[0] % width;
+    grid_[place] = 1;
+    if (x < reach_) grid_[place - 1] = 1;
+    if (x >= width - reach_) grid_[place + 1] = 1;
+  }
+  places_ = {0};
+  shape_ = box.shape;
+  first_plane_ = box.low[2];
+  for (int place = 0; place < static_cast<int>(grid_.size()); ++place) {
+    if (grid_[place] == 0) continue;
+    grid_[place] = slots();
+    places_.push_back(place);
+  }
+  points_.assign(static_cast<std::size_t>(slots()) * width, -1);
+  filled_.assign(slots(), 0);
+  owned_.assign(slots(), 0);
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const int i = members[m], slot = grid_[box.place(cells[m])];
+    cell_[i] = slot * width + cells[m][0] % width;
+    points_[cell_[i]] = i;
+    filled_[slot] |= 1u << cells[m][0] % width;
+    if (i < owned) owned_[slot] = 1;
+  }
+}
+
+bool LatticeFamilies::begins_run(int i) const {
+  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  return lane > 0 ? !has_point(place, lane - 1) : !has_point(place - 1, width - 1);
+}
+
+std::size_t LatticeFamilies::family_size(int i) const {
+  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  std::size_t count = 0;
+  for (const Row& row : rows_) count += std::popcount(neighbors_in(row, &grid_[place + row.offset], lane));
+  return count - 1;  // without the point itself
+}
+
+bool LatticeFamilies::spans_space(int i) const {
+  if (!(frame_.spacing.array() <= frame_.horizon).all()) return false;
+  const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+  const auto beside = [&](int dx, int dy, int dz) {
+    const int x = lane + dx, row = place + (dz * shape_[1] + dy) * shape_[0];
+    return has_point(row + (x + width) / width - 1, (x + width) % width) ? 1 : 0;
+  };
+  const int along_x = beside(-1, 0, 0) + beside(1, 0, 0), along_y = beside(0, -1, 0) + beside(0, 1, 0);
+  const int along_z = beside(0, 0, -1) + beside(0, 0, 1);
+  return along_x > 0 && along_y > 0 && along_z > 0 && along_x + along_y + along_z > 3;
+}
+
+double LatticeFamilies::bytes() const {
+  const std::size_t numbers = grid_.size() + places_.size() + points_.size() + cell_.size();
+  return static_cast<double>(sizeof(int) * numbers + owned_.size() + filled_.size());
+}
+
+}  // namespace strut

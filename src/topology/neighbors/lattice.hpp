@@ -1,0 +1,119 @@
+// Bodies whose points sit on a lattice: who is near whom follows from the places in it, and no bond is written down.
+//
+// The lattice is cut into pencils of eight cells along x. Those that hold points of this rank, owned or ghosts, and the
+// next ones if their row reaches into them, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that
+// is empty. A grid over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z)
+// of cells with |x| ≤ the row's reach.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "base/math/pencil.hpp"
+#include "base/math/tensors.hpp"
+#include "base/parallel/communicator.hpp"
+#include "topology/neighbors/block_bonds.hpp"
+
+namespace strut {
+
+struct PointCloud;
+
+// Where the lattice of a body is, the same on all ranks.
+struct LatticeFrame {
+  Vector origin = Vector::Zero();   // m, the smallest coordinates
+  Vector spacing = Vector::Ones();  // m
+  double horizon = 0;               // m, of all points of the body
+  int body = 0;                     // BlockBonds::body
+  bool wanted = false;              // whether or not lists were faster
+  bool loses_bonds = false;         // there are lists of its points, too
+
+  Eigen::Array3i cell_of(const Vector& X) const;
+  bool has(const Vector& X) const;  // it is at a cell
+  void make_room();                 // for images of points before the origin, within the horizon
+};
+
+// Collective. The bodies that sit on a lattice. Not on one: coordinates off by more than 1e-9 spacings, horizons that
+// differ or reach over more than a pencil, blocks that want lists, and so few points in so large a box that the grid
+// would take more memory than lists.
+std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vector<double>& horizons,
+                                         const std::vector<BlockBonds>& bonds, const Communicator& communicator);
+
+class LatticeFamilies {
+ public:
+  static constexpr int width = pencil_width;  // cells of a pencil
+
+  struct Row {
+    int y, z;    // of the neighbors, in cells from the point
+    int reach;   // their x lies in [−reach, reach]
+    int offset;  // in the grid
+  };
+
+  // The points of one body: `members` are their local indices, owned (below `owned`) and ghosts.
+  LatticeFamilies(const LatticeFrame& frame, const std::vector<Vector>& positions, const std::vector<int>& members,
+                  int owned);
+
+  // Calls visit(j) over the family of point i.
+  template <class Visit>
+  void for_each(int i, Visit&& visit) const {
+    const int place = places_[cell_[i] / width], lane = cell_[i] % width;
+    for (const Row& row : rows_) {
+      const int* slots = &grid_[place + row.offset];
+      for (unsigned near = neighbors_in(row, slots, lane); near != 0; near &= near - 1) {
+        const int x = std::countr_zero(near);  // from the first cell of the pencil before
+        const int j = points_[slots[x / width - 1] * width + x % width];
+        if (j != i) visit(j);
+      }
+    }
+  }
+
+  std::size_t family_size(int i) const;
+  // Whether the family has a point beside i along each axis and another one, so that it spans space.
+  bool spans_space(int i) const;
+
+  const LatticeFrame& frame() const { return frame_; }
+  const std::vector<Row>& rows() const { return rows_; }
+  int reach() const { return reach_; }              // of the longest row
+  int rows_across() const { return rows_across_; }  // the span of its rows along y
+  int cell(int i) const { return cell_[i]; }  // slot · width + place in the pencil; −1 of points of other bodies
+  int point(int slot, int place) const { return points_[slot * width + place]; }  // −1: none
+  int slots() const { return static_cast<int>(places_.size()); }
+  int slot_at(int place) const { return grid_[place]; }  // 0: empty
+  int place(int slot) const { return places_[slot]; }
+  bool is_owned(int slot) const { return owned_[slot] != 0; }  // holds a point of this rank's own
+
+  // A place in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of the
+  // body. Points are farther from its faces than a stencil reaches.
+  const Eigen::Array3i& shape() const { return shape_; }
+  int first_plane() const { return first_plane_; }
+
+  // The cell before it in x is empty: here a run of points begins.
+  bool begins_run(int i) const;
+  double bytes() const;
+
+ private:
+  // The cells of a row within its reach of the one at `lane` that hold points: a bit each, from the first of the pencil
+  // before. `slots`: of the pencil at the row, those beside it before and after.
+  unsigned neighbors_in(const Row& row, const int* slots, int lane) const {
+    const unsigned filled = filled_[slots[-1]] | filled_[slots[0]] << width | filled_[slots[1]] << 2 * width;
+    return filled & ((2u << 2 * row.reach) - 1) << (width + lane - row.reach);
+  }
+  bool has_point(int place, int lane) const { return (filled_[grid_[place]] >> lane & 1) != 0; }
+
+  struct Box;
+  void make_rows(const Box& box);
+  void make_slots(const Box& box, const std::vector<int>& members, const std::vector<Eigen::Array3i>& cells, int owned);
+
+  LatticeFrame frame_;
+  std::vector<Row> rows_;
+  std::vector<int> grid_;             // slots
+  std::vector<int> places_;           // of slots, in the grid
+  std::vector<char> owned_;           // of slots
+  std::vector<int> points_;           // of cells; −1: none
+  std::vector<std::uint8_t> filled_;  // of slots: a bit for each cell with a point
+  std::vector<int> cell_;             // of points
+  Eigen::Array3i shape_;
+  int first_plane_ = 0, reach_ = 0, rows_across_ = 1;
+};
+
+}  // namespace strut

@@ -1,0 +1,39 @@
+// Families that are looked up by a search, for all but stencils of lattices.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "topology/neighbors/cracks.hpp"
+#include "topology/neighbors/left_out.hpp"
+
+namespace strut {
+
+// Where families are looked up that are no stencils.
+struct Search {
+  const CellGrid& grid;
+  const LeftOut& left_out;
+  const std::vector<std::vector<Crack>>& cracks;  // of each body
+  double reach;
+
+  bool is_cut(const CandidatePool& pool, int i, int j) const {
+    const std::vector<Crack>& here = cracks[pool.bodies[i]];
+    return std::any_of(here.begin(), here.end(),
+                       [&](const Crack& crack) { return crosses(crack, pool.positions[i], pool.positions[j]); });
+  }
+};
+
+// Calls visit(j) for the family of owned point i.
+template <class Visit>
+void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, Visit&& visit) {
+  for_each_within(search.grid, pool, i, search.reach, [&](int j) {
+    if (!search.left_out.contains(i, j) && !search.is_cut(pool, i, j)) visit(j);
+  });
+}
+
+// Pairs of an owned point, in the order given, and a point to which it would be bonded but for a crack
+// (Domain::parted).
+std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
+                                                           const std::vector<int>& order);
+
+}  // namespace strut

@@ -1,0 +1,50 @@
+#include "topology/pieces.hpp"
+
+#include <algorithm>
+
+#include "base/union_find.hpp"
+
+namespace strut {
+
+namespace {
+
+UnionFind joined_on_this_rank(const Domain& domain) {
+  UnionFind sets(domain.sites.size());
+  for (int i = 0; i < domain.owned; ++i) {
+    domain.families.for_each(i, [&](int j) { sets.join(i, j); });
+  }
+  return sets;
+}
+
+}  // namespace
+
+// Each rank joins what it sees, and takes the least id that its ghosts have heard of, until nothing changes.
+std::vector<std::int64_t> piece_ids(const Domain& domain) {
+  const int count = static_cast<int>(domain.sites.size());
+  UnionFind sets = joined_on_this_rank(domain);
+  std::vector<std::int64_t> of_point(count), least(count, 0);  // least: of a set, by its first point
+  for (int i = 0; i < count; ++i) of_point[i] = domain.id(i);
+  for (bool changed = true; changed;) {
+    for (int i = 0; i < count; ++i) least[sets.first(i)] = of_point[sets.first(i)];
+    for (int i = 0; i < count; ++i) least[sets.first(i)] = std::min(least[sets.first(i)], of_point[i]);
+    double any = 0;
+    for (int i = 0; i < count; ++i) {
+      any = std::max(any, of_point[i] != least[sets.first(i)] ? 1.0 : 0.0);
+      of_point[i] = least[sets.first(i)];
+    }
+    changed = domain.communicator.max(any) > 0;
+    domain.halo.exchange(of_point);
+  }
+  of_point.resize(domain.owned);
+  return of_point;
+}
+
+// Each is counted by the rank that owns its first point.
+std::int64_t count_pieces(const Domain& domain) {
+  const std::vector<std::int64_t> ids = piece_ids(domain);
+  std::int64_t first = 0;
+  for (int i = 0; i < domain.owned; ++i) first += ids[i] == domain.id(i) ? 1 : 0;
+  return domain.communicator.sum(first);
+}
+
+}  // namespace strut

@@ -1,0 +1,27 @@
+// The points of a node set or block, by its name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "topology/cloud.hpp"
+
+namespace strut {
+
+class PointGroup {
+ public:
+  PointGroup() = default;  // all points
+  // A node set or a block, or `all`. Throws Error where there is neither, or both; `path`: who asks.
+  PointGroup(const PointCloud& cloud, const std::string& name, const std::string& path);
+
+  bool counts(const PointCloud& cloud, int i) const {
+    if (set_ >= 0) return (cloud.sets[i] >> set_ & 1) != 0;
+    return block_ < 0 || cloud.blocks[i] == block_;
+  }
+  std::int64_t points(const PointCloud& cloud) const;  // how many on this rank
+
+ private:
+  int set_ = -1, block_ = -1;  // both -1: all points
+};
+
+}  // namespace strut
