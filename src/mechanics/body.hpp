@@ -18,8 +18,8 @@
 #include "base/math/tensors.hpp"
 #include "base/math/tiles.hpp"
 #include "materials/laws.hpp"
+#include "mechanics/damage_model.hpp"
 #include "mechanics/formulation/formulation.hpp"
-#include "mechanics/fracture/damage_model.hpp"
 #include "mechanics/stabilization/stabilization.hpp"
 #include "topology/domain.hpp"
 #include "topology/site.hpp"
@@ -79,6 +79,10 @@ struct ForceStates {
   std::vector<GradientState> gradients;  // empty where no block has a stabilization by the gradients of both ends
   std::vector<QuadraticState> quadratics;
 
+  // Whether point i, or a ghost, has failed.
+  bool has_failed(std::size_t i) const {
+    return (!tensors.empty() && tensors[i].failed() > 0) || (!quadratics.empty() && quadratics[i].failed > 0);
+  }
   double bytes() const {
     return static_cast<double>(tensors.size() * sizeof(ForceState) + scalars.size() * sizeof(ScalarState) +
                                gradients.size() * sizeof(GradientState) + quadratics.size() * sizeof(QuadraticState));
@@ -299,7 +303,6 @@ struct MaterialBlock {
   }
 };
 
-class Fracture;
 class LatticeSums;
 class QuadraticFits;
 
@@ -340,6 +343,23 @@ struct PointFields {
       At::point, {{.name = "shape_inverse", .unit = "1/m⁵", .meaning = "K⁻¹", .width = 6}});
   FieldRef<Deduplicated<Vector>> first_moment = fields.add<Deduplicated<Vector>>(
       At::point, {{.name = "first_moment", .unit = "m⁴", .meaning = "Σ ω V ξ", .width = 3}});
+  // Where bonds may break (fracture/fracture.hpp).
+  PointField<double> damage = fields.of_points<double>(
+      {.name = "damage",
+       .unit = "1",
+       .meaning = "1 − the volume of the points that are still bonded to it / of all that were",
+       .kept = true,
+       .variable = "Damage"},
+      When::if_used);
+  PointField<double> fracture_energy = fields.of_points<double>(
+      {.name = "fracture_energy", .unit = "J", .meaning = "dissipated by its bonds that broke", .kept = true},
+      When::if_used);
+  PointField<std::uint8_t> released =
+      fields.of_points<std::uint8_t>({.name = "released",
+                                      .unit = "1",
+                                      .meaning = "1: the bonds left to it hold no deformation gradient",
+                                      .kept = true},
+                                     When::if_used);
   // Multi-time-stepping; ghosts, too, and of no point where it is empty: it chooses them anew, and keeps its choice.
   PointField<std::uint8_t> time_levels =
       fields.of_points<std::uint8_t>({.name = "time_levels",
@@ -357,8 +377,6 @@ struct Body : PointFields {
   ForceStates force_states;  // of owned points and ghosts
 
   std::shared_ptr<QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
-
-  std::shared_ptr<Fracture> fracture;  // where bonds may break
 
   // Workspaces of the sums over the families on lattices, as domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
@@ -385,7 +403,24 @@ struct Body : PointFields {
   MaterialPoint law_point(const MaterialBlock& block, std::size_t k, int q) const {
     return block.is_quadratic() ? block.cells[block.place(k, q)] : points[block.points[k]];
   }
+  // Whether bonds of an owned point have broken.
+  bool has_lost_bonds(int i) const { return !domain.families.broken.empty() && !domain.families.broken[i].empty(); }
+  // Whether bonds of a block's points, or of those that it is bonded to, may break; whether any may.
+  bool may_break(std::size_t block) const;
+  bool may_break() const;
   Vector displacement(int i) const { return current(i) - domain.reference(i); }
 };
+
+inline bool Body::may_break(std::size_t block) const {
+  const auto breaks = [&](const MaterialBlock& other) {
+    const std::size_t b = static_cast<std::size_t>(&other - blocks.data());
+    return other.material.damage && domain.blocks[b].body == domain.blocks[block].body;
+  };
+  return std::any_of(blocks.begin(), blocks.end(), breaks);
+}
+inline bool Body::may_break() const {
+  return std::any_of(blocks.begin(), blocks.end(),
+                     [](const MaterialBlock& b) { return b.material.damage.has_value(); });
+}
 
 }  // namespace strut

@@ -1,6 +1,7 @@
 #include "mechanics/energies.hpp"
 
-#include "mechanics/fracture/fracture.hpp"
+#include <numeric>
+
 #include "mechanics/point_energy.hpp"
 #include "topology/parallel_for.hpp"
 
@@ -19,7 +20,7 @@ Energies stored_energies(const Body& body) {
     }
   }
   sum.stabilization = total(0, body.owned(), [&](int i) { return body.stabilization_work(i) * body.domain.volume(i); });
-  if (body.fracture) sum.fracture = body.fracture->energy();
+  sum.fracture = std::accumulate(body.fracture_energy.begin(), body.fracture_energy.end(), 0.0);
   double values[] = {sum.elastic, sum.dissipated, sum.stabilization, sum.fracture, sum.heat};
   body.domain.communicator.sum(values);
   return {values[0], values[1], values[2], values[3], values[4]};

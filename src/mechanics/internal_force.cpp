@@ -1,7 +1,6 @@
 #include "mechanics/internal_force.hpp"
 
 #include "mechanics/force_sum.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/rigid_motion.hpp"
 
 namespace strut {
@@ -14,7 +13,7 @@ StepReport together(const PerThread<StepReport>& reports) {
   return all;
 }
 
-StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
+StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics, BondBreaking* breaking) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
   PerThread<StepReport> reports;  // of strips of a lattice
   const Displacements u{body.domain.sites.data()};
@@ -28,14 +27,13 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
     if (block.is_quadratic()) diagnose_cells(body, block, groups);
     if (!block.is_ordinary()) diagnose_residuals(body, groups);
   };
-  Fracture* fracture = pass.dt > 0 ? body.fracture.get() : nullptr;
   const auto over = [&](Part part) {
-    if (fracture) fracture->break_bonds(body, part, pass.time, pass.dt);
+    if (breaking && pass.dt > 0) breaking->break_bonds(body, part, pass.time, pass.dt);
     const Timed timed(deforming);
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(u, take); },
         advance);
-    if (fracture) fracture->count_dissipation(body, part);
+    if (breaking && pass.dt > 0) breaking->count_dissipation(body, part);
     if (!with_diagnostics) return;
     over_blocks(
         body, Bodies::deforming, part, [&](LatticeSums& sums, const LatticeSums::Take& take) { sums.squares(u, take); },
@@ -49,17 +47,17 @@ StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics) {
     return together(reports);
   }
   behind_exchange_of<reflect_place>(body.domain.halo, body.domain.sites, over);
-  if (body.fracture) body.fracture->finish_step();
+  if (breaking) breaking->finish_step();
   return together(reports);
 }
 
 }  // namespace
 
-StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time) {
-  return advance(body, {.dt = dt, .time = time}, with_diagnostics);
+StepReport advance_stress(Body& body, double dt, bool with_diagnostics, double time, BondBreaking* breaking) {
+  return advance(body, {.dt = dt, .time = time}, with_diagnostics, breaking);
 }
 
-void sum_forces(Body& body, bool with_diagnostics) {
+void sum_forces(Body& body, bool with_diagnostics, BondBreaking* breaking) {
   static Teuchos::Time& stabilizing = phase("Stabilization");
   static Teuchos::Time& summing = phase("Force");
   for (const MaterialBlock& block : body.blocks) {
@@ -79,18 +77,18 @@ void sum_forces(Body& body, bool with_diagnostics) {
   const auto extension_of = [](const auto& family) { return bonds::OfPlaces(family); };
   add_up(body.domain.halo, ForceSum{body, Bodies::deforming, u, extension_of, body.force_states, body.force_density},
          [] { return Timed(summing); });
-  if (body.fracture && !body.force_states.gradients.empty()) body.fracture->count_springs(body);
+  if (breaking && !body.force_states.gradients.empty()) breaking->count_springs(body);
 }
 
-StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics) {
-  const StepReport report = advance_stress(body, dt, with_diagnostics);
-  sum_forces(body, with_diagnostics);
+StepReport advance_stress_and_force(Body& body, double dt, bool with_diagnostics, BondBreaking* breaking) {
+  const StepReport report = advance_stress(body, dt, with_diagnostics, 0, breaking);
+  sum_forces(body, with_diagnostics, breaking);
   return report;
 }
 
-StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics) {
-  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_diagnostics);
-  sum_forces(body, with_diagnostics);
+StepReport advance_by_any_step(Body& body, double dt, bool with_diagnostics, BondBreaking* breaking) {
+  const StepReport report = advance(body, {.dt = dt, .of_any_size = true}, with_diagnostics, breaking);
+  sum_forces(body, with_diagnostics, breaking);
   return report;
 }
 

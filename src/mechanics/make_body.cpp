@@ -6,10 +6,9 @@
 
 #include "materials/state_variables.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
-#include "mechanics/fracture/broken_family.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
+#include "mechanics/shape_tensor.hpp"
 #include "topology/parallel_for.hpp"
 #include "topology/planes_through.hpp"
 
@@ -207,8 +206,6 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   // By what materials there are: a rank without points takes part.
   const auto is_quadratic = [](const BlockMaterial& m) { return m.formulation == Formulation::quadratic; };
   if (std::any_of(materials.begin(), materials.end(), is_quadratic)) body.fits = std::make_shared<QuadraticFits>(body);
-  const auto breaks = [](const BlockMaterial& material) { return material.damage.has_value(); };
-  if (std::any_of(materials.begin(), materials.end(), breaks)) body.fracture = std::make_shared<Fracture>(body);
   return body;
 }
 
@@ -222,7 +219,6 @@ double footprint(const Body& body) {
   }
   for (const auto& sums : body.lattice_sums) bytes += sums->bytes();
   if (body.fits) bytes += body.fits->bytes();
-  if (body.fracture) bytes += body.fracture->bytes();
   return bytes;
 }
 

@@ -4,7 +4,6 @@
 
 #include "base/errors.hpp"
 #include "mechanics/formulation/flow.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/passes.hpp"
 
 namespace strut {
@@ -69,7 +68,6 @@ void serialize(Archive& archive, Body& body) {
   archive.field("position", 3, [&](std::size_t i, int c) -> double& { return body.domain.sites[i].current[c]; });
   body.fields.serialize(archive);
   if (archive.loading()) body.domain.halo.exchange_places(body.domain.sites);
-  if (body.fracture) body.fracture->serialize(archive, body);
   if (archive.loading()) refit_flowed(body);
 }
 

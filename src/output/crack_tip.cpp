@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "mechanics/fracture/fracture.hpp"
 
 namespace strut {
 
 CrackTip::CrackTip(const deck::WatchedCrack& crack, const Body& body) : crack_(crack) {
   const std::string path = "History > Cracks > " + crack.name;
-  if (!body.fracture) throw Error(path + ": no bonds can break here; expected a block with a Damage Model");
+  if (!body.may_break()) throw Error(path + ": no bonds can break here; expected a block with a Damage Model");
   const PointCloud& cloud = body.domain.cloud;
   group_ = PointGroup(cloud, crack.node_set, path + " > Node Set");
   if (body.domain.communicator.sum(group_.points(cloud)) > 0) return;
@@ -20,7 +19,7 @@ CrackTip::CrackTip(const deck::WatchedCrack& crack, const Body& body) : crack_(c
 double CrackTip::local(const Body& body) const {
   double farthest = 0;
   for (int i = 0; i < body.owned(); ++i) {
-    if (!group_.counts(body.domain.cloud, i) || !(body.fracture->damage(body, i) > crack_.damage)) continue;
+    if (!group_.counts(body.domain.cloud, i) || !(body.damage[i] > crack_.damage)) continue;
     farthest = std::max(farthest, crack_.direction.dot(body.domain.reference(i) - crack_.start));
   }
   return farthest;

@@ -9,9 +9,8 @@
 #include <variant>
 
 #include "base/errors.hpp"
+#include "fracture/fragments.hpp"
 #include "materials/state_variables.hpp"
-#include "mechanics/fracture/fracture.hpp"
-#include "mechanics/fracture/fragments.hpp"
 
 namespace strut {
 
@@ -148,8 +147,6 @@ std::vector<Observable> fixed_properties() {
       weighted_volume(),
       observable("Number_Of_Neighbors", "size of the family",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.families.size(i)); }),
-      observable("Damage", "1 − the volume of the points that are still bonded to it / of all that were",
-                 [](const Body& b, int i) { return b.fracture ? b.fracture->damage(b, i) : 0.0; }),
       fragment(),
       observable("Element_Id", "the mesh's own number",
                  [](const Body& b, int i) { return static_cast<double>(b.domain.cloud.element_ids[i]); }),

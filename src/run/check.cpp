@@ -10,7 +10,6 @@
 #include "checkpoint/checkpoint.hpp"
 #include "deck/deck.hpp"
 #include "io/netcdf/trial_read.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "output/variables.hpp"
 #include "run/input.hpp"
 #include "run/report.hpp"
@@ -42,7 +41,7 @@ double measured_step(const deck::Deck& deck, CentralDifference& solver) {
 // Gives points velocities against each other, which strain them by about 1 % a step: metals flow, contact searches.
 // Where bonds may break, so little that none does.
 void shake(Body& body, double dt) {
-  const double part = body.fracture ? 1e-6 : 1e-2;  // of a spacing, in a step
+  const double part = body.may_break() ? 1e-6 : 1e-2;  // of a spacing, in a step
   for (int i = 0; i < body.owned(); ++i) {
     const auto id = static_cast<double>(body.domain.id(i));
     const Vector direction(std::sin(12.9898 * id), std::sin(78.233 * id), std::sin(37.719 * id));
@@ -69,7 +68,7 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
   constexpr double most =
       2;  // times as long, where the step shrinks with the deformation, points touch and are subcycled
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                           deck.solver.initial_time);
+                           deck.solver.initial_time, std::move(scene.fracture));
   const double limit = solver.critical_time_step();
   const double first = measured_step(deck, solver);
   const double moving = std::max(first, measured_moving_step(deck, solver, scene.body));
@@ -91,7 +90,7 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   const auto start = Clock::now();
   Observer observer{[](const std::string&) {}, {}, [&] { return seconds_since(start) > patience; }};
   QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                     deck.solver.initial_time, deck.solver.final_time, observer);
+                     deck.solver.initial_time, deck.solver.final_time, observer, std::move(scene.fracture));
   const double steps = scene.quasi_static->load_steps;
   const bool found = solver.advance();
   const double first = seconds_since(start);
@@ -120,7 +119,7 @@ void check(const std::filesystem::path& deck_file, const Communicator& communica
   check_resumption(deck, checkpoint_exists(deck, communicator), true, problems);
   Scene scene = set_up(deck, checked_mesh(deck, problems, communicator), communicator);
   const OutputVariables variables = output_variables_of(deck, scene.body, scene.contact);
-  const std::string scene_text = describe_scene(scene);
+  const std::string scene_text = describe_scene(scene, advice(deck, scene));
   if (communicator.rank() == 0) std::cout << scene_text << std::flush;
   const std::string text = (scene.quasi_static ? check_equilibria(deck, scene) : check_steps(deck, scene)) +
                            memory_and_frame(scene, variables);

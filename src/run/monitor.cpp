@@ -10,7 +10,6 @@
 #include "conditions/tool_gap.hpp"
 #include "contact/passing.hpp"
 #include "contact/undeclared.hpp"
-#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -309,7 +308,7 @@ void Monitor::check_stretch(double time) {
   double largest = 0;
   int point = -1;
   for (int i = 0; i < body_.owned(); ++i) {
-    const double here = has_lost_bonds(body_, i) ? 0 : body_.points[i].deformation_gradient.norm();
+    const double here = body_.has_lost_bonds(i) ? 0 : body_.points[i].deformation_gradient.norm();
     if (here > largest) largest = here, point = i;
   }
   if (!(body_.domain.communicator.max(largest) > far_stretched)) return;

@@ -35,7 +35,7 @@ void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
   Scene& scene = run.scene.emplace(set_up_again(run.deck, std::move(kept), communicator));
   run.writers.emplace(run.deck, output_variables_of(run.deck, scene.body, scene.contact));
   run.solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                     CentralDifference::ToBeRestored());
+                     CentralDifference::ToBeRestored(), std::move(scene.fracture));
   if (run.writers->history.has_reactions()) {
     run.solver->gather_reactions(static_cast<int>(run.deck.conditions.size()));
   }

@@ -12,8 +12,8 @@
 
 #include "base/parallel/threads.hpp"
 #include "base/timing.hpp"
-#include "mechanics/fracture/fracture.hpp"
-#include "mechanics/fracture/fragments.hpp"
+#include "fracture/fracture.hpp"
+#include "fracture/fragments.hpp"
 #include "mechanics/make_body.hpp"
 
 namespace strut {
@@ -93,7 +93,8 @@ void Progress::finish() {
 double predicted_memory(const Scene& scene) {
   const double solver =
       scene.quasi_static ? QuasiStatic::bytes(scene.body, *scene.quasi_static) : CriticalTimeStep::bytes(scene.body);
-  return scene.body.domain.communicator.sum(footprint(scene.body) + solver);
+  const double fracture = scene.fracture ? scene.fracture->bytes() : 0;
+  return scene.body.domain.communicator.sum(footprint(scene.body) + fracture + solver);
 }
 
 namespace {
@@ -114,7 +115,7 @@ std::string warning_of_cores(const Communicator& ranks) {
 
 }  // namespace
 
-std::string describe_scene(const Scene& scene) {
+std::string describe_scene(const Scene& scene, const Advice& advice) {
   std::ostringstream text;
   const double neighbors = static_cast<double>(scene.bonds) / static_cast<double>(scene.points);
   const double memory = predicted_memory(scene);
@@ -124,7 +125,7 @@ std::string describe_scene(const Scene& scene) {
                     as_size(memory).c_str(), ranks, ranks == 1 ? "" : "s", threads_of_a_rank().c_str());
   text << warning_of_cores(scene.body.domain.communicator);
   text << told(scene.dropped);
-  text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << scene.outline << scene.warnings;
+  text << scene.pieces << " connected piece" << (scene.pieces == 1 ? "; " : "s; ") << advice.outline << advice.warnings;
   return text.str();
 }
 
@@ -202,8 +203,8 @@ std::string searches(const contact::Contact& contact) {
 // Collective. What bonds that broke have left of the bodies.
 std::string fragment_table(const Body& body) {
   constexpr std::size_t most = 10;
-  if (!body.fracture) return "";
-  const std::int64_t broken = body.domain.communicator.sum(body.fracture->broken());
+  if (!body.may_break()) return "";
+  const std::int64_t broken = body.domain.communicator.sum(broken_bonds(body));
   if (broken == 0) return "no bond broke\n";
   const std::vector<Fragment> all = fragments(body);
   std::string text = formatted("%lld bonds broke; %zu fragments:\n%12s %12s %12s   velocity, m/s\n",

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "advice/advice.hpp"
 #include "deck/deck.hpp"
 #include "output/variables.hpp"
 #include "setup/scene.hpp"
@@ -29,7 +30,7 @@ class Progress {
 };
 
 // What was read: points, bonds, memory, blocks.
-std::string describe_scene(const Scene& scene);
+std::string describe_scene(const Scene& scene, const Advice& advice);
 
 // Bytes that points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) take
 // on all ranks; the program itself has some 50 MB a rank, 80 with equilibria.

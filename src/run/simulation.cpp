@@ -164,20 +164,21 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   look_at_checkpoint(deck, start, communicator, problems);
   std::optional<Scene> parts = set_up(deck, checked_mesh(deck, std::move(problems), communicator), communicator);
   Scene& scene = *parts;  // which stays there, also where another takes its place
-  say(communicator, describe_scene(scene));
+  say(communicator, describe_scene(scene, advice(deck, scene)));
   std::optional<OutputWriters> writers;
   writers.emplace(
       deck, output_variables_of(deck, scene.body, scene.contact));  // all names are checked before a file is replaced
   Balance balance(deck);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                       deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end));
+                       deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end),
+                       std::move(scene.fracture));
     return carry_out(deck, scene, *writers, solver, balance, start, began, early_end,
                      [&](const RunServices& services) { return load_through(services, solver); });
   }
   std::optional<CentralDifference> solver;
   solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                 deck.solver.initial_time);
+                 deck.solver.initial_time, std::move(scene.fracture));
   if (writers->history.has_reactions()) solver->gather_reactions(static_cast<int>(deck.conditions.size()));
   const ExplicitRun whole{deck, parts, solver, writers};
   return carry_out(deck, scene, *writers, *solver, balance, start, began, early_end,

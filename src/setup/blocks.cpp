@@ -138,145 +138,26 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
   }
 }
 
-namespace {
-
-// Of ordinary points.
-std::string stiffness_of_thin(Influence influence, double horizon, double thickness) {
-  constexpr double worth_saying = 0.1;
-  const double found = tension_stiffness_found(influence, horizon, thickness);
-  if (std::abs(found - 1) < worth_saying) return "";
+std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken) {
+  constexpr double worth_telling = 0.01;
+  const std::size_t blocks = body.blocks.size();
+  double more = 0;  // kg
+  for (std::size_t of_point = 0; of_point < blocks && !taken.empty(); ++of_point) {
+    for (std::size_t of_element = 0; of_element < blocks; ++of_element) {
+      more += taken[of_point * blocks + of_element] *
+              (body.blocks[of_point].material.density - body.blocks[of_element].material.density);
+    }
+  }
+  double mass = 0;
+  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
+  mass = body.domain.communicator.sum(mass);
+  if (std::abs(more) <= worth_telling * (mass - more)) return "";
   std::ostringstream text;
-  text.precision(2);
-  text << "bars so thick were found " << 100 * std::abs(found - 1) << " % too " << (found > 1 ? "stiff" : "soft")
-       << " in tension by the material model 'Elastic' (along the axes of a lattice); 'Elastic Correspondence' keeps "
-          "Young's modulus";
+  text.precision(4);
+  text << "WARNING: the mass is " << mass << " kg, that of the elements " << mass - more
+       << " kg: a node that blocks of two densities share has the density of the block that stands first in the mesh; "
+          "Points \"Elements\" or a finer mesh keep the mass\n";
   return text.str();
-}
-
-// Of correspondence.
-std::string bending_of_thin(double horizon, double thickness) {
-  constexpr double worth_saying = 0.9;
-  const double kept = bending_stiffness_kept(horizon, thickness);
-  if (kept >= worth_saying) return "";
-  std::ostringstream text;
-  text.precision(2);
-  text << "so thin they keep about " << 100 * kept << " % of their bending stiffness; by Formulation 'Quadratic "
-       << "Correspondence' expect " << expected_error_text(thickness, "");
-  return text.str();
-}
-
-// Of quadratic correspondence.
-std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, bool whole) {
-  constexpr double worth_saying = 0.05;
-  if (!(thickness > 0) || expected_error(thickness).stiffness < worth_saying) return "";
-  const bool flows = std::visit([]<class L>(const L&) { return materials::tells_flow<L>; }, law);
-  return "expect " + expected_error_text(thickness, flows ? "in the plateau" : "", whole) +
-         "; tools/study --converge spacing measures it (docs/resolution.md)";
-}
-
-std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness,
-                         bool whole) {
-  switch (block.material.formulation) {
-    case Formulation::ordinary:
-      return stiffness_of_thin(influence, horizon, thickness);
-    case Formulation::correspondence:
-      return bending_of_thin(horizon, thickness);
-    case Formulation::quadratic:
-      return resolution_of_thin(block.material.law, thickness, whole);
-  }
-  return "";
-}
-
-// Collective. Whether the points of each block are elements of one volume, as voxels are.
-std::vector<bool> of_whole_cells(const Domain& domain) {
-  constexpr double alike = 1e-6;  // volumes of files in single precision
-  const std::size_t blocks = domain.blocks.size();
-  std::vector<double> volumes(2 * blocks, -std::numeric_limits<double>::max());  // the largest; the smallest, negative
-  for (int i = 0; i < domain.owned; ++i) {
-    double *largest = &volumes[domain.cloud.blocks[i]], *least = largest + blocks;
-    *largest = std::max(*largest, domain.volume(i)), *least = std::max(*least, -domain.volume(i));
-  }
-  domain.communicator.max(volumes);
-  std::vector<bool> whole;
-  for (std::size_t b = 0; b < blocks; ++b)
-    whole.push_back(domain.cloud.at == PointsAt::elements && -volumes[blocks + b] > (1 - alike) * volumes[b]);
-  return whole;
-}
-
-}  // namespace
-
-std::string thin_members(const Body& body) {
-  const std::vector<double> all = thicknesses(body.domain);
-  const std::vector<bool> whole = of_whole_cells(body.domain);
-  std::ostringstream text;
-  text.precision(2);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const double spacing = body.domain.blocks[b].spacing;
-    const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
-    const std::string found = told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b]);
-    if (found.empty()) continue;
-    text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
-         << found << "\n";
-  }
-  return text.str();
-}
-
-namespace {
-
-// What fails at once at its yield stress, J/m²: half of what a point of a metal then holds, over the crack's length.
-constexpr auto least_fracture_energy = []<class L>(const L& law) -> double {
-  if constexpr (materials::takes_crack_length<L>) {
-    const auto [bulk, shear] = law.moduli();
-    const double yield = law.flow_stress(law.virgin_state());
-    return 0.5 * law.length * yield * yield * (3 * bulk + shear) / (18 * bulk * shear);
-  } else {
-    return 0;
-  }
-};
-
-}  // namespace
-
-std::string sudden_failure(const Body& body) {
-  std::ostringstream text;
-  text.precision(2);
-  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
-    const MaterialBlock& block = body.blocks[b];
-    if (!block.material.damage || !block.material.damage->ductility || !(body.domain.blocks[b].spacing > 0)) continue;
-    const double given = block.material.damage->ductility->fracture_energy;
-    const double least = std::visit(least_fracture_energy, block.material.law);
-    if (!(given > 0) || given >= least) continue;
-    text << "block '" << block.name << "': points hold more energy when they yield than its Fracture Energy, so they "
-         << "fail at once; expected more than " << least << " J/m², or a smaller spacing\n";
-  }
-  return text.str();
-}
-
-std::string noisy_cracks(const Body& body) {
-  std::string text;
-  for (const MaterialBlock& block : body.blocks) {
-    if (!block.is_quadratic() || !block.material.damage || block.material.damage->ductility) continue;
-    text += "WARNING: block '" + block.name +
-            "' breaks bonds by Formulation 'Quadratic Correspondence': its cracks take 0.6 to 1.6 of their fracture "
-            "energy, and the four law points of a cell, which have no mirror image of their own, decide on the order "
-            "of breaks: expect no symmetric crack. Another Formulation is within 10 %\n";
-  }
-  return text;
-}
-
-// By docs/theory.md, By the energy of a bond: the part of the dilatation that a bond takes with it counts against it
-// where K > 5/3 G, which is looked at bond by bond.
-std::string breaks_under_pressure(const Body& body) {
-  std::string text;
-  for (const MaterialBlock& block : body.blocks) {
-    const auto& damage = block.material.damage;
-    if (!damage || !damage->critical_bond_energy) continue;
-    const auto [bulk, shear] = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
-    if (!(bulk > (5.0 / 3 + 1e-9) * shear)) continue;
-    text += "block '" + block.name +
-            "': bonds break by their energy, and Poisson's ratio is above 0.25: several that break in one step under "
-            "pressure may give some (a thousandth of all was seen); told where Fracture_Energy falls below -1 %\n";
-  }
-  return text;
 }
 
 }  // namespace strut

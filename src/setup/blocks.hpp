@@ -1,6 +1,7 @@
 // Blocks of the mesh and the sections of the deck that name them: materials, bonds, and what of them does not fit.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "deck/deck.hpp"
@@ -28,17 +29,8 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCloud& cloud);
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud);
 
-// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness, of
-// ordinary points are off by a tenth in tension, or by quadratic correspondence may be off by a twentieth.
-std::string thin_members(const Body& body);
-
-// A line for each block whose points fail without softening, as its fracture energy is too small for its spacing.
-std::string sudden_failure(const Body& body);
-
-// A warning for each block whose bonds break by quadratic correspondence.
-std::string noisy_cracks(const Body& body);
-
-// A line for each block whose bonds break by their energy and, several in a step, may give some.
-std::string breaks_under_pressure(const Body& body);
+// Collective. A warning where the mass of points at nodes is not that of the mesh: a node that blocks of two densities
+// share has the density of the first of them. `taken`: PointCloud::taken_volumes.
+std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken);
 
 }  // namespace strut

@@ -206,19 +206,4 @@ Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communica
   return found;
 }
 
-std::string contact_at_mirrors(const deck::Deck& deck, const Domain& domain,
-                               const std::vector<contact::Interaction>& interactions) {
-  std::string text;
-  for (const Mirror& mirror : domain.mirrors) {
-    const auto concerns = [&](const contact::Interaction& one) {
-      return domain.blocks[one.first].body == mirror.body || domain.blocks[one.second].body == mirror.body;
-    };
-    if (std::none_of(interactions.begin(), interactions.end(), concerns)) continue;
-    text += "WARNING: " + path_of(deck, mirror) +
-            ": contact does not see mirror images: bodies that come to the plane from one side go through it, and "
-            "contact within a contact radius of it is that of an edge\n";
-  }
-  return text;
-}
-
 }  // namespace strut

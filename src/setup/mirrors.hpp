@@ -23,8 +23,4 @@ struct Mirrors {
 // no others. Throws Error on all ranks where planes of one body meet at an angle that is not 180°/n.
 Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator);
 
-// What contact of bodies with mirror images lacks: a warning.
-std::string contact_at_mirrors(const deck::Deck& deck, const Domain& domain,
-                               const std::vector<contact::Interaction>& interactions);
-
 }  // namespace strut

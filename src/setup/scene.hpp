@@ -27,14 +27,14 @@ struct Scene {
   Body body;
   Conditions conditions;
   contact::Contact contact;
+  std::optional<Fracture> fracture;  // where bonds may break
   StepControl control;
   std::optional<QuasiStaticControl> quasi_static;  // in its place
   Cuts cuts;                                       // what the partition was made by
   std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
   Dropped dropped;
   std::vector<ToolOfScene> tools = {};  // as tools_of(conditions)
-  std::string outline;                  // box, mass, wave speeds, speeds: what slips of units change
-  std::string warnings;                 // what may be meant otherwise, a line each
+  std::string warnings;                 // what the set-up found that may be meant otherwise, a line each
   double highest_frequency = 0;         // 1/s, that mass scaling leaves to a point; 0: any
 };
 

@@ -11,18 +11,9 @@
 #include "setup/contact.hpp"
 #include "setup/cuts.hpp"
 #include "setup/families.hpp"
-#include "setup/filled_tools.hpp"
 #include "setup/mass_scaling.hpp"
 #include "setup/mesh.hpp"
 #include "setup/mirrors.hpp"
-#include "setup/outline.hpp"
-#include "setup/overlaps.hpp"
-#include "setup/overruled.hpp"
-#include "setup/tool_paths.hpp"
-#include "setup/trajectories.hpp"
-#include "setup/undeclared_contact.hpp"
-#include "setup/unheld_bodies.hpp"
-#include "setup/weak_contact.hpp"
 #include "topology/partition.hpp"
 #include "topology/pieces.hpp"
 
@@ -46,6 +37,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Commu
       make_body(std::move(domain), deck.discretization.influence, materials),
       {},
       {},
+      {},
       {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
       quasi_static_of(deck.solver),
       std::move(cuts),
@@ -54,17 +46,16 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Commu
       0,
       dropped,
       {},
-      {},
       found.warnings};
+  scene.fracture = fracture_of(scene.body);
   add_conditions(deck, scene, communicator);
   return scene;
 }
 
-std::vector<contact::Interaction> add_contact(const deck::Deck& deck, Scene& scene) {
+void add_contact(const deck::Deck& deck, Scene& scene) {
   std::vector<contact::Interaction> interactions = interactions_of(deck, scene.body.domain.cloud);
   set_surface_laws(scene.body, interactions);
   scene.contact = contact::Contact(interactions, scene.body.domain);
-  return interactions;
 }
 
 }  // namespace
@@ -126,34 +117,10 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.points = communicator.sum(static_cast<std::int64_t>(scene.body.owned()));
   scene.bonds = communicator.sum(static_cast<std::int64_t>(scene.body.domain.families.bonds()));
   scene.pieces = count_pieces(scene.body.domain);
-  const std::vector<contact::Interaction> interactions = add_contact(deck, scene);
+  add_contact(deck, scene);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   scene.highest_frequency = scale_masses(deck, scene.body, scene.warnings);
-  const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
-  const std::vector<Trajectory> ways = trajectories(scene, start, duration);
-  scene.outline = outline(scene, ways, start, duration);
-  scene.warnings += improbable_materials(scene.body);
-  scene.warnings += improbable_temperatures(scene.body);
   scene.warnings += mass_of_shared_nodes(scene.body, taken);
-  scene.warnings += improbable_scales(scene, ways, start, duration);
-  scene.warnings += large_elastic_strains(scene, ways, start, duration);
-  scene.warnings += overlaps(scene.body);
-  scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
-  scene.warnings += filled_tools(scene, start);
-  scene.warnings += thin_tools(scene, ways, spacing, start, duration);
-  scene.warnings += apart_tools(scene, start, duration);
-  scene.warnings += meeting_tools(scene, start, duration);
-  scene.warnings += overruled_motions(deck, scene, start, duration);
-  scene.warnings += thin_members(scene.body);
-  scene.warnings += sudden_failure(scene.body);
-  scene.warnings += noisy_cracks(scene.body);
-  scene.warnings += breaks_under_pressure(scene.body);
-  scene.warnings += bonded_contacts(deck, scene.body.domain);
-  scene.warnings += undeclared_contacts(scene, interactions, ways, start, duration);
-  if (scene.quasi_static) {
-    scene.warnings += unheld_bodies(scene, interactions, start, duration / scene.quasi_static->load_steps);
-  }
-  scene.warnings += weak_contacts(deck, scene, interactions, ways, spacing);
   return scene;
 }
 

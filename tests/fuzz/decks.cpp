@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "advice/advice.hpp"
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
 #include "files.hpp"
@@ -84,10 +85,11 @@ std::string with_mesh(const fs::path& folder, const std::string& stem, std::stri
 void set_up_and_step(const fs::path& file, const Communicator& world) {
   const deck::Deck deck = deck::read(file, world);
   Scene scene = set_up(deck, world);
+  advice(deck, scene);
   output_variables_of(deck, scene.body, scene.contact);
   if (scene.quasi_static) return;
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                           deck.solver.initial_time);
+                           deck.solver.initial_time, std::move(scene.fracture));
   for (int step = 0; step < 2 && solver.time() < deck.solver.final_time; ++step) {
     solver.advance_velocity(deck.solver.final_time);
     solver.advance_position(false);

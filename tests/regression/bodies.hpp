@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "advice/advice.hpp"
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "deck/deck.hpp"
@@ -225,13 +226,19 @@ inline Table read_history(const std::filesystem::path& path) {
   return table;
 }
 
+inline Advice told_at_the_start(const deck::Deck& deck, const Communicator& world) {
+  return advice(deck, set_up(deck, world));
+}
+
 // A run in a test's own hands. `look` sees body and ledger at every step, the first and the last included.
 class Simulation {
  public:
   Simulation(const RunFolder& folder, const Parts& parts)
       : deck(deck::read(folder.write("deck.xml", parts.text()), folder.world)),
         scene(set_up(deck, folder.world)),
-        solver(scene.body, scene.conditions, std::move(scene.contact), scene.control, deck.solver.initial_time) {}
+        advice(strut::advice(deck, scene)),
+        solver(scene.body, scene.conditions, std::move(scene.contact), scene.control, deck.solver.initial_time,
+               std::move(scene.fracture)) {}
 
   // The ledger at the final time.
   Ledger go(const std::function<void(const Ledger&)>& look = [](const Ledger&) {}) {
@@ -268,6 +275,7 @@ class Simulation {
 
   deck::Deck deck;
   Scene scene;
+  Advice advice;
   CentralDifference solver;
 };
 

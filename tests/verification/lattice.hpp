@@ -6,7 +6,6 @@
 #include <functional>
 #include <random>
 
-#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/make_body.hpp"
 #include "mechanics/mechanics.hpp"
 #include "topology/partition.hpp"
@@ -64,11 +63,8 @@ inline Body lattice_body(const LatticeSpec& spec, const Communicator& world) {
   return make_body(std::move(domain), spec.influence, {spec.material});
 }
 
-// Puts every owned point at place(X), as if in a step of one second.
+// Puts every owned point at place(X).
 inline void deform(Body& body, const std::function<Vector(const Vector&)>& place) {
-  std::vector<Vector> steps;
-  for (int i = 0; i < body.owned(); ++i) steps.push_back(place(body.domain.reference(i)) - body.current(i));
-  if (body.fracture) body.fracture->start_step(body, steps, 1);
   for (int i = 0; i < body.owned(); ++i) {
     body.domain.sites[i].current.head<3>() = place(body.domain.reference(i)).array();
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "deck/forward.hpp"
-#include "mechanics/fracture/damage_model.hpp"
+#include "mechanics/damage_model.hpp"
 
 namespace strut::deck {
 

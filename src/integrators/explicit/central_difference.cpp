@@ -9,7 +9,6 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "integrators/explicit/pushed_points.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/mirror_forces.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "mechanics/serialize.hpp"
@@ -30,10 +29,11 @@ double linear_viscosity(const Body& body) {
 }  // namespace
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
-                                     ToBeRestored)
+                                     ToBeRestored, std::optional<Fracture> fracture)
     : body_(body),
       conditions_(std::move(conditions)),
       contact_(std::move(contact)),
+      fracture_(std::move(fracture)),
       control_(control),
       length_(control),
       time_(0) {
@@ -42,8 +42,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
 }
 
 CentralDifference::CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
-                                     double initial_time)
-    : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored()) {
+                                     double initial_time, std::optional<Fracture> fracture)
+    : CentralDifference(body, std::move(conditions), std::move(contact), control, ToBeRestored(), std::move(fracture)) {
   time_ = initial_time;
   for (MaterialBlock& block : body_.blocks) block.rest_frequency_bound = largest_frequency_bound(body_, block);
   find_rigid_motion(body_);
@@ -64,7 +64,7 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
 
 void CentralDifference::start(const std::vector<std::uint8_t>& pushed) {
   body_.time_levels->clear();
-  StepReport report = advance_stress(body_, 0, true);
+  StepReport report = advance_stress(body_, 0, true, 0, breaking());
   reassign_levels(report, pushed);
   sum_all_forces(true);
   agree(report);
@@ -92,10 +92,10 @@ void CentralDifference::advance_velocity(double final_time) {
 
 void CentralDifference::advance_position(bool with_diagnostics) {
   update_rigid_motion(body_);
-  if (body_.fracture) body_.fracture->start_step(body_, body_.velocity, dt());
+  if (fracture_) fracture_->start_step(body_, body_.velocity, dt());
   const StepReport between = substeps();
   drift_to_next_time();
-  StepReport report = advance_stress(body_, dt(), with_diagnostics, time_);
+  StepReport report = advance_stress(body_, dt(), with_diagnostics, time_, breaking());
   take_worse(between.failure, report.failure);
   if (length_.levels_due()) reassign_levels(report, pushed_now());
   sum_all_forces(with_diagnostics);
@@ -103,7 +103,7 @@ void CentralDifference::advance_position(bool with_diagnostics) {
 }
 
 void CentralDifference::sum_all_forces(bool with_diagnostics) {
-  sum_forces(body_, with_diagnostics);
+  sum_forces(body_, with_diagnostics, breaking());
   mirror_forces_ = mirror_forces(body_);
   contact_.add_forces(kinematics(), dt(), body_.force_density);
 }
@@ -223,8 +223,8 @@ void CentralDifference::reassign_levels(StepReport& report, const std::vector<st
   length_.begin_levels();
   if (!control_.subcycling || control_.fixed_dt > 0) return;
   const std::vector<std::uint8_t> damped = damped_points(body_, conditions_);
-  report.frequency_bound = multi_stepping_.choose(body_, control_.safety_factor,
-                                                  length_.present(body_.fracture != nullptr), {pushed, damped});
+  report.frequency_bound =
+      multi_stepping_.choose(body_, control_.safety_factor, length_.present(body_.may_break()), {pushed, damped});
   restrict_conditions();
   length_.take_levels(multi_stepping_);
 }
@@ -285,6 +285,7 @@ Ledger CentralDifference::ledger() { return energies_.ledger(body_, conditions_,
 
 void CentralDifference::serialize(Archive& archive) {
   strut::serialize(archive, body_);
+  if (fracture_) fracture_->serialize(archive, body_);
   multi_stepping_.serialize(archive, body_);
   length_.serialize(archive, body_);
   serialize_tools(archive, conditions_, body_.owned());

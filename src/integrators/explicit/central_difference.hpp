@@ -4,6 +4,7 @@
 #include "conditions/conditions.hpp"
 #include "conditions/mid_steps.hpp"
 #include "contact/contact.hpp"
+#include "fracture/fracture.hpp"
 #include "integrators/explicit/energy_account.hpp"
 #include "integrators/explicit/multi_time_stepping.hpp"
 #include "integrators/explicit/reaction_account.hpp"
@@ -16,10 +17,11 @@ class CentralDifference {
  public:
   // Collective. Computes the initial forces and step. Throws Error when the initial state already fails.
   CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
-                    double initial_time);
+                    double initial_time, std::optional<Fracture> fracture = {});
   // One that serialize() is to restore before anything else is asked of it: nothing is computed.
   struct ToBeRestored {};
-  CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control, ToBeRestored);
+  CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control, ToBeRestored,
+                    std::optional<Fracture> fracture = {});
 
   double time() const { return time_; }
   int steps() const { return length_.steps(); }
@@ -67,6 +69,7 @@ class CentralDifference {
 
  private:
   void start(const std::vector<std::uint8_t>& pushed);
+  BondBreaking* breaking() { return fracture_ ? &*fracture_ : nullptr; }
   contact::Kinematics kinematics() const { return {body_.domain, body_.velocity, body_.density}; }
   PointTimeSteps point_steps() const { return {length_.dt(), &multi_stepping_.motion_levels()}; }
   std::vector<std::uint8_t> pushed_now() const;
@@ -92,6 +95,7 @@ class CentralDifference {
   Body& body_;
   Conditions conditions_;
   contact::Contact contact_;
+  std::optional<Fracture> fracture_;
   StepControl control_;
   StepLength length_;
   MultiTimeStepping multi_stepping_;

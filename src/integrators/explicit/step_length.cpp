@@ -36,7 +36,7 @@ double StepLength::wanted(double contact_stiffness) const {
 void StepLength::estimate(Body& body) {
   // The estimate takes the force states for its own; a break in the next step asks what they were.
   std::optional<ForceStates> kept;
-  if (body.fracture) kept = body.force_states;
+  if (body.may_break()) kept = body.force_states;
   critical_at_estimate_ = critical_time_step_.estimate(body);
   if (kept) body.force_states = std::move(*kept);
   bound_at_estimate_ = frequency_bound_;
@@ -62,7 +62,7 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
     // Equal steps to the end: a jump in dt at the last one would cost energy.
-    const double longest = longest_step(contact_stiffness, body.fracture != nullptr, estimated);
+    const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
     dt_ = left / std::ceil(left / longest * (1 - round_off));
     if (levels_anew_) step_of_bound_ = dt_;
     levels_anew_ = false;

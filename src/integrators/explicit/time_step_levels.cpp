@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "mechanics/cost.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "mechanics/frequency_bound.hpp"
 #include "topology/parallel_for.hpp"
 
@@ -108,7 +107,7 @@ double FrequencyHistogram::cost(int c) const {
 // Whether the points of a block may have smaller steps: not in a body with ordinary points, whose forces act once a
 // step.
 bool may_be_subcycled(const Body& body, std::size_t block) {
-  if (body.fracture && body.fracture->may_break(block)) return false;  // bonds break between whole steps
+  if (body.may_break(block)) return false;  // bonds break between whole steps
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (body.domain.blocks[b].body == body.domain.blocks[block].body && body.blocks[b].is_ordinary()) return false;
   }

@@ -49,10 +49,11 @@ double forces_at_rest(Body& body) {
 
 }  // namespace
 
-Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact)
+Equilibrium::Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture)
     : body_(body),
       conditions_(std::move(conditions)),
       contact_(std::move(contact)),
+      fracture_(std::move(fracture)),
       tools_(tools_of(conditions_), body),
       committed_(body) {
   check_equilibria_possible(conditions_);
@@ -85,7 +86,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   static Teuchos::Time& timer = phase("Trials");
   const Timed timed(timer);
   committed_.restore_materials(body_);
-  const StepReport report = advance_by_any_step(body_, dt_, with_diagnostics);
+  const StepReport report = advance(dt_, with_diagnostics);
   failure_ = report.failure;
   residual_ = body_.force_density;
   for (int i = 0; i < body_.owned(); ++i) inner_[i] = body_.domain.volume(i) * residual_[i];
@@ -193,7 +194,7 @@ void Equilibrium::begin_flow_of_cells() {
   committed_.take(body_);
   if (!any) return;
   const std::vector<Vector> kept = body_.force_density;
-  advance_by_any_step(body_, 0, false);
+  advance(0, false);
   for (int i = 0; i < body_.owned(); ++i) {
     outer_before_[i] += inner_[i] - body_.domain.volume(i) * body_.force_density[i];
   }
@@ -210,7 +211,7 @@ std::vector<Tensor> Equilibrium::contact_springs() {
 
 void Equilibrium::go_back() {
   committed_.restore(body_);
-  advance_by_any_step(body_, 0, true);
+  advance(0, true);
   add_contact();  // for its energy
   forces_ = forces_before_;
   outer_ = outer_before_;
@@ -221,6 +222,7 @@ void Equilibrium::go_back() {
 void Equilibrium::serialize(Archive& archive) {
   if (!archive.loading()) committed_.restore(body_);  // to the last bit, after a trial that was broken off
   strut::serialize(archive, body_);
+  if (fracture_) fracture_->serialize(archive, body_);
   const auto serialize_field = [&archive](const std::string& name, Field& field) {
     archive.field(name, 3, [&field](std::size_t i, int c) -> double& { return field[i][c]; });
   };

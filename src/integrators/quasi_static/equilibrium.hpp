@@ -7,6 +7,7 @@
 
 #include "conditions/conditions.hpp"
 #include "contact/contact.hpp"
+#include "fracture/fracture.hpp"
 #include "integrators/quasi_static/constraints.hpp"
 #include "integrators/quasi_static/tool_contact.hpp"
 #include "mechanics/formulation/tangent.hpp"
@@ -25,7 +26,7 @@ struct Imbalance {
 class Equilibrium {
  public:
   // Collective. Computes the forces of the undeformed state. Throws Error for conditions that need inertia.
-  Equilibrium(Body& body, Conditions conditions, contact::Contact contact);
+  Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture = {});
 
   // Collective. A load step from t over dt (s) begins, at the committed places. Throws Error where a condition has no
   // number for it.
@@ -73,6 +74,9 @@ class Equilibrium {
 
  private:
   std::vector<Vector> step_way() const;  // of the owned points in this load step, m
+  StepReport advance(double dt, bool with_diagnostics) {
+    return advance_by_any_step(body_, dt, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
+  }
   void check_values();
   void add_contact();
   Imbalance measure(bool failed);
@@ -81,6 +85,7 @@ class Equilibrium {
   Body& body_;
   Conditions conditions_;
   contact::Contact contact_;
+  std::optional<Fracture> fracture_;  // no bond breaks, but springs go with the stress of points that fail
   ToolContact tools_;
   Committed committed_;
   std::optional<Constraints> constraints_;

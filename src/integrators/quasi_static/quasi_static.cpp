@@ -30,9 +30,9 @@ constexpr double newton_bytes = 17e3;
 }  // namespace
 
 QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
-                         double initial_time, double final_time, Observer observer)
+                         double initial_time, double final_time, Observer observer, std::optional<Fracture> fracture)
     : observer_(std::move(observer)),
-      equilibrium_(body, std::move(conditions), std::move(contact)),
+      equilibrium_(body, std::move(conditions), std::move(contact), std::move(fracture)),
       newton_(equilibrium_, observer_),
       relaxation_(equilibrium_, observer_),
       control_(control),

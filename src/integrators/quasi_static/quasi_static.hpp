@@ -16,7 +16,7 @@ struct QuasiStaticControl {
 class QuasiStatic {
  public:
   QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
-              double initial_time, double final_time, Observer observer);
+              double initial_time, double final_time, Observer observer, std::optional<Fracture> fracture = {});
 
   // Bytes that the search for equilibria takes on this rank.
   static double bytes(const Body& body, const QuasiStaticControl& control);

@@ -3,7 +3,6 @@
 #include "mechanics/formulation/correspondence.hpp"
 
 #include "mechanics/formulation/stress_update.hpp"
-#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -73,7 +72,7 @@ struct Update {
   // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
   void report(const LaneGroup& g, int l, double J, bool carries) const {
     if (std::isnan(J)) return law.failure.report(g.k[l], Failure::Kind::not_finite);
-    if (carries && !has_lost_bonds(body(), g.i[l])) law.failure.report(g.k[l], Failure::Kind::inverted);
+    if (carries && !body().has_lost_bonds(g.i[l])) law.failure.report(g.k[l], Failure::Kind::inverted);
   }
 
   void drop_forces(const LaneGroup& g, int l) const {

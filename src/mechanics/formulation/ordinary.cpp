@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/math/rotation.hpp"
-#include "mechanics/fracture/broken_family.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
 #include "mechanics/point_energy.hpp"
+#include "mechanics/shape_tensor.hpp"
 
 namespace strut {
 
@@ -41,7 +41,7 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
 
 // Of the bonds that are left; zero where they do not span space.
 Symmetric present_shape_inverse(const Body& body, int i) {
-  return has_lost_bonds(body, i) ? inverse_of(shape_tensor(body, i)) : body.shape_inverse[i];
+  return body.has_lost_bonds(i) ? inverse_of(shape_tensor(body, i)) : body.shape_inverse[i];
 }
 
 template <class Weight>

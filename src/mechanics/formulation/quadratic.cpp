@@ -8,7 +8,6 @@
 #include "mechanics/formulation/quadratic_cell.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
 #include "mechanics/formulation/stress_update.hpp"
-#include "mechanics/fracture/broken_family.hpp"
 
 namespace strut {
 
@@ -165,7 +164,7 @@ struct Update {
         fastest = std::max(fastest, bound2[l]);
       } else {
         const bool is_number = !std::isnan(determinant[l]);
-        const bool is_broken = has_lost_bonds(body(), group.i[l]) || !(softest[l] > 0);
+        const bool is_broken = body().has_lost_bonds(group.i[l]) || !(softest[l] > 0);
         if (!is_number) law.failure.report(group.k[l], Failure::Kind::not_finite);
         if (is_number && !is_broken) law.failure.report(group.k[l], Failure::Kind::inverted);
         body().force_states.quadratics[group.i[l]] = {};

@@ -1,6 +1,7 @@
 // Ranks without points take part in everything: all points are on one rank, the others have none.
 #include <gtest/gtest.h>
 
+#include "advice/advice.hpp"
 #include "output/writers.hpp"
 #include "regression/scenes.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 // The scene as it is set up, or with all its points on the last rank.
 Scene scene_of(const deck::Deck& deck, const Communicator& world, bool on_one_rank) {
   Scene scene = set_up(deck, world);
+  advice(deck, scene);
   if (!on_one_rank) return scene;
   const std::vector<int> ranks(scene.body.owned(), world.size() - 1);
   return set_up_again(deck, kept_of(scene, moved(whole_cloud(scene.body.domain), ranks, world)), world);
@@ -45,7 +47,7 @@ Ledger ledger_of(const AnyScene& any, const RunFolder& folder, bool on_one_rank)
   if (any.is_static) {
     const Observer silent{[](const std::string&) {}, {}, [] { return false; }};
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                       deck.solver.initial_time, deck.solver.final_time, silent);
+                       deck.solver.initial_time, deck.solver.final_time, silent, std::move(scene.fracture));
     for (int step = 0; step < 4; ++step) {
       solver.advance();
       write(solver, solver.reactions(static_cast<int>(deck.conditions.size())));
@@ -54,7 +56,7 @@ Ledger ledger_of(const AnyScene& any, const RunFolder& folder, bool on_one_rank)
     return solver.ledger();
   }
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                           deck.solver.initial_time);
+                           deck.solver.initial_time, std::move(scene.fracture));
   solver.gather_reactions(static_cast<int>(deck.conditions.size()));
   for (int step = 0; step < 20; ++step) {
     solver.advance_velocity(deck.solver.final_time);

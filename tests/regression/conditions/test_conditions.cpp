@@ -156,9 +156,9 @@ TEST(Condition, SymmetryPlaneWithinABodyKeepsItsPoints) {
                      plane("low", "Symmetry Plane", "all", "0 0 0", "0 0 2") +
                      plane("slant", "Symmetry Plane", "diagonal", "0 0 0", "1 1 0");
   Simulation run(folder, parts);
-  EXPECT_NE(run.scene.warnings.find("Boundary Conditions > slant: points of the set are up to 0.00283 m away"),
+  EXPECT_NE(run.advice.warnings.find("Boundary Conditions > slant: points of the set are up to 0.00283 m away"),
             std::string::npos);
-  EXPECT_EQ(run.scene.warnings.find("Boundary Conditions > low"), std::string::npos) << "plane strain is meant";
+  EXPECT_EQ(run.advice.warnings.find("Boundary Conditions > low"), std::string::npos) << "plane strain is meant";
   double largest = 0;
   run.go([&](const Ledger&) {
     largest = std::max(largest, worst(run, every, [&](int i) { return run.body().displacement(i)[2]; }));

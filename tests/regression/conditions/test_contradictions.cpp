@@ -32,7 +32,7 @@ Said said_of(Parts parts, Loading loading = Loading::sudden) {
   Said said;
   try {
     const deck::Deck deck = deck::read(folder.write("deck.xml", text_of(parts, loading)), folder.world);
-    said.warnings = set_up(deck, folder.world).warnings;
+    said.warnings = told_at_the_start(deck, folder.world).warnings;
   } catch (const Error& error) {
     said.error = error.what();
   }
@@ -143,7 +143,7 @@ TEST(Contradiction, InADeckOfPeridigmLeavesTheLast) {
                      along("g", "Body Force", "First Node Set", "x", "3e9") + displacement("u", "all", "y", "t") +
                      displacement("v", "First Node Set", "y", "-t");
   Simulation run(folder, parts);
-  expect_said(run.scene.warnings,
+  expect_said(run.advice.warnings,
               {"Boundary Conditions > a: 4 of its points", "are of 'b', too", "Boundary Conditions > f: 4",
                "Boundary Conditions > u: 4"},
               "warnings");

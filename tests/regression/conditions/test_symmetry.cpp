@@ -249,7 +249,7 @@ TEST(Symmetry, IsToldWhereThereIsNone) {
     if (!more.empty()) parts.contact = more;
     Simulation run(folder, parts);
     EXPECT_EQ(run.body().domain.mirrors.empty(), more.empty());
-    return run.scene.warnings;
+    return run.advice.warnings;
   };
   const std::string path = "WARNING: Boundary Conditions > p: ";
   const auto on = [](const std::string& set, const std::string& point) {

@@ -53,7 +53,7 @@ TEST(MassScaling, MakesTheStepAsLongAsWanted) {
     EXPECT_GT(share, 0.1) << formulation;  // less than (4 − 1)/10: points at its surface are slower
     EXPECT_LT(share, 0.5) << formulation;
     EXPECT_LT(end.balance_error, 2e-3) << formulation;  // leap-frog steps: (ω dt)² of the modes that ring
-    EXPECT_NE(run.scene.warnings.find("mass scaling for a step of"), std::string::npos);
+    EXPECT_NE(run.advice.warnings.find("mass scaling for a step of"), std::string::npos);
   }
 }
 
@@ -76,7 +76,7 @@ TEST(MassScaling, AddsNothingToAStepThatIsLongEnough) {
   Simulation usual(folder, bar("", "")), scaled(folder, bar("", wanted(1e-9, "1e-6")));
   EXPECT_EQ(scaled.solver.critical_time_step(), usual.solver.critical_time_step());
   for (int i = 0; i < scaled.body().owned(); ++i) EXPECT_EQ(scaled.body().density[i], 8930);
-  EXPECT_NE(scaled.scene.warnings.find("mass scaling adds nothing"), std::string::npos);
+  EXPECT_NE(scaled.advice.warnings.find("mass scaling adds nothing"), std::string::npos);
 }
 
 TEST(MassScaling, IsRefusedAboveAShare) {

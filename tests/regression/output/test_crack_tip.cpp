@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "mechanics/fracture/fracture.hpp"
 #include "output/crack_tip.hpp"
-#include "verification/lattice.hpp"
+#include "verification/breaking.hpp"
 
 namespace strut {
 namespace {
@@ -24,9 +23,10 @@ Body torn_plate(double x, const Communicator& world) {
   LatticeSpec spec = plate;
   spec.material.damage = DamageModel{Function(1.0)};
   Body body = lattice_body(spec, world);
-  advance_stress(body, 0, false);
-  deform(body, [&](const Vector& X) -> Vector { return X + Vector(0, 0, is_torn(X, x) ? 0.1 : 0); });
-  advance_stress(body, 1e-9, false, 1e-9);
+  Fracture fracture(body);
+  advance_stress(body, 0, false, 0, &fracture);
+  deform(body, fracture, [&](const Vector& X) -> Vector { return X + Vector(0, 0, is_torn(X, x) ? 0.1 : 0); });
+  advance_stress(body, 1e-9, false, 1e-9, &fracture);
   return body;
 }
 

@@ -37,7 +37,7 @@ TEST(Blocks, ThatBreakByStretchHaveStifferSprings) {
 
 std::string warnings_of(const std::string& text) {
   const RunFolder folder;
-  return set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
+  return told_at_the_start(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
 }
 
 TEST(Blocks, WhoseCracksAreNoiseAreToldOf) {
@@ -57,7 +57,7 @@ TEST(Blocks, OfThinMembersAreToldOfTheirResolution) {
     parts.materials = copper(plasticity + key("Formulation", formulation));
     const std::string text =
         changed(parts.text(), "Elastic Plastic", plasticity.empty() ? "Elastic" : "Elastic Plastic");
-    return set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
+    return told_at_the_start(deck::read(folder.write("deck.xml", text), folder.world), folder.world).warnings;
   };
   const std::string plastic = key("Yield Stress", "400e6");
   const std::string flows = told(3, "Quadratic Correspondence", plastic),

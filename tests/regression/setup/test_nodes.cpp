@@ -132,7 +132,7 @@ TEST(Nodes, ThatBlocksOfTwoDensitiesShareAreToldOf) {
       parts.blocks +=
           section(block, key("Block Names", block) + key("Material", material) + key("Horizon Factor", "1.8"));
     }
-    return set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
   };
   EXPECT_EQ(warnings("8930").find("the mass is"), std::string::npos);
   // 16e-9 m³ (4 · 8930 + 2 · 2700) kg/m³, and 8e-9 (8930 − 2700) kg more.

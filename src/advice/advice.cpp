@@ -1,0 +1,67 @@
+#include "advice/advice.hpp"
+
+#include "advice/cracks.hpp"
+#include "advice/declared_contact.hpp"
+#include "advice/filled_tools.hpp"
+#include "advice/outline.hpp"
+#include "advice/overlaps.hpp"
+#include "advice/overruled.hpp"
+#include "advice/resolution.hpp"
+#include "advice/tool_paths.hpp"
+#include "advice/unheld_bodies.hpp"
+#include "advice/weak_contact.hpp"
+#include "setup/blocks.hpp"
+#include "setup/contact.hpp"
+
+namespace strut {
+
+namespace {
+
+// A check returns its warnings, a line each; collective. They are told in this order.
+using Check = std::string (*)(const Situation&);
+constexpr Check checks[] = {
+    improbable_materials,
+    improbable_temperatures,
+    improbable_scales,
+    large_elastic_strains,
+    overlaps,
+    contact_at_mirrors,
+    filled_tools,
+    thin_tools,
+    apart_tools,
+    meeting_tools,
+    overruled_motions,
+    thin_members,
+    sudden_failure,
+    noisy_cracks,
+    breaks_under_pressure,
+    bonded_contacts,
+    undeclared_contacts,
+    unheld_bodies,
+    weak_contacts,
+};
+
+Situation situation_of(const deck::Deck& deck, const Scene& scene) {
+  const PointCloud& cloud = scene.body.domain.cloud;
+  const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
+  Situation situation{deck,
+                      scene,
+                      start,
+                      duration,
+                      interactions_of(deck, cloud),
+                      mean_spacings(cloud, scene.body.domain.communicator),
+                      trajectories(scene, start, duration)};
+  set_surface_laws(scene.body, situation.interactions);
+  return situation;
+}
+
+}  // namespace
+
+Advice advice(const deck::Deck& deck, const Scene& scene) {
+  const Situation situation = situation_of(deck, scene);
+  Advice all{outline(situation), scene.warnings};
+  for (const Check check : checks) all.warnings += check(situation);
+  return all;
+}
+
+}  // namespace strut

@@ -1,0 +1,126 @@
+#include "advice/declared_contact.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "setup/blocks.hpp"
+
+namespace strut {
+
+namespace {
+
+bool may_be_bonded(const BlockHorizons& one, const BlockHorizons& other, double gap) {
+  return one.body == other.body && gap <= 0.5 * (one.largest + other.largest);
+}
+
+bool declared(const std::vector<contact::Interaction>& interactions, int a, int b) {
+  return std::any_of(interactions.begin(), interactions.end(), [&](const contact::Interaction& one) {
+    return std::minmax(one.first, one.second) == std::minmax(a, b);
+  });
+}
+
+}  // namespace
+
+std::string undeclared_contacts(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const Domain& domain = scene.body.domain;
+  std::ostringstream text;
+  for (int a = 0; a < static_cast<int>(trajectories.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(trajectories.size()); ++b) {
+      const double gap = trajectories[a].places.exteriorDistance(trajectories[b].places);
+      if (declared(interactions, a, b) || may_be_bonded(domain.blocks[a], domain.blocks[b], gap)) continue;
+      const auto time = meeting_time(trajectories[a], trajectories[b], duration);
+      if (!time) continue;
+      text << "WARNING: blocks " << domain.cloud.block_names[a] << " and " << domain.cloud.block_names[b]
+           << " meet at about t = " << start + *time
+           << " s and will pass through each other: no contact between them is "
+           << "declared (Contact > Interactions)\n";
+    }
+  }
+  return text.str();
+}
+
+namespace {
+
+// The bonds between two blocks, both ends counted once, and the shortest of them, m.
+struct BondsBetween {
+  double count = 0, shortest = std::numeric_limits<double>::infinity();
+};
+
+BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks, int first, int second) {
+  BondsBetween bonds;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (domain.cloud.blocks[i] != first) continue;
+    domain.families.for_each(i, [&](int j) {
+      if (blocks[j] != second) return;
+      ++bonds.count;
+      bonds.shortest = std::min(bonds.shortest, (domain.reference(j) - domain.reference(i)).norm());
+    });
+  }
+  return {domain.communicator.sum(bonds.count), domain.communicator.min(bonds.shortest)};
+}
+
+// Of owned points and ghosts.
+std::vector<int> blocks_of(const Domain& domain) {
+  std::vector<int> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
+  blocks.resize(domain.owned + domain.ghosts, -1);
+  domain.halo.exchange(blocks);
+  return blocks;
+}
+
+std::string remedy(const deck::Deck& deck, const std::string& first, const std::string& second) {
+  const std::string one = section_of(deck, first)->name, other = section_of(deck, second)->name;
+  if (one == other) return "a section of Blocks for each of them (both are in '" + one + "'), with Separate Body true";
+  return "Blocks > " + one + " > Separate Body true, or Blocks > " + other + " > Separate Body true";
+}
+
+}  // namespace
+
+std::string bonded_contacts(const Situation& situation) {
+  const deck::Deck& deck = situation.deck;
+  const Domain& domain = situation.scene.body.domain;
+  constexpr double gap =
+      1.25;  // spacings: no two layers of one lattice, or of two that fit, are so far from each other
+  if (deck.interactions.empty()) return "";
+  const std::vector<std::string>& names = domain.cloud.block_names;
+  const std::vector<int> blocks = blocks_of(domain);
+  std::ostringstream text;
+  for (int a = 0; a < static_cast<int>(names.size()); ++a) {
+    for (int b = a + 1; b < static_cast<int>(names.size()); ++b) {
+      if (domain.blocks[a].body != domain.blocks[b].body) continue;
+      const auto is_meant = [&](const deck::Interaction& one) {
+        return one.first_block.empty()
+                   ? one.partners != deck::Partners::itself
+                   : std::minmax(one.first_block, one.second_block) == std::minmax(names[a], names[b]);
+      };
+      const auto one = std::find_if(deck.interactions.begin(), deck.interactions.end(), is_meant);
+      if (one == deck.interactions.end()) continue;
+      const auto [bonds, shortest] = bonds_between(domain, blocks, a, b);
+      const bool across_gap = shortest > gap * std::max(domain.blocks[a].spacing, domain.blocks[b].spacing);
+      if (bonds == 0 || (one->first_block.empty() && !across_gap)) continue;
+      text << "WARNING: Contact > Interactions > " << one->name << ": blocks " << names[a] << " and " << names[b]
+           << " are bonded to each other by " << static_cast<std::int64_t>(bonds)
+           << " bonds, between whose ends contact never acts; expected, for bodies that meet, "
+           << remedy(deck, names[a], names[b]) << "\n";
+    }
+  }
+  return text.str();
+}
+
+std::string contact_at_mirrors(const Situation& situation) {
+  const Domain& domain = situation.scene.body.domain;
+  std::string text;
+  for (const Mirror& mirror : domain.mirrors) {
+    const auto concerns = [&](const contact::Interaction& one) {
+      return domain.blocks[one.first].body == mirror.body || domain.blocks[one.second].body == mirror.body;
+    };
+    if (std::none_of(situation.interactions.begin(), situation.interactions.end(), concerns)) continue;
+    text += "WARNING: Boundary Conditions > " + situation.deck.conditions[mirror.number].name +
+            ": contact does not see mirror images: bodies that come to the plane from one side go through it, and "
+            "contact within a contact radius of it is that of an edge\n";
+  }
+  return text;
+}
+
+}  // namespace strut

@@ -1,0 +1,204 @@
+#include "advice/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <type_traits>
+
+#include "topology/bounding_box.hpp"
+
+namespace strut {
+
+namespace {
+
+// From foams of a few kg/m³ to osmium; from soft foams to diamond, 18 km/s.
+constexpr double least_density = 10, most_density = 30e3;         // kg/m³
+constexpr double least_wave_speed = 100, most_wave_speed = 20e3;  // m/s
+// Of the yield stress over Young's modulus: soft pure metals have some 1e-5, whiskers and polymers come near 0.1.
+constexpr double least_yield = 1e-7, most_yield = 0.1;
+// What is smaller has few atoms across; what is larger is no specimen. From `long_for_waves` on a wave should come
+// through it in the run: of lengths in mm that are taken for m it is a thousandth of the way.
+constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
+
+// Of longitudinal waves in the undeformed material, m/s.
+double wave_speed(const BlockMaterial& material) {
+  const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
+  return std::sqrt(modulus / material.density);
+}
+
+// Of the undeformed material over Young's modulus; infinite where it never yields.
+double yield_ratio(const BlockMaterial& material) {
+  return std::visit(
+      []<class L>(const L& law) {
+        const materials::Moduli moduli = law.moduli();
+        const double E = 9 * moduli.bulk * moduli.shear / (3 * moduli.bulk + moduli.shear);
+        return law.flow_stress(materials::virgin_state_of(law)) / E;
+      },
+      material.law);
+}
+
+Eigen::AlignedBox3d box_of(const Body& body) {
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < body.owned(); ++i) box.extend(body.domain.reference(i));
+  return common_box(box, body.domain.communicator);
+}
+
+double mass_of(const Body& body) {
+  double mass = 0;
+  for (int i = 0; i < body.owned(); ++i) mass += body.block_of(i).material.density * body.domain.volume(i);
+  return body.domain.communicator.sum(mass);
+}
+
+// How far apart the velocities of points and tools are, m/s.
+double largest_difference(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const double moment = first_moment * duration;
+  Eigen::AlignedBox3d velocities;
+  for (const Trajectory& one : trajectories) velocities.extend(one.velocities);
+  for (const RigidTool& tool : tools_of(scene.conditions))
+    velocities.extend(Vector((tool.offset(start + moment) - tool.offset(start)) / moment));
+  return velocities.isEmpty() ? 0 : velocities.diagonal().norm();
+}
+
+}  // namespace
+
+std::string outline(const Situation& situation) {
+  const Scene& scene = situation.scene;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const MaterialBlock& block : scene.body.blocks) {
+    least = std::min(least, wave_speed(block.material));
+    most = std::max(most, wave_speed(block.material));
+  }
+  const Vector size = box_of(scene.body).sizes();
+  std::ostringstream text;
+  text.precision(4);
+  text << "between the outermost points " << size[0] << " x " << size[1] << " x " << size[2] << " m, mass "
+       << mass_of(scene.body) << " kg; wave speed " << least;
+  if (most > least) text << " to " << most;
+  text << " m/s";
+  const double difference = largest_difference(situation);
+  if (difference > 0 && !scene.quasi_static)
+    text << ", speeds up to " << difference << " m/s apart, " << difference / least << " of it";
+  return text.str() + "\n";
+}
+
+std::string improbable_materials(const Situation& situation) {
+  std::ostringstream text;
+  text.precision(4);
+  for (const MaterialBlock& block : situation.scene.body.blocks) {
+    const double density = block.material.density, speed = wave_speed(block.material);
+    if (!(density >= least_density && density <= most_density)) {
+      text << "WARNING: block '" << block.name << "' has a density of " << density
+           << " kg/m³; solids have 10 to 30,000: is Density in kg/m³ (2.7 g/cm³ are 2700)?\n";
+    }
+    if (!(speed >= least_wave_speed && speed <= most_wave_speed)) {
+      text << "WARNING: block '" << block.name << "' has a wave speed of " << speed
+           << " m/s; solids have 100 to 20,000: are moduli in Pa (70 GPa are 70e9) and the density in kg/m³?\n";
+    }
+    const double yield = yield_ratio(block.material);
+    if (std::isfinite(yield) && yield > 0 && !(yield >= least_yield && yield <= most_yield)) {
+      text << "WARNING: block '" << block.name << "' yields at " << yield
+           << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
+    }
+  }
+  return text.str();
+}
+
+namespace {
+
+// The part of a law that knows its temperature, or nullptr.
+const materials::ThermalJ2* hot_metal(const materials::AnyLaw& law) {
+  const auto metal_of = []<class L>(const L& one) -> const materials::ThermalJ2* {
+    if constexpr (std::is_same_v<L, materials::ThermalJ2>) return &one;
+    if constexpr (requires { requires std::is_same_v<decltype(one.metal), materials::ThermalJ2>; }) return &one.metal;
+    return nullptr;
+  };
+  return std::visit(metal_of, law);
+}
+
+// Below it a metal does not soften; not finite where no law has such a limit, K.
+double reference_temperature(const materials::ThermalJ2& metal) {
+  const auto* flow = std::get_if<materials::SoftenedFlow>(&metal.flow);
+  const auto* softening = flow ? std::get_if<materials::JohnsonCookSoftening>(&flow->softening) : nullptr;
+  return softening ? softening->reference : -std::numeric_limits<double>::infinity();
+}
+
+double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
+  metal.set_initial_temperature(temperature);
+  return metal.flow_stress(metal.virgin_state());
+}
+
+}  // namespace
+
+std::string improbable_temperatures(const Situation& situation) {
+  constexpr double room = materials::room_temperature;
+  constexpr double cold = 150;            // K: few tests are colder, and what is in °C is below
+  constexpr double below_reference = 25;  // K: room temperatures differ by less
+  constexpr double melted = 1e-3;         // of the flow stress at room temperature
+  std::ostringstream text;
+  text.precision(4);
+  for (const MaterialBlock& block : situation.scene.body.blocks) {
+    const materials::ThermalJ2* metal = hot_metal(block.material.law);
+    if (!metal) continue;
+    const double initial = metal->heating.initial, reference = reference_temperature(*metal);
+    const std::string begins = "WARNING: block '" + block.name + "' has an Initial Temperature of ";
+    if (flow_stress_at(*metal, initial) <= melted * flow_stress_at(*metal, room)) {
+      text << begins << initial << " K, at which its metal is molten: its flow stress is "
+           << flow_stress_at(*metal, initial) << " Pa; is it in K?\n";
+    } else if (initial < cold) {
+      text << begins << initial << " K, which is " << initial - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
+    } else if (initial < reference - below_reference) {
+      text << begins << initial << " K, below the Reference Temperature of " << reference
+           << " K at which its softening begins: its flow stress is that at the reference\n";
+    }
+  }
+  return text.str();
+}
+
+std::string improbable_scales(const Situation& situation) {
+  const Scene& scene = situation.scene;
+  const double duration = situation.duration;
+  const double size = box_of(scene.body).sizes().maxCoeff();
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const MaterialBlock& block : scene.body.blocks) {
+    least = std::min(least, wave_speed(block.material));
+    most = std::max(most, wave_speed(block.material));
+  }
+  std::ostringstream text;
+  text.precision(4);
+  if (!(size >= least_size && size <= most_size)) {
+    text << "WARNING: the bodies are " << size << " m long: are lengths of the mesh in m?\n";
+  } else if (!scene.quasi_static && size > long_for_waves && most * duration < size) {
+    text << "WARNING: the bodies are " << size << " m long, and in the " << duration << " s of the run a wave goes "
+         << most * duration << " m: are lengths of the mesh in m, not in mm?\n";
+  }
+  const double difference = scene.quasi_static ? 0 : largest_difference(situation);
+  if (difference > least) {
+    text << "WARNING: speeds are " << difference << " m/s apart, more than the wave speed of " << least
+         << " m/s: are velocities in m/s, travels in m and times in s?\n";
+  }
+  return text.str();
+}
+
+std::string large_elastic_strains(const Situation& situation) {
+  const Scene& scene = situation.scene;
+  // The strain of an impact, from which steps fall (1.05 times the frequency is borne): a step that falls gives to
+  // what rings (docs/decisions.md, Steps that follow the frequency bound). What flows or is viscous does not ring on.
+  constexpr double large = 0.05;
+  if (scene.quasi_static || scene.control.fixed_dt > 0) return "";
+  const double difference = largest_difference(situation);
+  std::ostringstream text;
+  text.precision(2);
+  for (const MaterialBlock& block : scene.body.blocks) {
+    const double part = difference / wave_speed(block.material);
+    if (!(part > large) || block.is_ordinary() || std::isfinite(yield_ratio(block.material))) continue;
+    if (block.material.viscosity.any()) continue;
+    text << "block '" << block.name << "': elastic, and speeds are " << part << " of its wave speed apart: by strains "
+         << "of that order its energy is off by about as much, as its law is a rate form and steps that fall while it "
+         << "vibrates give it some; told from 1 % on, kept better with Linear Viscosity\n";
+  }
+  return text.str();
+}
+
+}  // namespace strut

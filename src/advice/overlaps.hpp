@@ -1,0 +1,14 @@
+// Material that is where other material is: meshes that overlap.
+#pragma once
+
+#include <string>
+
+#include "advice/situation.hpp"
+
+namespace strut {
+
+// Collective. Warnings: of bonded points around which there is more material than fits, and of blocks of different
+// bodies that lie inside each other. Points at one place are an error before (topology/coincident.hpp).
+std::string overlaps(const Situation& situation);
+
+}  // namespace strut

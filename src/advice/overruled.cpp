@@ -1,0 +1,137 @@
+#include "advice/overruled.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "setup/found_points.hpp"
+#include "topology/point_group.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr int looks = 64;         // at the ways of tools and points
+constexpr double deep = 1e-3;     // spacings: places are known to less
+constexpr double along = 1e-3;    // of a normal's component that a motion holds
+constexpr double opposite = 0.9;  // the same of a symmetry plane, beside which cells are that a tool may push aslant
+
+// A direction in which a condition holds points.
+struct Held {
+  int condition;  // its place in the deck
+  Vector direction;
+  double part;  // of a normal: what is less is not held
+  std::vector<int> points;
+  bool at_faces = false;  // on a symmetry plane, where cells end: their points may be held by mirror images alone
+  Vector plane = Vector::Zero();  // a point on it, m
+};
+
+std::vector<Held> held_directions(const deck::Deck& deck, const PointCloud& cloud) {
+  std::vector<Held> all;
+  for (std::size_t place = 0; place < deck.conditions.size(); ++place) {
+    const deck::Condition& condition = deck.conditions[place];
+    const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
+    const auto* plane = std::get_if<SymmetryPlane>(&condition.kind);
+    if (!motion && !plane) continue;
+    const PointGroup group(cloud, condition.node_set, "Node Set");
+    std::vector<int> points;
+    for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
+      if (group.counts(cloud, i)) points.push_back(i);
+    }
+    const int c = static_cast<int>(place);
+    if (plane) all.push_back({c, plane->normal, opposite, std::move(points), true, plane->point});
+    for (const int axis : motion ? motion->components : std::vector<int>{})
+      all.push_back({c, Vector::Unit(axis), along, points});
+  }
+  return all;
+}
+
+// Where a point, or the face of its cell on a symmetry plane, is before anything moves; the second, where it is that.
+std::pair<Vector, bool> place_of(const Held& held, int i, const Domain& domain) {
+  const Vector X = domain.reference(i);
+  const double off = held.direction.dot(X - held.plane);
+  const bool is_face = held.at_faces && std::abs(off) < domain.cloud.spacings[i];
+  return {is_face ? Vector(X - off * held.direction) : X, is_face};
+}
+
+// How far conditions have moved their points by `time`: velocities are summed up from one call to the next.
+void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
+  conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, PrescribedMotion>) {
+      for (const int i : one.points) {
+        const Vector X = domain.reference(i);
+        const double value = one.value.evaluate(X[0], X[1], X[2], one.is_velocity ? time - 0.5 * step : time);
+        for (const int c : one.components) ways[i][c] = one.is_velocity ? ways[i][c] + step * value : value;
+      }
+    }
+  });
+}
+
+// By tools and conditions, the points that are met, and when first.
+using Meetings = std::map<std::pair<int, int>, std::pair<double, std::set<int>>>;
+
+void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Body& body,
+          const std::vector<Vector>& ways, double time, Meetings& met) {
+  const Vector offset = tool.offset(time);
+  for (const Held& one : held) {
+    for (const int i : one.points) {
+      if (!std::binary_search(tool.points.begin(), tool.points.end(), i)) continue;
+      const auto [X, is_face] = place_of(one, i, body.domain);
+      const Vector place = X + ways[i] - offset;
+      const auto met_by = [&](const auto& shape) {
+        return is_face ? surface(shape, place) : tool.met_by(i, shape, place);
+      };
+      const Surface at = std::visit(met_by, tool.shape);
+      if (!(at.gap < -deep * body.domain.cloud.spacings[i])) continue;
+      if (std::abs(at.normal.dot(one.direction)) < one.part) continue;
+      auto& [first, points] = met.try_emplace({n, one.condition}, time, std::set<int>{}).first->second;
+      points.insert(i);
+    }
+  }
+}
+
+}  // namespace
+
+std::string overruled_motions(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const Body& body = scene.body;
+  const std::vector<RigidTool> tools = tools_of(scene.conditions);
+  const std::vector<Held> held = held_directions(deck, body.domain.cloud);
+  if (tools.empty() || held.empty()) return "";
+  Meetings met;
+  std::vector<Vector> ways(body.owned(), Vector::Zero());
+  for (int k = 1; k <= looks; ++k) {
+    const double time = start + duration * k / looks;
+    move_on(scene.conditions, body.domain, time, duration / looks, ways);
+    for (std::size_t n = 0; n < tools.size(); ++n) {
+      if (!tools[n].free) look(tools[n], static_cast<int>(n), held, body, ways, time, met);
+    }
+  }
+  const int count = static_cast<int>(deck.conditions.size());
+  std::vector<std::vector<int>> lists(tools.size() * count);
+  std::vector<double> firsts(lists.size(), -start - duration);
+  for (auto& [pair, found] : met) {
+    lists[pair.first * count + pair.second].assign(found.second.begin(), found.second.end());
+    firsts[pair.first * count + pair.second] = -found.first;
+  }
+  body.domain.communicator.max(firsts);
+  const std::vector<FoundPoints> found = found_points(body, lists);
+  std::ostringstream text;
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    if (found[n].count == 0) continue;
+    text << "WARNING: the tool '" << scene.tools[n / count].name << "' runs into " << found[n].count << " points that '"
+         << deck.conditions[n % count].name << "' holds along its normal, one of them at " << place_text(found[n].one)
+         << ", by t = " << -firsts[n]
+         << " s: tools have the last word, so that they do not move as prescribed; expected paths that agree, or a "
+            "Node Set of the tool without these points\n";
+  }
+  return text.str();
+}
+
+}  // namespace strut

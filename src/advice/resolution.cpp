@@ -1,0 +1,96 @@
+#include "advice/resolution.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "mechanics/expected_error.hpp"
+#include "mechanics/thin_members.hpp"
+
+namespace strut {
+
+namespace {
+
+// Of ordinary points.
+std::string stiffness_of_thin(Influence influence, double horizon, double thickness) {
+  constexpr double worth_saying = 0.1;
+  const double found = tension_stiffness_found(influence, horizon, thickness);
+  if (std::abs(found - 1) < worth_saying) return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << "bars so thick were found " << 100 * std::abs(found - 1) << " % too " << (found > 1 ? "stiff" : "soft")
+       << " in tension by the material model 'Elastic' (along the axes of a lattice); 'Elastic Correspondence' keeps "
+          "Young's modulus";
+  return text.str();
+}
+
+// Of correspondence.
+std::string bending_of_thin(double horizon, double thickness) {
+  constexpr double worth_saying = 0.9;
+  const double kept = bending_stiffness_kept(horizon, thickness);
+  if (kept >= worth_saying) return "";
+  std::ostringstream text;
+  text.precision(2);
+  text << "so thin they keep about " << 100 * kept << " % of their bending stiffness; by Formulation 'Quadratic "
+       << "Correspondence' expect " << expected_error_text(thickness, "");
+  return text.str();
+}
+
+// Of quadratic correspondence.
+std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, bool whole) {
+  constexpr double worth_saying = 0.05;
+  if (!(thickness > 0) || expected_error(thickness).stiffness < worth_saying) return "";
+  const bool flows = std::visit([]<class L>(const L&) { return materials::tells_flow<L>; }, law);
+  return "expect " + expected_error_text(thickness, flows ? "in the plateau" : "", whole) +
+         "; tools/study --converge spacing measures it (docs/resolution.md)";
+}
+
+std::string told_of_thin(const MaterialBlock& block, Influence influence, double horizon, double thickness,
+                         bool whole) {
+  switch (block.material.formulation) {
+    case Formulation::ordinary:
+      return stiffness_of_thin(influence, horizon, thickness);
+    case Formulation::correspondence:
+      return bending_of_thin(horizon, thickness);
+    case Formulation::quadratic:
+      return resolution_of_thin(block.material.law, thickness, whole);
+  }
+  return "";
+}
+
+// Collective. Whether the points of each block are elements of one volume, as voxels are.
+std::vector<bool> of_whole_cells(const Domain& domain) {
+  constexpr double alike = 1e-6;  // volumes of files in single precision
+  const std::size_t blocks = domain.blocks.size();
+  std::vector<double> volumes(2 * blocks, -std::numeric_limits<double>::max());  // the largest; the smallest, negative
+  for (int i = 0; i < domain.owned; ++i) {
+    double *largest = &volumes[domain.cloud.blocks[i]], *least = largest + blocks;
+    *largest = std::max(*largest, domain.volume(i)), *least = std::max(*least, -domain.volume(i));
+  }
+  domain.communicator.max(volumes);
+  std::vector<bool> whole;
+  for (std::size_t b = 0; b < blocks; ++b)
+    whole.push_back(domain.cloud.at == PointsAt::elements && -volumes[blocks + b] > (1 - alike) * volumes[b]);
+  return whole;
+}
+
+}  // namespace
+
+std::string thin_members(const Situation& situation) {
+  const Body& body = situation.scene.body;
+  const std::vector<double> all = thicknesses(body.domain);
+  const std::vector<bool> whole = of_whole_cells(body.domain);
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const double spacing = body.domain.blocks[b].spacing;
+    const double horizon = spacing > 0 ? body.domain.blocks[b].largest / spacing : 0;
+    const std::string found = told_of_thin(body.blocks[b], body.influence, horizon, all[b], whole[b]);
+    if (found.empty()) continue;
+    text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
+         << found << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace strut

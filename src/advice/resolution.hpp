@@ -1,0 +1,14 @@
+// Members of a few spacings, and the errors to expect of them.
+#pragma once
+
+#include <string>
+
+#include "advice/situation.hpp"
+
+namespace strut {
+
+// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness, of
+// ordinary points are off by a tenth in tension, or by quadratic correspondence may be off by a twentieth.
+std::string thin_members(const Situation& situation);
+
+}  // namespace strut

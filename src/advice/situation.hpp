@@ -1,0 +1,22 @@
+// Inside advice: what its checks look at.
+#pragma once
+
+#include <vector>
+
+#include "advice/trajectories.hpp"
+#include "contact/contact.hpp"
+#include "deck/deck.hpp"
+#include "setup/scene.hpp"
+
+namespace strut {
+
+struct Situation {
+  const deck::Deck& deck;
+  const Scene& scene;
+  double start, duration;                          // of the run, s
+  std::vector<contact::Interaction> interactions;  // as contact has them
+  std::vector<double> spacings;                    // the mean one of each block, m
+  std::vector<Trajectory> trajectories;            // of blocks
+};
+
+}  // namespace strut

@@ -1,0 +1,230 @@
+#include "advice/tool_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "conditions/tool_gap.hpp"
+
+namespace strut {
+
+namespace {
+
+constexpr int looks = 100;  // at the way of a tool
+
+// ---- Tools that are apart
+// --------------------------------------------------------------------------------------------
+
+double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities, double start,
+                    double after) {
+  const Vector offset = tool.offset(start + after);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const int i : tool.points) {
+    const Vector place = body.current(i) + after * velocities[i] - offset;
+    smallest =
+        std::min(smallest, std::visit([&](const auto& shape) { return tool.met_by(i, shape, place).gap; }, tool.shape));
+  }
+  return body.domain.communicator.min(smallest);
+}
+
+// When a tool that is `gap` (m) from all points first touches one, s after the start; not before the end of the run:
+// nothing. Between two looks no gap closes by more than both have gone.
+std::optional<double> first_touch(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities,
+                                  double start, double duration, double gap) {
+  double fastest = 0;
+  for (const int i : tool.points) fastest = std::max(fastest, velocities[i].norm());
+  fastest = body.domain.communicator.max(fastest);
+  for (int k = 1; k <= looks; ++k) {
+    const double before = duration * (k - 1) / looks, now = duration * k / looks;
+    gap -= fastest * (now - before) + (tool.offset(start + now) - tool.offset(start + before)).norm();
+    if (gap > 0) continue;
+    gap = smallest_gap(tool, body, velocities, start, now);
+    if (gap <= 0) return before;
+  }
+  return std::nullopt;
+}
+
+// ---- Thin tools
+// ------------------------------------------------------------------------------------------------------
+
+using Extent = Eigen::AlignedBox3d;
+
+constexpr double least_width = 1.5;  // spacings
+constexpr double as_good_as_none = 1e-6;
+
+// How far a tool goes from where it is at the start.
+Extent ways_of(const RigidTool& tool, double start, double duration) {
+  Extent ways;
+  for (int k = 0; k <= looks; ++k) ways.extend(Vector(tool.offset(start + duration * k / looks) - tool.offset(start)));
+  return ways;
+}
+
+// The same of points, in velocities (m/s) over the run.
+Extent ways_of(const Trajectory& block, double duration) {
+  Extent ways(Vector::Zero());
+  ways.extend(Vector(duration * block.velocities.min()));
+  ways.extend(Vector(duration * block.velocities.max()));
+  return ways;
+}
+
+Extent moved(const Extent& box, const Extent& by) { return {box.min() + by.min(), box.max() + by.max()}; }
+
+struct Meeting {
+  Extent tool, block, ways;  // where both are at the start; how far the tool goes relative to the block
+  double spacing;            // m, of the block
+};
+
+// The axes along which the tool comes to the block: where they are apart and not at rest; else any that one of this is
+// said of.
+std::vector<int> axes_of_approach(const Meeting& meeting) {
+  const double none = as_good_as_none * meeting.spacing;
+  std::vector<int> apart, moving, both;
+  for (int c = 0; c < 3; ++c) {
+    const double gap =
+        std::max(meeting.tool.min()[c] - meeting.block.max()[c], meeting.block.min()[c] - meeting.tool.max()[c]);
+    const bool is_apart = gap >= -none, moves = meeting.ways.sizes()[c] > none;
+    if (is_apart) apart.push_back(c);
+    if (moves) moving.push_back(c);
+    if (is_apart && moves) both.push_back(c);
+  }
+  if (!both.empty()) return both;
+  if (!apart.empty()) return apart;
+  return moving.empty() ? std::vector{0, 1, 2} : moving;
+}
+
+// The axis along which a box is thinner than least_width where it comes to the block, or −1.
+int thin_axis(const Meeting& meeting) {
+  for (const int approach : axes_of_approach(meeting)) {
+    for (int c = 0; c < 3; ++c) {
+      const bool reaches_across =
+          meeting.tool.min()[c] <= meeting.block.min()[c] && meeting.tool.max()[c] >= meeting.block.max()[c];
+      if (c != approach && !reaches_across && meeting.tool.sizes()[c] < least_width * meeting.spacing) return c;
+    }
+  }
+  return -1;
+}
+
+// What is thin of a tool where it meets a block, m; "" where it is thick.
+struct Thin {
+  double width = 0;
+  std::string what;
+};
+
+Thin thin(const HalfSpace&, const RigidTool&, const Trajectory&, double, double, double) { return {}; }
+
+Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, double spacing, double start,
+          double duration) {
+  const Extent tool_ways = ways_of(tool, start, duration), block_ways = ways_of(block, duration);
+  Extent at_start(box.lower, box.upper);
+  at_start.translate(tool.offset(start));
+  Extent swept = moved(block.places, block_ways);
+  swept = {swept.min() - Vector::Constant(spacing), swept.max() + Vector::Constant(spacing)};
+  if (!moved(at_start, tool_ways).intersects(swept)) return {};
+  const Extent relative{tool_ways.min() - block_ways.max(), tool_ways.max() - block_ways.min()};
+  const int axis = thin_axis({at_start, block.places, relative, spacing});
+  if (axis < 0) return {};
+  return {at_start.sizes()[axis], std::string("wide along ") + "xyz"[axis]};
+}
+
+// From its axis, at any of the looks, to the ball around the block.
+Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, double spacing, double start,
+          double duration) {
+  if (2 * roll.radius >= least_width * spacing) return {};
+  const Extent swept = moved(block.places, ways_of(block, duration));
+  const double around = 0.5 * swept.diagonal().norm() + spacing;
+  for (int k = 0; k <= looks; ++k) {
+    const Vector from = swept.center() - tool.offset(start + duration * k / looks);
+    if (surface(roll, from).gap < around) return {2 * roll.radius, "in diameter"};
+  }
+  return {};
+}
+
+bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
+  const bool any =
+      std::any_of(tool.points.begin(), tool.points.end(), [&](int i) { return domain.cloud.blocks[i] == block; });
+  return domain.communicator.max(any ? 1.0 : 0.0) > 0;
+}
+
+}  // namespace
+
+std::string apart_tools(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const Body& body = scene.body;
+  const std::vector<RigidTool> tools = tools_of(scene.conditions);
+  if (tools.empty()) return "";
+  const std::vector<Vector> velocities = predicted_velocities(scene.conditions, start, first_moment * duration, body);
+  double spacing = 0;
+  for (const double h : body.domain.cloud.spacings) spacing = std::max(spacing, h);
+  spacing = body.domain.communicator.max(spacing);
+  std::ostringstream text;
+  text.precision(3);
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    const double gap = smallest_gap(tools[n], body, velocities, start, 0);
+    if (gap <= spacing) continue;
+    const auto touch = first_touch(tools[n], body, velocities, start, duration, gap);
+    text << (touch ? "" : "WARNING: ") << "the tool '" << scene.tools[n].name << "' is " << gap
+         << " m from all points at the start; by its path and the velocities of the start it touches nothing ";
+    if (touch) {
+      text << "before about t = " << start + *touch << " s\n";
+    } else {
+      text << "until the end: only loads and impacts may bring them together; where should it stand, in m?\n";
+    }
+  }
+  return text.str();
+}
+
+std::string meeting_tools(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const Body& body = scene.body;
+  const std::vector<RigidTool> tools = tools_of(scene.conditions);
+  if (std::none_of(tools.begin(), tools.end(), [](const RigidTool& tool) { return tool.free != nullptr; })) return "";
+  const std::vector<Vector> velocities = predicted_velocities(scene.conditions, start, first_moment * duration, body);
+  std::vector<double> stopped;  // s after the start
+  for (const RigidTool& tool : tools) {
+    const double gap = smallest_gap(tool, body, velocities, start, 0);
+    stopped.push_back(gap > 0 ? first_touch(tool, body, velocities, start, duration, gap).value_or(duration) : 0);
+  }
+  std::ostringstream text;
+  text.precision(3);
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    for (std::size_t m = 0; m < n; ++m) {
+      if (!may_meet(tools[m], tools[n]) || gap_between(tools[m], tools[n], start) < 0) continue;
+      const auto met = [&](int k) { return gap_between(tools[m], tools[n], start + duration * k / looks) < 0; };
+      const double until = std::min(stopped[m], stopped[n]);
+      int k = 1;
+      while (k <= looks && duration * k / looks <= until * (1 + as_good_as_none) && !met(k)) ++k;
+      if (k > looks || duration * k / looks > until * (1 + as_good_as_none)) continue;
+      text
+          << "WARNING: the tools '" << scene.tools[m].name << "' and '" << scene.tools[n].name
+          << "' meet by about t = " << start + duration * k / looks
+          << " s, by their paths and the velocities of the start, and pass through each other: tools stop points only; "
+             "expected material between them, or an end before (Final Time)\n";
+    }
+  }
+  return text.str();
+}
+
+std::string thin_tools(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const Domain& domain = scene.body.domain;
+  const std::vector<RigidTool> tools = tools_of(scene.conditions);
+  std::ostringstream text;
+  text.precision(3);
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    for (std::size_t b = 0; b < trajectories.size(); ++b) {
+      if (trajectories[b].places.isEmpty() || !meets_block(tools[n], static_cast<int>(b), domain)) continue;
+      const auto [width, what] = std::visit(
+          [&](const auto& shape) { return thin(shape, tools[n], trajectories[b], spacings[b], start, duration); },
+          tools[n].shape);
+      if (what.empty()) continue;
+      text << "WARNING: the tool '" << scene.tools[n].name << "' is " << width << " m " << what
+           << ", less than 1.5 spacings of block '" << domain.cloud.block_names[b] << "' (" << spacings[b]
+           << " m each), which it can reach: tools stop points only, and this one passes between them; expected "
+           << least_width * spacings[b] << " m or more, or a finer mesh\n";
+    }
+  }
+  return text.str();
+}
+
+}  // namespace strut

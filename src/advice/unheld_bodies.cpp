@@ -1,0 +1,254 @@
+#include "advice/unheld_bodies.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <sstream>
+
+#include "base/parallel/portions.hpp"
+#include "setup/found_points.hpp"
+#include "topology/pieces.hpp"
+
+namespace strut {
+
+namespace {
+
+// A motion of a body as a whole: its velocity at the middle, and its spin times the radius of gyration.
+using RigidMotion = Eigen::Matrix<double, 6, 1>;
+using Holds = Eigen::Matrix<double, 6, 6>;  // Σ of the motions that are held, each times its transpose
+
+// Of the largest eigenvalue of what holds a piece: less is none. Points that hold lie at least a hundredth of the
+// piece's radius apart, or on one line, of which round-off makes 1e-16.
+constexpr double none = 1e-8;
+constexpr double touching = 0.1;       // spacings between a tool and what it holds from the start
+constexpr std::size_t most_lines = 3;  // a scan may have many loose pieces
+
+struct Piece {
+  std::vector<double> of_block;  // how many of its points are of each
+  Vector middle = Vector::Zero();
+  Tensor moments = Tensor::Zero();  // Σ |r|² 1 − r⊗r over its points, m²
+  double radius = 0;                // of gyration, m
+  Holds holds = Holds::Zero();
+
+  double points() const {
+    double sum = 0;
+    for (const double count : of_block) sum += count;
+    return sum;
+  }
+  // Turning about itself, of a row of points or a single one. On one rank: what ranks hold is added up.
+  void hold_what_moves_nothing(bool on_this_rank) {
+    const Eigen::SelfAdjointEigenSolver<Tensor> turning(moments);
+    radius = std::sqrt(std::max(0.5 * moments.trace() / points(), std::numeric_limits<double>::min()));
+    for (int c = 0; c < 3 && on_this_rank; ++c) {
+      const Vector axis = turning.eigenvectors().col(c);
+      if (turning.eigenvalues()[c] <= none * moments.trace())
+        holds.bottomRightCorner<3, 3>() += axis * axis.transpose();
+    }
+  }
+  void hold(const Vector& place, const Vector& direction) {
+    RigidMotion motion;
+    motion << direction, (place - middle).cross(direction) / radius;
+    holds += motion * motion.transpose();
+  }
+  // What goes on as its mirror image behind a plane does not turn out of it.
+  void hold_by_image(const Vector& place, const Vector& normal) {
+    hold(place, normal);
+    holds.bottomRightCorner<3, 3>() += Tensor::Identity() - normal * normal.transpose();
+  }
+};
+
+std::vector<double*> numbers_in(auto& matrix) {
+  std::vector<double*> numbers;
+  for (double& number : matrix.reshaped()) numbers.push_back(&number);
+  return numbers;
+}
+
+// All pieces, on all ranks, and of each owned point which one it is of.
+struct Pieces {
+  std::vector<Piece> all;
+  std::vector<int> of;
+};
+
+void sum(const Communicator& ranks, std::vector<Piece>& pieces, auto&& numbers_of) {
+  std::vector<double> numbers;
+  for (Piece& piece : pieces) {
+    for (double* number : numbers_of(piece)) numbers.push_back(*number);
+  }
+  ranks.sum(numbers);
+  std::size_t n = 0;
+  for (Piece& piece : pieces) {
+    for (double* number : numbers_of(piece)) *number = numbers[n++];
+  }
+}
+
+Pieces pieces_of(const Domain& domain) {
+  const std::vector<std::int64_t> ids = piece_ids(domain);
+  std::vector<std::int64_t> first;
+  for (int i = 0; i < domain.owned; ++i) {
+    if (ids[i] == domain.id(i)) first.push_back(ids[i]);
+  }
+  first = gather(domain.communicator, std::span<const std::int64_t>(first));
+  std::ranges::sort(first);
+  domain.communicator.broadcast(first);
+  Pieces pieces;
+  for (const std::int64_t id : ids) {
+    pieces.of.push_back(static_cast<int>(std::ranges::lower_bound(first, id) - first.begin()));
+  }
+  pieces.all.assign(first.size(), {.of_block = std::vector<double>(domain.blocks.size(), 0)});
+  for (int i = 0; i < domain.owned; ++i) {
+    Piece& piece = pieces.all[pieces.of[i]];
+    ++piece.of_block[domain.cloud.blocks[i]];
+    piece.middle += domain.reference(i);
+  }
+  sum(domain.communicator, pieces.all, [](Piece& piece) {
+    std::vector<double*> numbers = numbers_in(piece.middle);
+    for (double& count : piece.of_block) numbers.push_back(&count);
+    return numbers;
+  });
+  for (Piece& piece : pieces.all) piece.middle /= piece.points();
+  for (int i = 0; i < domain.owned; ++i) {
+    Piece& piece = pieces.all[pieces.of[i]];
+    const Vector r = domain.reference(i) - piece.middle;
+    piece.moments += r.squaredNorm() * Tensor::Identity() - r * r.transpose();
+  }
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return numbers_in(piece.moments); });
+  for (Piece& piece : pieces.all) piece.hold_what_moves_nothing(domain.communicator.rank() == 0);
+  return pieces;
+}
+
+void hold_by_images(const Domain& domain, Pieces& pieces) {
+  for (int i = 0; i < domain.owned; ++i) {
+    for (const Mirror& mirror : domain.mirrors) {
+      if (mirror.body != domain.blocks[domain.cloud.blocks[i]].body) continue;
+      const double distance = std::abs(mirror.distance(domain.reference(i)));
+      if (2 * distance > domain.sites[i].horizon()) continue;
+      pieces.all[pieces.of[i]].hold_by_image(domain.reference(i), mirror.normal);
+    }
+  }
+}
+
+void hold_by_tools(const Scene& scene, double start, Pieces& pieces) {
+  const Domain& domain = scene.body.domain;
+  for (const RigidTool& tool : tools_of(scene.conditions)) {
+    const Vector offset = tool.offset(start);
+    for (const int i : tool.points) {
+      const Vector place = domain.reference(i) - offset;
+      const Surface at = std::visit([&](const auto& shape) { return tool.met_by(i, shape, place); }, tool.shape);
+      if (at.gap < touching * domain.cloud.spacings[i]) {
+        pieces.all[pieces.of[i]].hold(domain.reference(i), at.normal);
+      }
+    }
+  }
+}
+
+void hold(const Scene& scene, double start, double step, Pieces& pieces) {
+  const Domain& domain = scene.body.domain;
+  for (const HeldDirection& one : held_directions(scene.conditions, scene.body, start, step)) {
+    pieces.all[pieces.of[one.point]].hold(domain.reference(one.point), one.direction);
+  }
+  hold_by_images(domain, pieces);
+  hold_by_tools(scene, start, pieces);
+  sum(domain.communicator, pieces.all, [](Piece& piece) { return numbers_in(piece.holds); });
+}
+
+// Of each block, how many pieces have points of it.
+std::vector<int> counts_of_pieces(const std::vector<Piece>& pieces, std::size_t blocks) {
+  std::vector<int> counts(blocks, 0);
+  for (const Piece& piece : pieces) {
+    for (std::size_t b = 0; b < blocks; ++b) counts[b] += piece.of_block[b] > 0;
+  }
+  return counts;
+}
+
+// Whether contact is declared between it and another piece.
+bool may_be_pushed(const Piece& piece, const std::vector<int>& counts,
+                   const std::vector<contact::Interaction>& interactions) {
+  const auto meets = [&](int own, int other) {
+    return piece.of_block[own] > 0 && counts[other] > (piece.of_block[other] > 0 ? 1 : 0);
+  };
+  return std::ranges::any_of(interactions, [&](const contact::Interaction& one) {
+    return meets(one.first, one.second) || meets(one.second, one.first);
+  });
+}
+
+std::string text_of(const Vector& v) {
+  for (int c = 0; c < 3; ++c) {
+    if (std::abs(v[c]) > 1 - 1e-6) return {"xyz"[c]};
+  }
+  std::ostringstream text;
+  text.precision(3);
+  text << "(" << v[0] << ", " << v[1] << ", " << v[2] << ")";
+  return text.str();
+}
+
+// The directions in which it is free to go, of unit length.
+std::vector<Vector> free_directions(const Holds& holds) {
+  const double least = none * std::max(holds.trace(), 1e-300);
+  const Eigen::SelfAdjointEigenSolver<Tensor> along(holds.topLeftCorner<3, 3>());
+  std::vector<Vector> free;
+  for (int c = 0; c < 3; ++c) {
+    if (along.eigenvalues()[c] < least) free.push_back(along.eigenvectors().col(c));
+  }
+  return free;
+}
+
+bool is_free(const Holds& holds) {
+  const double least = none * std::max(holds.trace(), 1e-300);
+  return Eigen::SelfAdjointEigenSolver<Holds>(holds, Eigen::EigenvaluesOnly).eigenvalues()[0] < least;
+}
+
+// "" where it is held.
+std::string freedom(const Holds& holds) {
+  const std::vector<Vector> free = free_directions(holds);
+  if (free.size() == 3) return "it";
+  if (free.size() == 2) return "it but along " + text_of(free[0].cross(free[1]).normalized());
+  if (free.size() == 1) return "it along " + text_of(free[0]);
+  return is_free(holds) ? "it against turning" : "";
+}
+
+std::string name_of(const Piece& piece, const Domain& domain, const std::vector<double>& points_of_blocks) {
+  std::string names;
+  bool all = true;
+  for (std::size_t b = 0; b < piece.of_block.size(); ++b) {
+    if (piece.of_block[b] == 0) continue;
+    names += (names.empty() ? "" : ", ") + domain.cloud.block_names[b];
+    all = all && piece.of_block[b] == points_of_blocks[b];
+  }
+  if (all) return names;
+  return "a piece of " + std::to_string(static_cast<std::int64_t>(piece.points())) + " points of " + names +
+         " around " + place_text(piece.middle);
+}
+
+}  // namespace
+
+std::string unheld_bodies(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  if (interactions.empty() || !scene.quasi_static) return "";
+  const Domain& domain = scene.body.domain;
+  Pieces pieces = pieces_of(domain);
+  hold(scene, start, duration / scene.quasi_static->load_steps, pieces);
+  std::vector<double> points_of_blocks(domain.blocks.size(), 0);
+  for (const Piece& piece : pieces.all) {
+    for (std::size_t b = 0; b < piece.of_block.size(); ++b) points_of_blocks[b] += piece.of_block[b];
+  }
+  const std::vector<int> counts = counts_of_pieces(pieces.all, domain.blocks.size());
+  std::ostringstream text;
+  std::size_t found = 0;
+  for (std::size_t p = 0; p < pieces.all.size(); ++p) {
+    const std::string free = freedom(pieces.all[p].holds);
+    if (free.empty() || !may_be_pushed(pieces.all[p], counts, interactions) || ++found > most_lines) continue;
+    text
+        << "WARNING: " << name_of(pieces.all[p], domain, points_of_blocks) << ": only contact and friction hold "
+        << free << " in these equilibria; where they do not press it from both sides it is pushed along, and rests "
+        << "anywhere short of a force; expected a Prescribed Displacement or a Symmetry Plane that holds it, or Verlet "
+        << "for a body that flies\n";
+  }
+  if (found > most_lines) {
+    text << "WARNING: only contact and friction hold " << found - most_lines << " more pieces in these equilibria\n";
+  }
+  return text.str();
+}
+
+}  // namespace strut

@@ -1,0 +1,237 @@
+#include "advice/weak_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "deck/problems.hpp"
+
+namespace strut {
+
+namespace {
+
+// A point that meets a face of a square lattice of points is at most so far, in spacings, from the nearest of them.
+constexpr double widest_gap = 1 / std::numbers::sqrt2;
+
+// A block as contact sees it.
+struct Side {
+  std::string name;
+  double spacing = 0, horizon = 0;  // m, the means
+  double modulus = 0;               // of longitudinal waves, Pa
+  double impedance = 0;             // of these, kg/(m² s)
+  double points = 0, mass = 0;      // over all ranks; kg
+  double yields = 0;                // Pa, the flow stress at the start; infinite where it never yields
+
+  double face() const { return spacing * spacing; }              // m², of a point
+  double volume() const { return spacing * spacing * spacing; }  // m³
+};
+
+double flow_stress(const BlockMaterial& material) {
+  return std::visit([](const auto& law) { return law.flow_stress(materials::virgin_state_of(law)); }, material.law);
+}
+
+std::vector<Side> sides_of(const Body& body, const std::vector<double>& spacings) {
+  std::vector<double> sums(2 * body.blocks.size(), 0);
+  for (int i = 0; i < body.owned(); ++i) {
+    const int block = body.domain.cloud.blocks[i];
+    ++sums[2 * block];
+    sums[2 * block + 1] += body.mass(i);
+  }
+  body.domain.communicator.sum(sums);
+  std::vector<Side> sides;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const BlockMaterial& material = body.blocks[b].material;
+    const BlockHorizons& horizons = body.domain.blocks[b];
+    const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
+    sides.push_back({body.domain.cloud.block_names[b], spacings[b], 0.5 * (horizons.smallest + horizons.largest),
+                     modulus, std::sqrt(modulus * material.density), sums[2 * b], sums[2 * b + 1],
+                     flow_stress(material)});
+  }
+  return sides;
+}
+
+// What contact bears before points have passed each other.
+struct Strength {
+  double pressure = 0;  // Pa, of two faces
+  double energy = 0;    // J, if all points press on all that they can reach
+};
+
+// A point of each, of two bodies, far from each other at the start.
+contact::PointPair pair_of(const contact::PairLaw& law, const Side& a, const Side& b) {
+  return {{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * contact::radius_of(law), false};
+}
+
+Strength strength(const contact::PairLaw& law, const Side& a, const Side& b) {
+  const double r = contact::radius_of(law), sphere = 4 * std::numbers::pi / 3 * r * r * r;
+  const contact::PointPair pair = pair_of(law, a, b);
+  const double partners = std::min(a.points * (1 + sphere / b.volume()), b.points * (1 + sphere / a.volume()));
+  return std::visit(
+      [&](const contact::ContactLaw auto& one) {
+        return Strength{one.normal_force(pair, r) * r * r / (a.face() * b.face()),
+                        partners * one.stored_energy(pair, r)};
+      },
+      law);
+}
+
+Strength strength(const contact::SurfaceLaw& law, const Side& a, const Side& b) {
+  const double area = a.points * a.face() + b.points * b.face();
+  return {law.pressure(law.spacing), area * law.energy(law.spacing)};
+}
+
+// How fast two blocks approach each other along the axes on which they are apart, m/s.
+struct Approach {
+  double least = 0, most = 0;
+};
+
+Approach approach(const Trajectory& a, const Trajectory& b, double duration) {
+  if (!meeting_time(a, b, duration)) return {};
+  Vector least = Vector::Zero(), most = Vector::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const bool a_below = a.places.max()[c] < b.places.min()[c], b_below = b.places.max()[c] < a.places.min()[c];
+    if (!a_below && !b_below) continue;
+    const Trajectory &low = a_below ? a : b, &high = a_below ? b : a;
+    least[c] = std::max(0.0, low.velocities.min()[c] - high.velocities.max()[c]);
+    most[c] = std::max(0.0, low.velocities.max()[c] - high.velocities.min()[c]);
+  }
+  return {least.norm(), most.norm()};
+}
+
+// The pressure of an impact of elastic bodies, Pa.
+double impact_pressure(const Side& a, const Side& b, double speed) {
+  return speed * a.impedance * b.impedance / (a.impedance + b.impedance);
+}
+
+// "" where points do not slip between each other.
+std::string gap(const contact::Law& law, const Side& a, const Side& b) {
+  const double spacing = std::min(a.spacing, b.spacing), radius = contact::radius_of(law);
+  if (std::holds_alternative<contact::SurfaceLaw>(law) || radius >= widest_gap * spacing) return "";
+  std::ostringstream text;
+  text << "Contact Radius " << radius << " m is less than 0.71 of the spacing, " << spacing
+       << " m, so that points slip between those of the other body; a spacing is a good choice";
+  return text.str();
+}
+
+std::string remedy(const contact::Law& law, const Side& a, const Side& b, double times) {
+  const std::string slips = gap(law, a, b);
+  if (!slips.empty()) return slips;
+  std::ostringstream text;
+  text.precision(2);
+  text << "to bear the pressure of an elastic impact its "
+       << (std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant") << " should be "
+       << times << " times as large";
+  return text.str();
+}
+
+std::string of_blocks(const Side& a, const Side& b) { return "contact of blocks " + a.name + " and " + b.name; }
+
+// What is wrong with the strength of contact; `surely`: whether it can hold nothing.
+std::string weakness(const contact::Law& law, const Side& a, const Side& b, const Approach& speed, bool& surely) {
+  const Strength bears = std::visit([&](const auto& one) { return strength(one, a, b); }, law);
+  const double impact = 0.5 * a.mass * b.mass / (a.mass + b.mass) * speed.least * speed.least;
+  const double pressure = impact_pressure(a, b, speed.most);
+  surely = impact > bears.energy;
+  if (!surely && pressure <= bears.pressure) return "";
+  std::ostringstream text;
+  text.precision(3);
+  if (surely) {
+    text << of_blocks(a, b) << " takes up " << bears.energy << " J at most, less than the " << impact
+         << " J of an impact at " << speed.least << " m/s: they will pass through each other; ";
+  } else {
+    text << of_blocks(a, b) << " bears " << bears.pressure << " Pa before points pass each other, less than the "
+         << pressure << " Pa of an elastic impact at " << speed.most << " m/s; ";
+  }
+  text << remedy(law, a, b, pressure / bears.pressure);
+  return text.str();
+}
+
+// Its spring between two points that overlap by a tenth of a spacing, in those of the stiffer block, M h.
+double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side& b) {
+  const contact::PointPair pair = pair_of(law, a, b);
+  const double overlap = 0.1 * std::min(a.spacing, b.spacing);
+  const double spring =
+      std::visit([&](const contact::ContactLaw auto& one) { return one.tangent_stiffness(pair, overlap); }, law);
+  return spring / std::max(a.modulus * a.spacing, b.modulus * b.spacing);
+}
+
+// Where points meet at the pace of contact, not of the bodies, a touch lasts a step or two, which see little of it.
+std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, const Side& b) {
+  constexpr double much = 10;
+  const auto* of_points = std::get_if<contact::PairLaw>(&law);
+  const double ratio = of_points ? relative_stiffness(*of_points, a, b) : 0;
+  if (!(ratio > much)) return "";
+  const auto [key, value] = std::visit(
+      []<class Law>(const Law& one) {
+        if constexpr (std::is_same_v<Law, contact::HertzLaw>) {
+          return std::pair("an Effective Modulus", one.effective_modulus);
+        } else {
+          return std::pair("a Spring Constant", one.penalty);
+        }
+      },
+      *of_points);
+  std::ostringstream text;
+  text.precision(2);
+  text
+      << of_blocks(a, b) << " is " << ratio
+      << " times as stiff as the stiffer block: the time step falls with it, and a touch lasts a few steps only, which "
+      << "may cost or give as much energy as the points had; as stiff as that block is " << key << " of "
+      << value / ratio << " Pa";
+  return text.str();
+}
+
+// Whether a tool or a third block that either of both may touch could stop them.
+bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>& interactions, int a, int b) {
+  const auto with_another = [a, b](const contact::Interaction& one) {
+    const bool has_first = one.first == a || one.first == b, has_second = one.second == a || one.second == b;
+    return has_first != has_second;
+  };
+  return !scene.tools.empty() || std::any_of(interactions.begin(), interactions.end(), with_another);
+}
+
+// Of parts of one body, which may be pressed on each other at any time: until the softer one yields, they bear its flow
+// stress.
+std::string weakness_when_pressed(const contact::Law& law, const Side& a, const Side& b) {
+  const double bears = std::visit([&](const auto& one) { return strength(one, a, b); }, law).pressure;
+  const double yields = std::min(a.yields, b.yields);
+  if (!std::isfinite(yields) || bears >= yields) return "";
+  std::ostringstream text;
+  text.precision(3);
+  text << of_blocks(a, b) << " bears " << bears << " Pa before points pass each other, less than the " << yields
+       << " Pa at which the material yields: parts that are crushed onto each other pass through each other; its "
+       << (std::holds_alternative<contact::SurfaceLaw>(law) ? "Stiffness Factor" : "spring constant") << " should be "
+       << yields / bears << " times as large";
+  return text.str();
+}
+
+}  // namespace
+
+std::string weak_contacts(const Situation& situation) {
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const Domain& domain = scene.body.domain;
+  if (interactions.empty()) return "";
+  const std::vector<Side> sides = sides_of(scene.body, spacings);
+  deck::Problems problems;
+  std::string warnings;
+  for (const auto& [first, second, model] : interactions) {
+    const Side &a = sides[first], &b = sides[second];
+    if (a.points == 0 || b.points == 0) continue;
+    bool surely = false;
+    std::string text;
+    if (domain.blocks[first].body == domain.blocks[second].body)
+      text = weakness_when_pressed(model.law, a, b);
+    else if (!scene.quasi_static)
+      text = weakness(model.law, a, b, approach(trajectories[first], trajectories[second], duration), surely);
+    if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second))
+      problems.add("Contact", text);
+    if (text.empty() && !scene.quasi_static) text = stiffness_of_short_touches(model.law, a, b);
+    const std::string slips = gap(model.law, a, b);
+    if (text.empty() && !slips.empty()) text = of_blocks(a, b) + ": " + slips;
+    if (!text.empty()) warnings += "WARNING: " + text + "\n";
+  }
+  raise_together(domain.communicator, problems.text(deck.file.string()));
+  return warnings;
+}
+
+}  // namespace strut

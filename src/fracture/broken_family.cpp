@@ -1,0 +1,139 @@
+#include "fracture/broken_family.hpp"
+
+#include <algorithm>
+
+#include "base/math/rotation.hpp"
+#include "fracture/strain_jump.hpp"
+#include "materials/moved_stress.hpp"
+#include "materials/tangent.hpp"
+#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/kernels/bonds.hpp"
+#include "mechanics/shape_tensor.hpp"
+
+namespace strut {
+
+namespace {
+
+// The plastic part of its state stays.
+void release(MaterialPoint& point) {
+  point.deformation_gradient = Tensor::Identity();
+  point.rotation = Rotation();
+  point.stress.setZero();
+  point.stabilization = 0;
+}
+
+bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
+  const int i = block.points[k];
+  const Symmetric inverse = inverse_of(shape_tensor(body, i));
+  const bool holds = trace(inverse) > 0 && body.domain.volume(i) * trace(inverse) <= most;
+  body.shape_inverse->set(i, holds ? inverse : Symmetric(Symmetric::Zero()));
+  bonds::with_influence(body.influence, [&](auto weight) {
+    const bonds::OfPoint family{body.domain.families, i};
+    body.first_moment->set(i, bonds::first_moment(family, body.domain.sites.data(), weight));
+  });
+  return holds;
+}
+
+// F of the places at the start of a step, by the family that is left.
+Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
+  Tensor N = Tensor::Zero();
+  bonds::with_influence(body.influence, [&](auto weight) {
+    bonds::over(bonds::OfPoint{body.domain.families, i}, body.domain.sites.data(), weight,
+                [&](int j, double w, const auto& xi, double) {
+                  N += w * (start.place(j) - start.place(i)) * Vector(xi.c[0], xi.c[1], xi.c[2]).transpose();
+                });
+  });
+  return N * to_tensor(body.shape_inverse[i]);
+}
+
+// For λ between 0 and 1, of what the energy falls by at first, and Δε:C:Δε.
+double part_to_least(const materials::Moduli& moduli, double falls, const Tensor& jump) {
+  const double trace = jump.trace();
+  const double curvature = (moduli.bulk - 2 * moduli.shear / 3) * trace * trace + 2 * moduli.shear * jump.squaredNorm();
+  return falls > 0 ? std::min(1.0, falls / curvature) : 0;
+}
+
+Tensor symmetric(const Tensor& t) { return 0.5 * (t + t.transpose()); }
+
+// Takes the stress of a law point along from one stretch to another, and leaves it there as the stretch jumps to a
+// third. No viscosity acts, as no point moves.
+void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& from, const Tensor& to,
+            const Tensor& jumped, double dt) {
+  const auto step = [&]<class L>(const L& law) {
+    typename L::State state = block.state_of<L>(place);
+    if (from != to) {
+      const auto along = materials::step_between(symmetric_part(from), symmetric_part(to), dt);
+      const auto [stress, converged] = law.step(along, point.stress, state);
+      if (converged) point.stress = stress;
+    }
+    materials::move_stress(law, to, jumped, state);
+    const auto columns = materials::to_columns<L>(state);
+    for (std::size_t c = 0; c < columns.size(); ++c) block.state->at(place, c) = columns[c];
+  };
+  std::visit(step, block.material.law);
+}
+
+// So that the step goes on from the stretch that the bonds left have at its start, and from their rotation, with which
+// stress turns; it has followed its part of the jump. False where that is another volume than before: such bonds do not
+// hold a gradient.
+bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& refitted, double dt) {
+  constexpr double most = 2;  // times as large or small
+  const double before = point.deformation_gradient.determinant(), after = refitted.determinant();
+  if (!(after > before / most && after < before * most)) return false;
+  const Tensor R = polar_rotation(refitted), stretch = symmetric(R.transpose() * refitted),
+               old = symmetric(point.rotation.tensor().transpose() * point.deformation_gradient), jump = stretch - old;
+  const Tensor strain = symmetric(2 * jump * (old + stretch).inverse());  // as stress_update.hpp has it
+  const double falls = -before * to_tensor(point.stress).cwiseProduct(strain).sum();
+  follow(block, place, point, old, old + part_to_least(block.moduli(place), falls, strain) * jump, stretch, dt);
+  point.deformation_gradient = refitted;
+  point.rotation = Rotation(R);
+  return true;
+}
+
+bool set_start_of_cell(Body& body, MaterialBlock& block, int k, const StepEnd& start) {
+  bool holds = true;
+  for (int q = 0; q < block.places_a_point(); ++q) {
+    const std::size_t place = block.place(k, q);
+    const auto place_of = [&start](int j) { return start.place(j); };
+    const Tensor F = body.fits->gradient_at(body, block.points[k], q, place_of);
+    MaterialPoint point = block.cells[place];
+    holds = holds && set_start(block, place, point, F, start.dt);
+    block.cells->set(place, point);
+  }
+  return holds;
+}
+
+}  // namespace
+
+double part_that_releases(const materials::Moduli& moduli, const Tensor& strain, const Tensor& jump) {
+  const double lame = moduli.bulk - 2 * moduli.shear / 3;
+  const double grows = lame * strain.trace() * jump.trace() + 2 * moduli.shear * strain.cwiseProduct(jump).sum();
+  return part_to_least(moduli, -grows, jump);
+}
+
+bool refit(Body& body, MaterialBlock& block, int k, double most) {
+  if (block.is_ordinary()) return true;
+  if (!block.is_quadratic()) return refit_shape(body, block, k, most);
+  return body.fits->refit(body, block.points[k], block.flowed[k] > 0, most);
+}
+
+bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start) {
+  if (!refit(body, block, k, most)) return false;
+  if (block.is_ordinary()) return true;
+  if (block.is_quadratic()) return set_start_of_cell(body, block, k, start);
+  const int i = block.points[k];
+  return set_start(block, k, body.points[i], gradient_at_start(body, i, start), start.dt);
+}
+
+void release(Body& body, MaterialBlock& block, int k) {
+  const int i = block.points[k];
+  if (block.is_quadratic()) {
+    body.fits->drop(i);
+    for (int q = 0; q < block.places_a_point(); ++q) block.cells->set(block.place(k, q), MaterialPoint());
+  } else {
+    body.shape_inverse->set(i, Symmetric::Zero());
+    release(body.points[i]);
+  }
+}
+
+}  // namespace strut

@@ -1,0 +1,121 @@
+#include "fracture/point_account.hpp"
+
+#include "mechanics/kernels/quadratic_bonds.hpp"
+#include "mechanics/point_energy.hpp"
+
+namespace strut {
+
+namespace {
+
+using bonds::Lanes, bonds::Vector3;
+
+// Sums over the families of a cluster's points.
+struct Sums {
+  Lanes squares = Lanes::Zero();  // what the energy of the bonds takes, m⁵
+  Lanes work = Lanes::Zero();     // Σ ω V_j T·Δη, J/m³
+};
+
+struct Bond {
+  int j;
+  Lanes weight;                   // ω V_j
+  Vector3<Lanes> xi, eta, moved;  // moved: Δη over the step
+  Lanes absent;                   // 1 in the lanes of those who do not have j in their family
+};
+
+// Calls visit(bond) over the families of a cluster.
+template <class Visit>
+void over_bonds(const Cluster& cluster, const StepEnd& end, const Visit& visit) {
+  const Site* sites = end.body.domain.sites.data();
+  const bonds::OfCluster family{cluster};
+  const auto now = bonds::own_place(family, sites, &Site::current);
+  const auto numbers = family.own<3>([&end](int i) { return end.start[i].data(); });
+  const Vector3<Lanes> start{{numbers[0], numbers[1], numbers[2]}};
+  bonds::with_influence(end.body.influence, [&](auto weight) {
+    bonds::over(family, sites, weight, [&](int j, const Lanes& w, const Vector3<Lanes>& xi, const auto& present) {
+      const auto eta_now = bonds::apart(sites[j].current, now);
+      Eigen::Array4d there;
+      there << end.start[j].array(), 0;
+      const auto eta_start = bonds::apart(there, start);
+      Vector3<Lanes> moved;
+      for (int c = 0; c < 3; ++c) moved.c[c] = eta_now.c[c] - eta_start.c[c];
+      visit(Bond{j, w, xi, end.at_start ? eta_start : eta_now, moved, Lanes(1 - present)});
+    });
+  });
+}
+
+Sums sums_of_ordinary(const Cluster& cluster, const StepEnd& end) {
+  const bonds::OfCluster family{cluster};
+  const auto [a, b] = family.own<2>([&end](int i) { return &end.body.force_states.scalars[i].a; });
+  Sums sums;
+  over_bonds(cluster, end, [&](const Bond& bond) {
+    const Lanes length = (bonds::dot(bond.eta, bond.eta) + bond.absent).sqrt();
+    const Lanes rest = (bonds::dot(bond.xi, bond.xi) + bond.absent).sqrt(), extension = length - rest;
+    sums.squares += bond.weight * extension * extension;
+    sums.work += bond.weight * (a * rest + b * extension) / length * bonds::dot(bond.eta, bond.moved);
+  });
+  return sums;
+}
+
+// T = A ξ + C η; squares of η − F ξ.
+Sums sums_of_correspondence(const Cluster& cluster, const StepEnd& end) {
+  const bonds::OfCluster family{cluster};
+  const auto A = family.own<12>([&end](int i) { return end.body.force_states.tensors[i].column[0].data(); });
+  const auto F = family.own<9>([&end](int i) { return end.body.points[i].deformation_gradient.data(); });
+  Sums sums;
+  over_bonds(cluster, end, [&](const Bond& bond) {
+    const auto& xi = bond.xi.c;
+    for (int r = 0; r < 3; ++r) {
+      const Lanes T = A[r] * xi[0] + A[4 + r] * xi[1] + A[8 + r] * xi[2] + A[3] * bond.eta.c[r];
+      const Lanes z = bond.eta.c[r] - F[r] * xi[0] - F[3 + r] * xi[1] - F[6 + r] * xi[2];
+      sums.work += bond.weight * T * bond.moved.c[r];
+      sums.squares += bond.weight * z * z;
+    }
+  });
+  return sums;
+}
+
+// T = A ξ + B q + D (μ_j − c).
+Sums sums_of_quadratic(const Cluster& cluster, const StepEnd& end) {
+  const bonds::OfCluster family{cluster};
+  const auto state = family.own<39>([&end](int i) { return end.body.force_states.quadratics[i].first; });
+  const Lanes *A = &state[0], *B = &state[9], *D = &state[27], *offset = &state[36];
+  const Eigen::Array4d* multipliers = end.body.fits->multipliers();
+  Sums sums;
+  over_bonds(cluster, end, [&](const Bond& bond) {
+    const std::array<Lanes, 6> q = bonds::squares(bond.xi);
+    const Eigen::Array4d& mu = multipliers[bond.j];
+    for (int r = 0; r < 3; ++r) {
+      Lanes T = -offset[r];
+      for (int c = 0; c < 3; ++c) T += A[3 * r + c] * bond.xi.c[c] + D[3 * r + c] * mu[c];
+      for (int k = 0; k < 6; ++k) T += B[6 * r + k] * q[k];
+      sums.work += bond.weight * T * bond.moved.c[r];
+    }
+  });
+  return sums;
+}
+
+// J/m³
+double energy_of(const Body& body, const MaterialBlock& block, int k, double squares) {
+  if (block.is_ordinary()) return ordinary_energy(block, block.ordinary[k], squares);
+  const double springs = block.is_quadratic() ? 0 : block.own_springs_of(body.points[block.points[k]]);
+  const PointEnergy of_law = law_energy(body, block, k);
+  return of_law.elastic + of_law.dissipated + 0.5 * springs * squares;
+}
+
+}  // namespace
+
+std::array<PointAccount, Cluster::width> accounts_of(const MaterialBlock& block, int first, const Cluster& cluster,
+                                                     const StepEnd& end) {
+  const Sums sums = block.is_ordinary()    ? sums_of_ordinary(cluster, end)
+                    : block.is_quadratic() ? sums_of_quadratic(cluster, end)
+                                           : sums_of_correspondence(cluster, end);
+  std::array<PointAccount, Cluster::width> accounts;
+  for (std::size_t l = 0; l < cluster.points.size(); ++l) {
+    const double volume = end.body.domain.volume(cluster.points[l]);
+    const double energy = energy_of(end.body, block, first + static_cast<int>(l), sums.squares[l]);
+    accounts[l] = {volume * energy, volume * sums.work[l]};
+  }
+  return accounts;
+}
+
+}  // namespace strut

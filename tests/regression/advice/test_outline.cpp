@@ -1,0 +1,295 @@
+// What a run says of its scene before it begins: what a slip of units changes, and how many pieces there are.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "regression/bodies.hpp"
+#include "run/report.hpp"
+#include "run/simulation.hpp"
+
+namespace strut::regression {
+namespace {
+
+std::string described(const deck::Deck& deck, const Communicator& world) {
+  const Scene scene = set_up(deck, world);
+  return describe_scene(scene, advice(deck, scene));
+}
+
+std::string told_of(const Parts& parts) {
+  const RunFolder folder;
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  return described(deck, folder.world);
+}
+
+Parts flying() {
+  Parts parts;
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-45.86") +
+                     plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
+  return parts;
+}
+
+void expect_told(const std::string& told, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(told.find(part), std::string::npos) << part << " in:\n" << told;
+}
+
+// 4 x 4 x 6 cubes of 1 mm of copper: 96e-9 m³ of 8930 kg/m³. √(E (1 − ν)/((1 + ν)(1 − 2ν) ρ)) = 4585.6 m/s.
+TEST(Outline, HasBoxMassWaveSpeedAndSpeeds) {
+  expect_told(told_of(flying()), {"1 connected piece;", "0.003 x 0.003 x 0.005 m", "mass 0.0008573 kg",
+                                  "wave speed 4586 m/s", "speeds up to 45.86 m/s apart, 0.01 of it"});
+  EXPECT_EQ(told_of(flying()).find("WARNING"), std::string::npos);
+}
+
+// A tool that comes is as good as a body that flies.
+TEST(Outline, SeesToolsThatMove) {
+  Parts parts;
+  parts.conditions = section(
+      "punch", key("Type", "Rigid Plane") + key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Travel Z", "-3*t"));
+  expect_told(told_of(parts), {"speeds up to 3 m/s apart"});
+}
+
+TEST(Outline, CountsPieces) {
+  const RunFolder folder;
+  Parts parts;
+  parts.mesh_type = "Text File";
+  parts.mesh_file = "points.txt";
+  folder.write("points.txt", cubes(1, Vector(0, 0, 0), 3, 3, 3, 1e-3) + cubes(1, Vector(0, 0, 9e-3), 3, 3, 3, 1e-3) +
+                                 cubes(1, Vector(0, 0, 20e-3), 3, 3, 3, 1e-3));
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  expect_told(described(deck, folder.world), {"3 connected pieces;"});
+}
+
+TEST(Improbable, ModuliInMegapascalAreWarnedOf) {
+  Parts parts = flying();
+  parts.materials = changed(copper(), "117e9", "117e3");
+  expect_told(told_of(parts),
+              {"WARNING: block 'bar' has a wave speed of 4.586 m/s; solids have 100 to 20,000", "moduli in Pa"});
+}
+
+TEST(Improbable, DensityInGramsPerCubicCentimeterIsWarnedOf) {
+  Parts parts = flying();
+  parts.materials = changed(copper(), "8930", "8.93");
+  expect_told(told_of(parts), {"WARNING: block 'bar' has a density of 8.93 kg/m³; solids have 10 to 30,000",
+                               "2.7 g/cm³ are 2700", "WARNING: block 'bar' has a wave speed of 1.45e+05 m/s"});
+}
+
+// A metal yields at some 1e-3 of its modulus; 400 where 400e6 were meant, and 400e9, do not.
+TEST(Improbable, YieldStressIsComparedWithTheModulus) {
+  Parts parts = flying();
+  for (const auto& [yield, told] : {std::pair("400e9", "yields at 3.419 of its Young's modulus"),
+                                    std::pair("400", "yields at 3.419e-09 of its Young's modulus")}) {
+    parts.materials = copper(key("Yield Stress", yield));
+    expect_told(told_of(parts), {told, "are both in Pa (50 MPa are 50e6)?"});
+  }
+  for (const char* yield : {"400e6", "0.09e11"}) {
+    parts.materials = copper(key("Yield Stress", yield));
+    EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos) << yield;
+  }
+}
+
+// Of copper that melts at 1356 K and softens from 293 K on.
+TEST(Improbable, InitialTemperaturesOfAMeltOrInCelsiusAreWarnedOf) {
+  const std::string softening = section("Softening", key("Type", "Johnson-Cook") + key("Reference Temperature", "293") +
+                                                         key("Melting Temperature", "1356") + key("Exponent", "1"));
+  const auto told_at = [&](const std::string& temperature, const std::string& failure = "") {
+    Parts parts = flying();
+    parts.materials = copper(key("Yield Stress", "400e6") + softening);
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                        key("Initial Temperature", temperature) + failure);
+    return told_of(parts);
+  };
+  for (const char* hot : {"2000", "1356"})
+    expect_told(told_at(hot), {std::string("WARNING: block 'bar' has an Initial Temperature of ") + hot +
+                               " K, at which its metal is molten: its flow stress is 0 Pa; is it in K?"});
+  expect_told(told_at("20"),
+              {"WARNING: block 'bar' has an Initial Temperature of 20 K, which is -253.1 °C: is it in K"});
+  expect_told(told_at("200"), {"200 K, below the Reference Temperature of 293 K at which its softening begins"});
+  for (const char* usual : {"293", "273.15", "718", "1200"})
+    EXPECT_EQ(told_at(usual).find("WARNING"), std::string::npos) << usual;
+}
+
+std::string told_of_cubes(double spacing, const std::string& final_time) {
+  const RunFolder folder;
+  Parts parts = flying();
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.times = key("Final Time", final_time);
+  parts.blocks.clear();
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon Factor", "2.01"));
+  folder.write("points.txt", cubes(1, Vector::Zero(), 4, 4, 6, spacing));
+  return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+}
+
+// 5 spacings between the outermost points; waves go 4586 m/s, in 5 µs 0.0229 m.
+TEST(Improbable, MillimetersThatAreTakenForMetersAreWarnedOf) {
+  expect_told(told_of_cubes(1, "5e-6"), {"WARNING: the bodies are 5 m long, and in the 5e-06 s of the run a wave goes "
+                                         "0.02293 m: are lengths of the mesh in m, not in mm?"});
+  expect_told(told_of_cubes(1e3, "1"), {"WARNING: the bodies are 5000 m long: are lengths of the mesh in m?"});
+  expect_told(told_of_cubes(1e-9, "1e-14"), {"WARNING: the bodies are 5e-09 m long"});
+  for (const auto& [spacing, time] : {std::pair(1e-3, "5e-6"), std::pair(1.0, "5e-3")})
+    EXPECT_EQ(told_of_cubes(spacing, time).find("WARNING"), std::string::npos) << spacing;
+}
+
+TEST(Improbable, SpeedsAboveTheWaveSpeedAreWarnedOf) {
+  Parts parts = flying();
+  for (const auto& [speed, warned] : {std::pair("-4500", false), std::pair("-4700", true)}) {
+    parts.conditions =
+        along("flight", "Initial Velocity", "all", "z", speed) + plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1");
+    const std::string told = told_of(parts);
+    EXPECT_EQ(told.find("more than the wave speed of 4586 m/s") != std::string::npos, warned) << told;
+  }
+}
+
+// In an elastic cube whose halves part at a tenth of the wave speed the balance of energy is off by a tenth (measured,
+// by either sign); metal flows, viscosity takes what rings, and a fixed step does not fall.
+TEST(LargeElasticStrains, AreToldOf) {
+  const auto tells = [](const Parts& of) { return told_of(of).find("of its wave speed apart") != std::string::npos; };
+  Parts parts = flying();
+  EXPECT_FALSE(tells(parts)) << "a hundredth";
+  parts.conditions = along("flight", "Initial Velocity", "all", "z", "-458.6*z/5e-3");
+  EXPECT_TRUE(tells(parts));
+  Parts flows = parts, viscous = parts, fixed = parts;
+  flows.materials = copper(key("Yield Stress", "1e8"));
+  viscous.materials =
+      changed(copper(), key("Density", "8930"), key("Density", "8930") + key("Linear Viscosity", "0.1"));
+  fixed.verlet = key("Fixed dt", "1e-8");
+  EXPECT_FALSE(tells(flows));
+  EXPECT_FALSE(tells(viscous));
+  EXPECT_FALSE(tells(fixed));
+}
+
+// K > 5/3 G is a Poisson's ratio above 1/4.
+TEST(BreaksUnderPressure, AreToldOfWhereTheyMayGiveEnergy) {
+  const auto tells = [](const std::string& ratio) {
+    Parts parts;
+    parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "8930") +
+                                            key("Young's Modulus", "117e9") + key("Poisson's Ratio", ratio));
+    parts.damage = section("tough", key("Damage Model", "Bond Energy") + key("Fracture Energy", "1e5"));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                        key("Damage Model", "tough"));
+    return told_of(parts).find("several that break in one step under pressure may give some") != std::string::npos;
+  };
+  EXPECT_TRUE(tells("0.3"));
+  EXPECT_FALSE(tells("0.25"));
+  EXPECT_FALSE(tells("0.2"));
+}
+
+// 4 x 4 points of the lowest layer have their centers 0.5 mm above z = 0, of the next 1.5 mm.
+TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
+  Parts parts;
+  parts.conditions = plane("floor", "Rigid Plane", "all", "0 0 1.7e-3", "0 0 1");
+  expect_told(told_of(parts), {"WARNING: 32 points are inside of the tool 'floor' at the start, up to 0.0012 m deep"});
+  parts.conditions =
+      plane("floor", "Rigid Plane", "all", "0 0 0.4e-3", "0 0 1");  // inside of cells alone: they end there
+  EXPECT_EQ(told_of(parts).find("WARNING"), std::string::npos);
+}
+
+std::string told_of_tool(const std::string& type, const std::string& keys, const std::string& more = "",
+                         const std::string& final_time = "5e-6") {
+  Parts parts;
+  parts.conditions = section("tool", key("Type", type) + keys) + more;
+  parts.times = key("Final Time", final_time);
+  return told_of(parts);
+}
+
+std::string box(const std::string& lower, const std::string& upper) {
+  return key("Lower Corner", lower) + key("Upper Corner", upper) + key("Travel Z", "-10*t");
+}
+
+// The bar's upper face is at z = 6 mm, its points 1 mm apart: 1.5 mm is the limit.
+TEST(Tools, ThatAreThinnerThanPointsAreApartAreWarnedOf) {
+  const auto is_thin = [](const std::string& told) { return told.find("tools stop points only") != std::string::npos; };
+  expect_told(
+      told_of_tool("Rigid Box", box("1.95e-3 -1 6e-3", "2.05e-3 1 9e-3")),
+      {"WARNING: the tool 'tool' is 0.0001 m wide along x, less than 1.5 spacings of block 'bar' (0.001 m each), "
+       "which it can reach: tools stop points only, and this one passes between them; expected 0.0015 m or more"});
+  EXPECT_TRUE(is_thin(told_of_tool("Rigid Box", box("-1 1.95e-3 6e-3", "1 3.4e-3 9e-3"))));
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("-1 1.95e-3 6e-3", "1 3.46e-3 9e-3")))) << "thick enough";
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("-1 -1 6e-3", "1 1 6.1e-3")))) << "a plate comes by its face";
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("3.4e-3 -1 6e-3", "9e-3 1 9e-3")))) << "an edge of a thick one";
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Box", box("1.95e-3 -1 16e-3", "2.05e-3 1 19e-3")))) << "it stays away";
+  const auto roll = [](const std::string& radius) {
+    return key("Point", "2e-3 0 7e-3") + key("Axis", "1 2 0") + key("Radius", radius);
+  };
+  expect_told(told_of_tool("Rigid Cylinder", roll("0.74e-3")), {"the tool 'tool' is 0.00148 m in diameter, less than"});
+  EXPECT_FALSE(is_thin(told_of_tool("Rigid Cylinder", roll("0.76e-3"))));
+}
+
+// The lowest cells end 2 mm above the floor, which the bar reaches at 20 µs with 100 m/s: in the 43rd of 100 parts.
+TEST(Tools, ThatAreApartFromAllPointsAreToldOf) {
+  const std::string floor = key("Point", "0 0 -2e-3") + key("Normal", "0 0 1");
+  const std::string flight = along("flight", "Initial Velocity", "all", "z", "-100");
+  expect_told(told_of_tool("Rigid Plane", floor),
+              {"WARNING: the tool 'tool' is 0.002 m from all points at the start", "touches nothing until the end"});
+  const std::string flies = told_of_tool("Rigid Plane", floor, flight, "4.7e-5");
+  expect_told(flies, {"the tool 'tool' is 0.002 m from all points at the start", "before about t = 1.97e-05 s"});
+  EXPECT_EQ(flies.find("WARNING"), std::string::npos);
+  expect_told(told_of_tool("Rigid Plane", floor, flight, "1.9e-5"), {"touches nothing until the end"});
+  expect_told(told_of_tool("Rigid Plane", floor + key("Travel Z", "100*t"), "", "4.7e-5"),
+              {"before about t = 1.97e-05 s"});
+  EXPECT_EQ(told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1")).find("the tool"),
+            std::string::npos);
+}
+
+// Tools act last: what a condition holds along their normal is moved all the same, here by 0.1 mm and more in 10 µs.
+TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
+  const auto told = [](const std::string& conditions, const std::string& travel) {
+    return told_of_tool("Rigid Plane", key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Travel Z", travel),
+                        conditions, "1e-5");
+  };
+  const auto motion = [](const std::string& axes, const std::string& velocity) {
+    return along("foot", "Prescribed Velocity", "foot", axes, velocity);
+  };
+  expect_told(told(motion("z", "-10"), "0"),
+              {"WARNING: the tool 'tool' runs into 16 points that 'foot' holds along its normal"});
+  expect_told(told(motion("xyz", "0"), "10*t"), {"16 points that 'foot' holds", "tools have the last word"});
+  expect_told(told(plane("cut", "Symmetry Plane", "foot", "0 0 0", "0 0 1"), "10*t"), {"16 points that 'cut' holds"});
+  EXPECT_EQ(told(motion("xy", "0"), "10*t").find("last word"), std::string::npos) << "held across the normal";
+  EXPECT_EQ(told(motion("z", "10"), "10*t").find("last word"), std::string::npos) << "one path";
+  EXPECT_EQ(told(motion("xyz", "0"), "0").find("last word"), std::string::npos) << "it stands";
+}
+
+// A bar of four by four points of ordinary bonds, in whose E a third and more is not the material's.
+TEST(ThinMembers, OfOrdinaryPointsAreToldOf) {
+  const RunFolder folder(Lattice{.nx = 4, .ny = 4, .nz = 30});
+  Parts parts;
+  const std::string ordinary = changed(copper(), "Elastic Correspondence", "Elastic");
+  parts.materials = ordinary;
+  const auto told = [&] {
+    return described(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world);
+  };
+  expect_told(told(), {"block 'bar': members are ", " spacings thick (4 volume/surface); bars so thick were found ",
+                       " % too stiff in tension by the material model 'Elastic'"});
+}
+
+// What rank 0 says.
+std::string told_by_run(const std::string& conditions) {
+  const RunFolder folder;
+  Parts parts;
+  parts.conditions = conditions;
+  parts.times = key("Final Time", "2e-6");
+  testing::internal::CaptureStdout();
+  run(folder.write("deck.xml", parts.text()), folder.world);
+  const std::string told = testing::internal::GetCapturedStdout();
+  return folder.world.rank() == 0 ? told : "";
+}
+
+TEST(ClosingReport, TellsOfWhatDidNotHappen) {
+  const std::string floor = plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1"),
+                    far = plane("far", "Rigid Plane", "all", "0 0 -1", "0 0 1");
+  const std::string still = told_by_run(floor),
+                    falls = told_by_run(floor + far + along("flight", "Initial Velocity", "all", "z", "-1"));
+  if (still.empty()) return;
+  // The run of 2 µs is divided into equal steps, at most 0.8 of it, the deck's safety factor.
+  double limit = 0, dt = 0;
+  std::sscanf(falls.c_str() + falls.find("critical time step"), "critical time step %lf", &limit);
+  std::sscanf(falls.c_str() + falls.find("dt = "), "dt = %lf", &dt);
+  EXPECT_NEAR(dt, 2e-6 / std::ceil(2e-6 / (0.8 * limit)), 1e-9) << falls;  // three digits are told of dt
+  EXPECT_NE(still.find("the tool 'floor' touched nothing\nWARNING: nothing moved"), std::string::npos) << still;
+  EXPECT_NE(falls.find("the tool 'far' touched nothing"), std::string::npos) << falls;
+  EXPECT_EQ(falls.find("'floor' touched"), std::string::npos) << falls;
+  EXPECT_EQ(falls.find("nothing moved"), std::string::npos) << falls;
+}
+
+}  // namespace
+}  // namespace strut::regression

@@ -1,0 +1,50 @@
+// Meshes that overlap: mass that counts twice is told of before the run.
+#include <gtest/gtest.h>
+
+#include "regression/bodies.hpp"
+
+namespace strut::regression {
+namespace {
+
+// Two cubes of 5³ points, the second one so far from the first along each axis, m.
+std::string warnings(double apart, bool separate, const std::string& formulation) {
+  const RunFolder folder;
+  folder.write("points.txt",
+               cubes(1, Vector::Zero(), 5, 5, 5, 1e-3) + cubes(2, Vector::Constant(apart), 5, 5, 5, 1e-3));
+  Parts parts;
+  parts.mesh_type = "Text File", parts.mesh_file = "points.txt";
+  parts.materials = changed(copper(), key("Density", "8930"), key("Density", "8930") + formulation);
+  parts.blocks =
+      section("one", key("Block Names", "block_1") + key("Material", "copper") + key("Horizon Factor", "1.75")) +
+      section("two", key("Block Names", "block_2") + key("Material", "copper") + key("Horizon Factor", "1.75") +
+                         key("Separate Body", separate ? "true" : "false"));
+  parts.contact = contact_of({{"block_1", "block_2"}}, "1e-3", "1e11");
+  if (!separate) parts.contact.clear();
+  const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+  return told_at_the_start(deck, folder.world).warnings;
+}
+
+TEST(Overlaps, OfBondedBlocksAreTold) {
+  for (const std::string& formulation : {std::string(), key("Formulation", "Quadratic Correspondence")}) {
+    for (const double apart : {0.3e-3, 0.5e-3, 1.3e-3}) {
+      EXPECT_NE(warnings(apart, false, formulation).find("times as much material as fits within the horizon"),
+                std::string::npos)
+          << apart;
+    }
+    EXPECT_EQ(warnings(5e-3, false, formulation).find("as much material"), std::string::npos);
+  }
+}
+
+TEST(Overlaps, OfSeparateBodiesAreTold) {
+  for (const double apart : {0.3e-3, 0.5e-3, 1.3e-3}) {
+    EXPECT_NE(warnings(apart, true, "").find("points of the blocks 'block_1' and 'block_2', one of them at"),
+              std::string::npos)
+        << apart;
+  }
+  for (const double apart : {4.99e-3, 5e-3}) {
+    EXPECT_EQ(warnings(apart, true, "").find("inside of the other one"), std::string::npos) << apart;
+  }
+}
+
+}  // namespace
+}  // namespace strut::regression

@@ -1,0 +1,177 @@
+// Contact that cannot hold what runs into it is found before the first step; what is not complained of holds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "regression/bodies.hpp"
+
+namespace strut::regression {
+namespace {
+
+constexpr double h = 1e-3, horizon = 2.01e-3;  // m
+constexpr double speed = 100;                  // m/s, of one block against the other
+constexpr int nx = 5, nz = 4;                  // points across and along each block
+
+// Two equal blocks of copper, lattice on lattice.
+Parts impact(const RunFolder& folder, const std::string& contact) {
+  folder.write("points.txt", cubes(1, {0, 0, 0}, nx, nx, nz, h) + cubes(2, {0, 0, (nz + 0.5) * h}, nx, nx, nz, h));
+  return thrown_block(contact);
+}
+
+Parts by_penalty(const RunFolder& folder, double radius, double penalty) {
+  return impact(folder, contact_of({{"block_1", "block_2"}}, std::to_string(radius), std::to_string(penalty)));
+}
+
+// The lines of it that are about contact.
+std::string warnings_of(const RunFolder& folder, const Parts& parts) {
+  std::istringstream all(Simulation(folder, parts).advice.warnings);
+  std::string found;
+  for (std::string line; std::getline(all, line);) {
+    if (line.starts_with("WARNING: contact of blocks ")) found += line;
+  }
+  return found;
+}
+
+std::string error_of(const RunFolder& folder, const Parts& parts) {
+  try {
+    Simulation(folder, parts);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The number K_p with which what K_c = 18 K_p/(π δ⁵) times `per_stiffness` is, is `wanted`.
+double penalty_for(double wanted, double per_stiffness) {
+  return wanted / per_stiffness * std::numbers::pi * std::pow(horizon, 5) / 18;
+}
+
+// ½ Z v, Z the impedance of copper, is the pressure of the impact; r K_c V²/h² is what contact bears, with r = h.
+double bearing_penalty() {
+  const double modulus = 117e9 * 0.65 / (1.35 * 0.3);
+  return penalty_for(0.5 * std::sqrt(modulus * 8930) * speed, std::pow(h, 5));
+}
+
+// ½ M/2 v², M the mass of a block, against ½ K_c V² r² for each point and the 1 + 4π/3 that it can reach, with r = h.
+double hopeless_penalty() {
+  const double mass_of_a_point = 8930 * h * h * h;
+  return penalty_for(0.25 * mass_of_a_point * speed * speed, 0.5 * std::pow(h, 8) * (1 + 4 * std::numbers::pi / 3));
+}
+
+// How far the middle of the second block is above that of the first at the end, m.
+double end_distance(Simulation& run) {
+  double sums[4] = {};
+  run.go();
+  for (int i = 0; i < run.body().owned(); ++i) {
+    const int block = run.body().domain.cloud.blocks[i];
+    sums[block] += run.body().current(i)[2], ++sums[2 + block];
+  }
+  run.world().sum(sums);
+  return sums[1] / sums[3] - sums[0] / sums[2];
+}
+
+TEST(WeakContact, PressureOfTheImpactIsTheLimitOfTheSpring) {
+  const RunFolder folder;
+  EXPECT_NE(
+      warnings_of(folder, by_penalty(folder, h, 0.99 * bearing_penalty())).find(" Pa of an elastic impact at 100 m/s"),
+      std::string::npos);
+  EXPECT_EQ(warnings_of(folder, by_penalty(folder, h, 1.01 * bearing_penalty())), "");
+}
+
+// The block comes back: the bound is that of plane waves, which faces of few points do not reach.
+TEST(WeakContact, WhatBearsThePressureHolds) {
+  const RunFolder folder;
+  Simulation run(folder, by_penalty(folder, h, 1.01 * bearing_penalty()));
+  EXPECT_GT(end_distance(run), nz * h);
+}
+
+TEST(WeakContact, WhatCannotTakeUpTheEnergyIsAnErrorAndPassesThrough) {
+  const RunFolder folder;
+  Parts parts = by_penalty(folder, h, 0.99 * hopeless_penalty());
+  EXPECT_NE(error_of(folder, parts).find("J of an impact at 100 m/s: they will pass through each other"),
+            std::string::npos)
+      << error_of(folder, parts);
+  parts.watch = key("Beyond Limits", "Continue");
+  parts.times = key("Final Time", "2e-4");
+  Simulation run(folder, parts);
+  EXPECT_NE(run.advice.warnings.find("will pass through each other"), std::string::npos) << "the deck goes on";
+  EXPECT_LT(end_distance(run), -nz * h) << "the second block is behind the first";
+  EXPECT_EQ(error_of(folder, by_penalty(folder, h, 1.01 * hopeless_penalty())), "");
+}
+
+// A tool may be what stops them.
+TEST(WeakContact, BesideAToolWhatCannotTakeUpTheEnergyIsAWarning) {
+  const RunFolder folder;
+  Parts parts = by_penalty(folder, h, 0.99 * hopeless_penalty());
+  parts.conditions += plane("floor", "Rigid Plane", "all", "0 0 -1e-3", "0 0 1");
+  EXPECT_EQ(error_of(folder, parts), "");
+  EXPECT_NE(warnings_of(folder, parts).find("will pass through each other"), std::string::npos);
+}
+
+// h/√2 = 0.7071 h is the distance of the middle of a square from its corners.
+TEST(WeakContact, RadiusBelowTheGapsOfALatticeIsTold) {
+  const RunFolder folder;
+  const double stiff = 1e12;
+  EXPECT_NE(warnings_of(folder, by_penalty(folder, 0.705 * h, stiff)).find("Contact Radius 0.000705 m is less than"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of(folder, by_penalty(folder, 0.709 * h, stiff)), "");
+  EXPECT_NE(error_of(folder, by_penalty(folder, 1e-3 * h, stiff)).find("Contact Radius 1e-06 m is less than"),
+            std::string::npos);
+}
+
+TEST(WeakContact, SurfacesHoldUnlessTheyAreMadeSoft) {
+  const RunFolder folder;
+  const auto surface = [](const std::string& keys) {
+    return section("Models", section("m", key("Contact Model", "Surface") + keys)) +
+           section("Interactions", section("pair", key("First Block", "block_1") + key("Second Block", "block_2") +
+                                                       key("Contact Model", "m")));
+  };
+  EXPECT_EQ(warnings_of(folder, impact(folder, surface(""))), "");
+  const Parts soft = impact(folder, surface(key("Stiffness Factor", "1e-7") + key("Largest Overlap", "0")));
+  EXPECT_NE(error_of(folder, soft).find("will pass through each other"), std::string::npos);
+}
+
+// r K_c V²/h² with r = h is what contact bears, as above; a foam of one block that yields at 100 MPa is crushed onto
+// itself.
+TEST(WeakContact, OfABlockWithItselfBearsTheFlowStress) {
+  const RunFolder folder;
+  const auto warned = [&](double part, const std::string& material) {
+    Parts parts = by_penalty(folder, h, penalty_for(part * 100e6, std::pow(h, 5)));
+    parts.contact = contact_of({{"block_1", "block_1"}}, std::to_string(h),
+                               std::to_string(penalty_for(part * 100e6, std::pow(h, 5))));
+    parts.materials = material;
+    return warnings_of(folder, parts);
+  };
+  const std::string yields = copper(key("Yield Stress", "100e6"));
+  EXPECT_NE(warned(0.99, yields).find("less than the 1e+08 Pa at which the material yields"), std::string::npos);
+  EXPECT_EQ(warned(1.01, yields), "");
+  EXPECT_EQ(warned(0.01, copper()), "") << "what never yields sets no bound";
+}
+
+// K_c V² against M h, with V = h³; the stiffness that is told has the ratio 1, and nothing is told of it.
+TEST(WeakContact, FarStifferThanTheBodiesIsTold) {
+  const RunFolder folder;
+  const double as_stiff = penalty_for(117e9 * 0.65 / (1.35 * 0.3), std::pow(h, 5));
+  EXPECT_EQ(warnings_of(folder, by_penalty(folder, h, 9.9 * as_stiff)), "");
+  const std::string told = warnings_of(folder, by_penalty(folder, h, 101 * as_stiff));
+  EXPECT_NE(told.find(" is 1e+02 times as stiff as the stiffer block"), std::string::npos) << told;
+  const std::size_t at = told.find("is a Spring Constant of ");
+  ASSERT_NE(at, std::string::npos) << told;
+  EXPECT_NEAR(std::stod(told.substr(at + 24)) / as_stiff, 1, 0.05) << "two digits are told";
+  const Parts hertz = impact(folder, contact_by(key("Contact Model", "Hertz") + key("Effective Modulus", "1e14"),
+                                                {{"block_1", "block_2"}}, std::to_string(h)));
+  EXPECT_NE(warnings_of(folder, hertz).find("as stiff as that block is an Effective Modulus of"), std::string::npos);
+}
+
+// Who never meets needs no contact; who meets without a gap has no speed to be stopped from.
+TEST(WeakContact, BodiesThatDoNotMeetAreNotComplainedOf) {
+  const RunFolder folder;
+  Parts parts = by_penalty(folder, h, 1e3);
+  parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "100");
+  EXPECT_EQ(error_of(folder, parts), "");
+  EXPECT_EQ(warnings_of(folder, parts), "");
+}
+
+}  // namespace
+}  // namespace strut::regression
