@@ -11,6 +11,7 @@
 // surfaces turn between their points, which as slip would be a compliance of its own.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
@@ -130,5 +131,60 @@ class Surfaces {
   bool any_touches_ = false;                  // of pairs.sites
   std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by its own place, 1/m
 };
+
+// ---- Loops over the partners that points see, or that see them
+
+// From how far a point sees another: within a body, if they were near each other, from a share of that distance only.
+inline double reach_between(double reach, const Site& here, const Site& there, bool one_body) {
+  if (!one_body) return reach;
+  const double apart2 = (there.reference - here.reference).head<3>().matrix().squaredNorm();
+  return reference_share * reference_share * apart2 < reach * reach ? reference_share * std::sqrt(apart2) : reach;
+}
+
+template <class Record>
+void exchange_records(const Pairs& pairs, std::vector<Record>& records) {
+  if (pairs.halo) pairs.halo->exchange<unchanged>(records);
+}
+
+// Calls visit(partner, η, |η|², reach) for the partners that pairs.owned[k] sees.
+template <class Visit>
+void Surfaces::over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+  const Site& here = pairs.sites[k];
+  const double reach = points_[places_[k]].reach;
+  for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
+    const Site& there = pairs.sites[pairs.partners[p]];
+    const Vector eta = (there.current - here.current).head<3>().matrix();
+    const double distance2 = eta.squaredNorm();
+    if (!(distance2 < reach * reach)) continue;
+    const double seen = reach_between(reach, here, there, pairs.one_body);
+    if (distance2 < seen * seen) visit(pairs.partners[p], eta, distance2, seen);
+  }
+}
+
+// The same of the partners that touch and see pairs.owned[k].
+template <class Visit>
+void Surfaces::over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+  const Site& here = pairs.sites[k];
+  for (std::size_t p = pairs.start[k]; p < pairs.start[k + 1]; ++p) {
+    const int partner = pairs.partners[p];
+    if (!touches_[partner]) continue;
+    const Site& there = pairs.sites[partner];
+    const Vector eta = (there.current - here.current).head<3>().matrix();
+    const double reach = reach_between(facing_[partner].reach, here, there, pairs.one_body);
+    const double distance2 = eta.squaredNorm();
+    if (distance2 < reach * reach) visit(partner, eta, distance2, reach);
+  }
+}
+
+// Calls visit(facing, ∂ρ/∂y) for the ρ of all points that touch and depend on the place y of pairs.owned[k]: its own,
+// and those of partners.
+template <class Visit>
+void Surfaces::over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const {
+  visit(facing_[k], gradient_[k]);
+  const double volume = pairs.sites[k].volume();
+  over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    visit(facing_[partner], Vector(-volume * Smoothing(reach).slope_over_distance(distance2) * eta));
+  });
+}
 
 }  // namespace strut::contact

@@ -6,7 +6,7 @@
 #include "fracture/strain_jump.hpp"
 #include "materials/moved_stress.hpp"
 #include "materials/tangent.hpp"
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/bonds.hpp"
 #include "mechanics/shape_tensor.hpp"
 

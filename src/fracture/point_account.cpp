@@ -1,5 +1,6 @@
 #include "fracture/point_account.hpp"
 
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/point_energy.hpp"
 

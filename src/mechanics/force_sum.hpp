@@ -6,7 +6,7 @@
 #include "mechanics/formulation/correspondence.hpp"
 #include "mechanics/formulation/ordinary.hpp"
 #include "mechanics/formulation/quadratic.hpp"
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/ordinary_bonds.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 #include "mechanics/passes.hpp"

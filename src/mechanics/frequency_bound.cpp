@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "materials/state_variables.hpp"
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/consistency_correction.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/shape_tensor.hpp"
@@ -205,7 +205,10 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   set_what_blocks_feel(body);
   // By what materials there are: a rank without points takes part.
   const auto is_quadratic = [](const BlockMaterial& m) { return m.formulation == Formulation::quadratic; };
-  if (std::any_of(materials.begin(), materials.end(), is_quadratic)) body.fits = std::make_shared<QuadraticFits>(body);
+  if (std::any_of(materials.begin(), materials.end(), is_quadratic)) {
+    body.fits = std::make_shared<QuadraticFits>(body);
+    make_consistent(body, *body.fits);
+  }
   return body;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mechanics/force_sum.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 
 namespace strut {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mechanics/formulation/cell_tangent.hpp"
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/over_family.hpp"
 
 namespace strut {

@@ -235,52 +235,6 @@ std::vector<Observable> with_states(const std::set<std::string>& states) {
   return all;
 }
 
-const char* const introduction = R"(# Output variables
-
-Generated from `src/output/observables.cpp` and the fields that are declared as output variables (`src/mechanics/body.hpp`, `materials/state_variables.hpp`); do not edit by hand. SI units throughout.
-
-Each is a field of the points that the section `Output` of a deck can write (`Output Variables`). With `Max_` or `Min_`
-in front it is a column that the section `History` can write: the extreme over all points, or with the name of a node
-set or block, `Max_Displacement(foot)`, over its points. 3 components are x, y, z; 6 are xx, yy, zz, xy, yz, zx; 9 are a
-tensor row by row. An extreme of several components is that of the root of the sum of their squares; one of them is named as
-in `Max_Displacement_Z` and `Min_Cauchy_Stress_ZZ`. `Mean_` is the mean over the same points, weighted by their reference
-volumes: `Mean_Displacement_Z(top)`. Where the brackets name a section of `History` > `Profiles`, there is a column for each of
-its layers, `Mean_Velocity_Z(slices 1)`, ….
-
-Besides, the history knows `Contact_Force_X(foam:plate)`, `_Y` and `_Z`, the force of contact on the block `foam` from the
-block `plate`, with friction (N), and `Reaction_X(wall)`, `Reaction_Y(wall)` and `Reaction_Z(wall)`, the force of the condition `wall`
-on the body (N). Both are means from the row before to this one, so that each times its interval is an impulse and all of them together
-the change of momentum; the first row has 0. With `Instant_` in front, `Instant_Reaction_Z(wall)`, they are those of the one step at the
-row's time. Of equilibria all are those of the row's time. Of a crack that the section `History` > `Cracks` names there are `Crack_Tip(notch)`, how far it has come along its
-direction (m), and `Crack_Speed(notch)`, the slope of that over the last rows (m/s).
-
-X and y are the reference and the current position of a point, F is its deformation gradient; other symbols are those of
-the [glossary](../docs/glossary.md). A state variable is there where a material of the deck has a law with it: `Failed` of
-metal foams alone, say; by quadratic correspondence it is the mean over the cell.
-
-| variable | components | in the Exodus file | meaning, with its unit |
-|---|---|---|---|
-)";
-
-// As a cell of a table.
-std::string escaped(std::string text) {
-  for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
-  return text;
-}
-
-// As in the names of an Exodus file's fields.
-std::vector<std::string> component_names(int components) {
-  if (components == 3) return {"X", "Y", "Z"};
-  if (components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};
-  if (components == 9) return {"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
-  return {};
-}
-
-const Observable* find(const std::vector<Observable>& all, const std::string& name) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Observable& o) { return o.name == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 std::vector<Observable> observables(const std::vector<materials::AnyLaw>& laws) {
@@ -299,15 +253,6 @@ std::vector<Observable> observables(const Body& body) {
 
 std::vector<Observable> observables_of_all_laws() { return with_states(states_of_all_laws()); }
 
-std::string observables_page() {
-  std::string text = introduction;
-  for (const Observable& o : observables_of_all_laws()) {
-    text += "| `" + o.name + "` | " + std::to_string(o.components) + " | " + (o.nodal ? "nodal" : "element") + " | " +
-            escaped(o.meaning + (o.unit.empty() || o.unit == "1" ? "" : ", " + o.unit)) + " |\n";
-  }
-  return text;
-}
-
 // As it is declared, or the part of the meaning after a comma that is one of these.
 std::string unit_of(const Observable& observable) {
   if (!observable.unit.empty()) return observable.unit;
@@ -318,98 +263,6 @@ std::string unit_of(const Observable& observable) {
     if (at != std::string::npos && (end == observable.meaning.size() || observable.meaning[end] == ';')) return unit;
   }
   return "1";
-}
-
-std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
-                               const std::string& where) {
-  const std::vector<std::string> valid = names_of(all);
-  std::vector<Observable> result;
-  std::vector<std::string> problems;
-  for (const std::string& name : names) {
-    if (const Observable* found = find(all, name)) {
-      result.push_back(*found);
-    } else {
-      const bool of_others = states_of_all_laws().contains(name);
-      problems.push_back(where + " > " + name + ": " +
-                         (of_others ? "no material of this deck has a law with this state variable"
-                                    : "no such variable" + did_you_mean(name, valid)) +
-                         "; valid are " + joined(valid));
-    }
-  }
-  if (!problems.empty()) throw Error(joined(problems, "\n"));
-  return result;
-}
-
-std::optional<PointNumber> PointNumber::find(const std::vector<Observable>& all, const std::string& name) {
-  if (const Observable* whole = strut::find(all, name)) return PointNumber{*whole, -1};
-  const std::size_t bar = name.rfind('_');
-  const Observable* of = bar == std::string::npos ? nullptr : strut::find(all, name.substr(0, bar));
-  if (!of) return std::nullopt;
-  const std::vector<std::string> components = component_names(of->components);
-  const auto found = std::find(components.begin(), components.end(), name.substr(bar + 1));
-  if (found == components.end()) return std::nullopt;
-  return PointNumber{*of, static_cast<int>(found - components.begin())};
-}
-
-std::vector<double> PointNumber::of(const Body& body) const {
-  std::vector<double> values;
-  observable.fill(body, values);
-  const int width = observable.components;
-  if (width == 1) return values;
-  std::vector<double> numbers(body.owned());
-  for (int i = 0; i < body.owned(); ++i) {
-    const double* first = &values[static_cast<std::size_t>(i) * width];
-    numbers[i] = component < 0 ? Eigen::Map<const Eigen::VectorXd>(first, width).norm() : first[component];
-  }
-  return numbers;
-}
-
-std::vector<std::string> names_of(const std::vector<Observable>& all) {
-  std::vector<std::string> names;
-  for (const Observable& o : all) names.push_back(o.name);
-  return names;
-}
-
-std::vector<std::string> names_of_numbers(const std::vector<Observable>& all,
-                                          const std::vector<std::string>& prefixes) {
-  std::vector<std::string> names;
-  for (const std::string& prefix : prefixes) {
-    for (const Observable& o : all) {
-      names.push_back(prefix + o.name);
-      for (const std::string& component : component_names(o.components))
-        names.push_back(prefix + o.name + "_" + component);
-    }
-  }
-  return names;
-}
-
-Extreme::Extreme(const std::vector<Observable>& all, const PointCloud& cloud, const std::string& name,
-                 const std::string& where)
-    : name_(name) {
-  const std::size_t bracket = name.back() == ')' ? name.find('(') : std::string::npos;
-  const std::string whole = name.substr(0, bracket);
-  const std::string kind = whole.substr(0, 4);
-  const bool extreme = kind == "Max_" || kind == "Min_";
-  const std::optional<PointNumber> found = extreme ? PointNumber::find(all, whole.substr(4)) : std::nullopt;
-  if (!found) {
-    throw Error(where + " > " + name + ": expected Max_, Min_ or Mean_ and the name of a variable" +
-                did_you_mean(whole, names_of_numbers(all, {"Max_", "Min_", "Mean_"})) + "; variables are " +
-                joined(names_of(all)));
-  }
-  if (bracket != std::string::npos) {
-    group_ = PointGroup(cloud, name.substr(bracket + 1, name.size() - bracket - 2), where + " > " + name);
-  }
-  sign_ = kind == "Max_" ? 1 : -1;
-  number_ = *found;
-}
-
-double Extreme::local(const Body& body) const {
-  const std::vector<double> values = number_.of(body);
-  double best = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < body.owned(); ++i) {
-    if (group_.counts(body.domain.cloud, i)) best = std::max(best, sign_ * values[i]);
-  }
-  return best;
 }
 
 }  // namespace strut

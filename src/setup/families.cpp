@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/timing.hpp"
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "setup/blocks.hpp"
 #include "setup/dropped.hpp"
 #include "topology/partition.hpp"

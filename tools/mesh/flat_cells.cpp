@@ -11,7 +11,7 @@ namespace strut::mesh {
 namespace {
 
 // What a run asks for: neighbors, and their mean square distance in any direction, in spacings²
-// (src/mechanics/formulation/quadratic_fit_solver.cpp).
+// (src/mechanics/formulation/cell_fit.hpp).
 constexpr std::size_t least_neighbors = 4;
 constexpr double least_spread = 0.02;
 

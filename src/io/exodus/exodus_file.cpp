@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include "base/build_facts.hpp"
 #include "base/errors.hpp"
+#include "io/exodus/exodus_words.hpp"
 #include "io/netcdf/classic_netcdf.hpp"
 #include "io/netcdf/trial_read.hpp"
 #include "io/netcdf/wide_netcdf.hpp"
@@ -45,48 +44,16 @@ std::string cause_of(int code) {
   return (text.empty() ? "Exodus library" : text) + " (code " + std::to_string(last) + ")";
 }
 
-[[noreturn]] void fail(const fs::path& path, std::string_view doing, const std::string& cause) {
-  throw Error(path.string() + ": cannot " + std::string(doing) + ": " + cause);
-}
-
 // The library's own words for these are codes: say it plainly before it gets to see them.
 void check_that_it_may_be_read(const fs::path& path, std::int64_t frames) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail(path, "open it", "no such file");
-  if (fs::is_directory(status)) fail(path, "open it", "it is a directory");
-  if (!fs::is_regular_file(status)) fail(path, "open it", "not a regular file");
-  if (fs::file_size(path, error) == 0) fail(path, "open it", "the file is empty");
+  if (!fs::exists(status)) fail_at(path, "open it", "no such file");
+  if (fs::is_directory(status)) fail_at(path, "open it", "it is a directory");
+  if (!fs::is_regular_file(status)) fail_at(path, "open it", "not a regular file");
+  if (fs::file_size(path, error) == 0) fail_at(path, "open it", "the file is empty");
   const std::string problem = classic_netcdf_problem(path, frames);
-  if (!problem.empty()) fail(path, "open it", problem);
-}
-
-// Names come and go as arrays of pointers to buffers of one length.
-class NameTable {
- public:
-  explicit NameTable(std::size_t count) : buffer_(count * width, '\0'), pointers_(count) {
-    for (std::size_t i = 0; i < count; ++i) pointers_[i] = buffer_.data() + i * width;
-  }
-  explicit NameTable(const std::vector<std::string>& names) : NameTable(names.size()) {
-    for (std::size_t i = 0; i < names.size(); ++i) names[i].copy(pointers_[i], width - 1);
-  }
-  char** data() { return pointers_.data(); }
-  std::string operator[](std::size_t i) const { return pointers_[i]; }
-  std::vector<std::string> names() const { return {pointers_.begin(), pointers_.end()}; }
-
- private:
-  static constexpr std::size_t width = ExodusFile::longest_name + 1;
-  std::vector<char> buffer_;
-  std::vector<char*> pointers_;
-};
-
-void check_names(const fs::path& path, const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (name.size() > ExodusFile::longest_name) {
-      fail(path, "write the name '" + name + "'",
-           "it is longer than " + std::to_string(ExodusFile::longest_name) + " characters");
-    }
-  }
+  if (!problem.empty()) fail_at(path, "open it", problem);
 }
 
 // What of it is compressed, as HDF5 can do, may be this much larger in memory: deflate's limit.
@@ -96,32 +63,6 @@ std::int64_t largest_content(const fs::path& path) {
   std::error_code ignored;
   const auto size = static_cast<std::int64_t>(fs::file_size(path, ignored));
   return is_hdf5(path) ? densest * size : size;
-}
-
-ex_entity_type entity(ExodusFile::On on) { return on == ExodusFile::On::nodes ? EX_NODAL : EX_ELEM_BLOCK; }
-
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items) names.push_back(item.name);
-  return names;
-}
-
-// Lines of at most so many characters, broken between words where there are any.
-std::vector<std::string> wrapped(std::string text, std::size_t most) {
-  std::vector<std::string> lines;
-  while (text.size() > most) {
-    const std::size_t space = text.rfind(' ', most);
-    const std::size_t end = space == std::string::npos || space == 0 ? most : space;
-    lines.push_back(text.substr(0, end));
-    text.erase(0, end == space ? end + 1 : end);
-  }
-  lines.push_back(text);
-  return lines;
-}
-
-std::string quoted(const std::string& name, std::int64_t id) {
-  return name.empty() ? std::to_string(id) : "'" + name + "'";
 }
 
 }  // namespace
@@ -134,7 +75,7 @@ ExodusFile ExodusFile::open(const fs::path& path, Access access, std::int64_t fr
   float version = 0;
   const int mode = access == Access::write ? EX_WRITE : EX_READ;
   const int handle = ex_open(path.c_str(), mode, &word_size, &file_word_size, &version);
-  if (handle < 0) fail(path, "open it", cause_of(handle));
+  if (handle < 0) fail_at(path, "open it", cause_of(handle));
   ExodusFile file(path, handle);
   file.largest_ = largest_content(path);
   ex_set_int64_status(handle, EX_ALL_INT64_API);
@@ -177,7 +118,7 @@ ExodusFile ExodusFile::create(const fs::path& path, std::int64_t largest_variabl
   ex_opts(0);
   const bool fits = largest_variable <= largest_of_offsets;
   const int handle = fits ? created(path, EX_LARGE_MODEL) : created_with_64_bit_sizes(path);
-  if (handle < 0) fail(path, "create it", cause_of(handle));
+  if (handle < 0) fail_at(path, "create it", cause_of(handle));
   ExodusFile file(path, handle);
   file.check(ex_set_max_name_length(handle, longest_name), "set the length of names");
   return file;
@@ -191,21 +132,24 @@ ExodusFile::ExodusFile(ExodusFile&& other) noexcept
     : path_(std::move(other.path_)), handle_(std::exchange(other.handle_, -1)), largest_(other.largest_) {}
 
 void ExodusFile::check(int code, std::string_view doing) const {
-  if (code < 0) fail(path_, doing, cause_of(code));
+  if (code < 0) fail_at(path_, doing, cause_of(code));
 }
 
 std::int64_t ExodusFile::inquire(int what, std::string_view doing) const {
   const std::int64_t value = ex_inquire_int(handle_, static_cast<ex_inquiry>(what));
-  if (value < 0) fail(path_, doing, cause_of(static_cast<int>(value)));
+  if (value < 0) fail_at(path_, doing, cause_of(static_cast<int>(value)));
   return value;
 }
 
 // ---- reading
 
+int ExodusFile::entity(On on) { return on == On::nodes ? EX_NODAL : EX_ELEM_BLOCK; }
+
 // Before memory is taken because a file says so: `count` of `what`, each of at least so many bytes in the file.
 std::int64_t ExodusFile::plausible(std::int64_t count, std::int64_t bytes, const std::string& what) const {
   if (count >= 0 && count <= largest_ / bytes) return count;
-  fail(path_, "read it", "it claims " + std::to_string(count) + " " + what + ", for which it is too small (damaged?)");
+  fail_at(path_, "read it",
+          "it claims " + std::to_string(count) + " " + what + ", for which it is too small (damaged?)");
 }
 
 ExodusFile::Sizes ExodusFile::sizes() const {
@@ -221,7 +165,7 @@ std::vector<ExodusFile::Block> ExodusFile::blocks() const {
   if (count == 0) return {};
   std::vector<std::int64_t> ids(count);
   check(ex_get_ids(handle_, EX_ELEM_BLOCK, ids.data()), "read the ids of its blocks");
-  NameTable names(count);
+  NameTable names(count, longest_name);
   check(ex_get_names(handle_, EX_ELEM_BLOCK, names.data()), "read the names of its blocks");
   std::vector<Block> blocks;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -232,7 +176,7 @@ std::vector<ExodusFile::Block> ExodusFile::blocks() const {
     const std::string mask = " of block " + std::to_string(ids[i]);
     plausible(raw.num_entry, 1, "elements" + mask);
     plausible(raw.num_nodes_per_entry, 1, "nodes an element" + mask);
-    NameTable attributes(plausible(raw.num_attribute, 1, "attributes" + mask));
+    NameTable attributes(plausible(raw.num_attribute, 1, "attributes" + mask), longest_name);
     if (raw.num_attribute > 0) {
       check(ex_get_attr_names(handle_, EX_ELEM_BLOCK, raw.id, attributes.data()), "read the names of attributes");
     }
@@ -246,7 +190,7 @@ std::vector<ExodusFile::NodeSet> ExodusFile::node_sets() const {
   if (count == 0) return {};
   std::vector<std::int64_t> ids(count);
   check(ex_get_ids(handle_, EX_NODE_SET, ids.data()), "read the ids of its node sets");
-  NameTable names(count);
+  NameTable names(count, longest_name);
   check(ex_get_names(handle_, EX_NODE_SET, names.data()), "read the names of its node sets");
   std::vector<NodeSet> sets;
   for (std::int64_t i = 0; i < count; ++i) {
@@ -311,10 +255,12 @@ std::vector<double> ExodusFile::times() const {
 
 std::vector<std::string> ExodusFile::variable_names(On on) const {
   int count = 0;
-  check(ex_get_variable_param(handle_, entity(on), &count), "read its number of variables");
+  check(ex_get_variable_param(handle_, static_cast<ex_entity_type>(entity(on)), &count),
+        "read its number of variables");
   if (count == 0) return {};
-  NameTable names(plausible(count, 1, "variables"));
-  check(ex_get_variable_names(handle_, entity(on), count, names.data()), "read the names of its variables");
+  NameTable names(plausible(count, 1, "variables"), longest_name);
+  check(ex_get_variable_names(handle_, static_cast<ex_entity_type>(entity(on)), count, names.data()),
+        "read the names of its variables");
   return names.names();
 }
 
@@ -350,134 +296,5 @@ std::vector<double> ExodusFile::element_values(int step, int variable) const {
   }
   return values;
 }
-
-// ---- writing
-
-void ExodusFile::put_sizes(const std::string& title, const Sizes& sizes) const {
-  check(ex_put_init(handle_, title.substr(0, MAX_LINE_LENGTH).c_str(), sizes.dimensions, sizes.nodes, sizes.elements,
-                    sizes.blocks, sizes.node_sets, 0),
-        "write its sizes");
-}
-
-void ExodusFile::put_provenance() const {
-  const std::time_t now = std::time(nullptr);
-  char date[MAX_STR_LENGTH + 1] = {};
-  char time[MAX_STR_LENGTH + 1] = {};
-  std::tm local = {};
-  localtime_r(&now, &local);
-  std::strftime(date, sizeof date, "%Y/%m/%d", &local);
-  std::strftime(time, sizeof time, "%H:%M:%S", &local);
-  std::string name = "strut";
-  std::string number = strut_version();
-  char* record[1][4] = {{name.data(), number.data(), date, time}};
-  check(ex_put_qa(handle_, 1, record), "write its QA record");
-  std::vector<std::string> lines = wrapped("written by " + build_facts(), MAX_LINE_LENGTH);
-  std::vector<char*> pointers;
-  for (std::string& line : lines) pointers.push_back(line.data());
-  check(ex_put_info(handle_, static_cast<int>(pointers.size()), pointers.data()), "write its info records");
-}
-
-void ExodusFile::put_blocks(const std::vector<Block>& blocks) const {
-  check_names(path_, names_of(blocks));
-  for (const Block& block : blocks) {
-    const auto attributes = static_cast<std::int64_t>(block.elements > 0 ? block.attributes.size() : 0);
-    check(ex_put_block(handle_, EX_ELEM_BLOCK, block.id, block.type.c_str(), block.elements, block.nodes_per_element, 0,
-                       0, attributes),
-          "write block " + quoted(block.name, block.id));
-  }
-  NameTable names(names_of(blocks));
-  if (!blocks.empty()) check(ex_put_names(handle_, EX_ELEM_BLOCK, names.data()), "write the names of blocks");
-  for (const Block& block : blocks) put_attribute_names(block);
-  char axes[3][2] = {"x", "y", "z"};
-  char* axis_names[3] = {axes[0], axes[1], axes[2]};
-  check(ex_put_coord_names(handle_, axis_names), "write the names of the axes");
-}
-
-void ExodusFile::put_attribute_names(const Block& block) const {
-  if (block.attributes.empty() || block.elements == 0) return;
-  NameTable names(block.attributes);
-  check(ex_put_attr_names(handle_, EX_ELEM_BLOCK, block.id, names.data()),
-        "write the names of the attributes of block " + quoted(block.name, block.id));
-}
-
-void ExodusFile::put_node_sets(const std::vector<NodeSet>& sets) const {
-  check_names(path_, names_of(sets));
-  for (const NodeSet& set : sets) {
-    check(ex_put_set_param(handle_, EX_NODE_SET, set.id, set.nodes, 0), "write node set " + quoted(set.name, set.id));
-  }
-  NameTable names(names_of(sets));
-  if (!sets.empty()) check(ex_put_names(handle_, EX_NODE_SET, names.data()), "write the names of node sets");
-}
-
-void ExodusFile::put_variables(const std::vector<Block>& blocks, const std::vector<std::string>& nodal,
-                               const std::vector<std::string>& element) const {
-  for (const On on : {On::nodes, On::elements}) {
-    const std::vector<std::string>& list = on == On::nodes ? nodal : element;
-    if (list.empty()) continue;
-    check_names(path_, list);
-    const int count = static_cast<int>(list.size());
-    NameTable names(list);
-    check(ex_put_variable_param(handle_, entity(on), count), "write the number of variables");
-    check(ex_put_variable_names(handle_, entity(on), count, names.data()), "write the names of variables");
-  }
-  if (element.empty() || blocks.empty()) return;
-  std::vector<int> defined;  // block by block; an empty block has no variables
-  for (const Block& block : blocks) defined.insert(defined.end(), element.size(), block.elements > 0 ? 1 : 0);
-  check(ex_put_truth_table(handle_, EX_ELEM_BLOCK, static_cast<int>(blocks.size()), static_cast<int>(element.size()),
-                           defined.data()),
-        "write which blocks variables are defined on");
-}
-
-void ExodusFile::put_coordinates(const std::array<std::vector<double>, 3>& x, std::int64_t begin) const {
-  const auto count = static_cast<std::int64_t>(x[0].size());
-  check(ex_put_partial_coord(handle_, begin + 1, count, x[0].data(), x[1].data(), x[2].data()),
-        "write the coordinates");
-}
-
-void ExodusFile::put_connectivity(const Block& block, std::span<const std::int64_t> nodes, std::int64_t begin) const {
-  if (nodes.empty()) return;
-  const std::int64_t count = std::ssize(nodes) / block.nodes_per_element;
-  check(ex_put_partial_elem_conn(handle_, block.id, begin + 1, count, nodes.data()),
-        "write the elements of block " + quoted(block.name, block.id));
-}
-
-void ExodusFile::put_attribute(const Block& block, int index, std::span<const double> values,
-                               std::int64_t begin) const {
-  if (values.empty()) return;
-  check(ex_put_partial_one_attr(handle_, EX_ELEM_BLOCK, block.id, begin + 1, std::ssize(values), index + 1,
-                                values.data()),
-        "write the attributes of block " + quoted(block.name, block.id));
-}
-
-void ExodusFile::put_nodes_of(const NodeSet& set, std::span<const std::int64_t> nodes, std::int64_t begin) const {
-  if (nodes.empty()) return;
-  check(ex_put_partial_set(handle_, EX_NODE_SET, set.id, begin + 1, std::ssize(nodes), nodes.data(), nullptr),
-        "write the nodes of node set " + quoted(set.name, set.id));
-}
-
-void ExodusFile::put_element_numbers(std::span<const std::int64_t> numbers, std::int64_t begin) const {
-  if (numbers.empty()) return;
-  check(ex_put_partial_id_map(handle_, EX_ELEM_MAP, begin + 1, std::ssize(numbers), numbers.data()),
-        "write the numbers of elements");
-}
-
-void ExodusFile::put_time(int step, double time) const {
-  check(ex_put_time(handle_, step + 1, &time), "write the time of step " + std::to_string(step + 1));
-}
-
-void ExodusFile::put_nodal_values(int step, int variable, std::span<const double> values, std::int64_t begin) const {
-  check(ex_put_partial_var(handle_, step + 1, EX_NODAL, variable + 1, 1, begin + 1, std::ssize(values), values.data()),
-        "write step " + std::to_string(step + 1));
-}
-
-void ExodusFile::put_element_values(int step, int variable, const Block& block, std::span<const double> values,
-                                    std::int64_t begin) const {
-  if (values.empty()) return;
-  check(ex_put_partial_var(handle_, step + 1, EX_ELEM_BLOCK, variable + 1, block.id, begin + 1, std::ssize(values),
-                           values.data()),
-        "write step " + std::to_string(step + 1));
-}
-
-void ExodusFile::flush() const { check(ex_update(handle_), "flush it to disk"); }
 
 }  // namespace strut::io

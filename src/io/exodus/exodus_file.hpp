@@ -95,6 +95,7 @@ class ExodusFile {
 
  private:
   ExodusFile(const std::filesystem::path& path, int handle) : path_(path), handle_(handle) {}
+  static int entity(On on);  // as the library counts them
   void check(int code, std::string_view doing) const;
   void put_attribute_names(const Block& block) const;
   std::int64_t inquire(int what, std::string_view doing) const;

@@ -1,6 +1,6 @@
 #include "mechanics/formulation/flow.hpp"
 
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "topology/parallel_for.hpp"
 
 namespace strut {

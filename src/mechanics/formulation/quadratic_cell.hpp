@@ -2,6 +2,7 @@
 // and from the stresses there to the states of their bonds.
 #pragma once
 
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/group_tile.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
 

@@ -1,6 +1,6 @@
 #include "mechanics/formulation/steepness.hpp"
 
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 
 namespace strut {
 

@@ -21,6 +21,7 @@
 
 #include "base/math/small_tensors.hpp"
 #include "mechanics/body.hpp"
+#include "mechanics/kernels/bond_records.hpp"
 
 namespace strut::bonds {
 
@@ -367,35 +368,6 @@ inline ScalarOf<Family> residual_energy(std::size_t kind, const Family& family, 
       kind, family, places, gradients, weight,
       [&](const Vector3<T>& force, const Vector3<T>& z, const Vector3<T>&, const T&) { sum += dot(force, z); });
   return 0.25 * sum;
-}
-
-// ---- Records -------------------------------------------------------------------------------------------------------
-
-inline void pack_tensor(const Tensor& tensor, TensorRecord& record) {
-  for (int c = 0; c < 3; ++c) record.column[c] << tensor.col(c).array(), 0;
-}
-
-inline Tensor tensor_of(const TensorRecord& record) {
-  Tensor tensor;
-  for (int c = 0; c < 3; ++c) tensor.col(c) = record.column[c].head<3>().matrix();
-  return tensor;
-}
-
-inline ForceState force_state(const Tensor& A, double stiffness) {
-  ForceState state;
-  pack_tensor(A, state);
-  state.stiffness() = stiffness;
-  return state;
-}
-
-inline GradientState gradient_state(const Tensor& F, double stiffness, double step_share,
-                                    const Stabilization& stabilization) {
-  GradientState state;
-  pack_tensor(F, state);
-  state.stiffness() = stiffness;
-  state.step_share() = step_share;
-  state.column[2][3] = static_cast<double>(stabilization.index());
-  return state;
 }
 
 }  // namespace strut::bonds

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "integrators/explicit/central_difference.hpp"
-#include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/formulation/shared_volume.hpp"
 #include "verification/lattice.hpp"
 

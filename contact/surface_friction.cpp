@@ -1,0 +1,176 @@
+// Friction between surfaces: what points that touch feel, and its tangent.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/laws/friction.hpp"
+#include "contact/surfaces.hpp"
+
+namespace strut::contact {
+
+namespace {
+
+// The stiffness of the springs of friction, of that of the surfaces. With less than 1 they do not limit the time step.
+constexpr double of_friction = 0.5;
+
+// The friction on a point, as its partners need it.
+struct Rubbing {
+  Vector drag = Vector::Zero();    // over its ρ, N
+  Vector twist = Vector::Zero();   // θ of their patch, N/m
+  Vector middle = Vector::Zero();  // of their patch, from the point, m
+
+  // What a partner η before the point feels per V W.
+  Vector reaction(const Vector& eta) const { return twist.cross(Vector(eta - middle)) - drag; }
+};
+
+// A force on the point's body at a place, seen from the point, N, and what its reaction there makes of the patch that
+// the point feels.
+Rubbing rubbing_of(const Patch& patch, const Vector& place, const Vector& force) {
+  return {force / patch.weight, patch.per_couple * (patch.middle - place).cross(force), patch.middle};
+}
+
+}  // namespace
+
+// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, less its own: at a place, seen from
+// the point, if the patch `turns` with its points, else the mean of theirs.
+template <class MotionOf>
+Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const Vector& place, bool turns,
+                         const MotionOf& motion) const {
+  Vector mean = Vector::Zero(), turning = Vector::Zero();
+  over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    const Vector part = pairs.sites[partner].volume() * Smoothing(reach).value(distance2) * motion(partner);
+    mean += part;
+    if (turns) turning += (eta - patch.middle).cross(part);
+  });
+  const Vector arm = patch.middle - place;
+  return mean / patch.weight + arm.cross(patch.per_couple * turning) - motion(static_cast<int>(k));
+}
+
+Patch Surfaces::felt_patch(const Pairs& pairs, std::size_t k, const Vector& place) const {
+  PatchSums sums;
+  over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+    sums.add(pairs.sites[partner].volume() * Smoothing(reach).value(distance2), eta);
+  });
+  return sums.patch((sums.middle() - place).norm());
+}
+
+// Seen from a point that touches: midway between the surface of its body and that of the other one.
+Vector Surfaces::between_surfaces(std::size_t k) const {
+  return (points_[places_[k]].depth - 0.5 * overlaps_[places_[k]]) * gradient_[k].stableNormalized();
+}
+
+void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law,
+                            double coefficient, Pairs& pairs, Couples& couples, std::vector<Vector>& force_density,
+                            std::vector<Vector>& friction) {
+  std::vector<Vector> ways(pairs.sites.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways[k] = sliding.times * sliding.of[pairs.owned[k]];
+  exchange_records(pairs, ways);
+  std::vector<Rubbing> rubbing(pairs.sites.size());
+  std::vector<Couples::Neighborhood> own(pairs.owned.size());
+  std::vector<Vector> turned(pairs.owned.size(), Vector::Zero());
+  if (!sliding.is_trial) couples.bring_to_present(kinematics);
+  friction.assign(pairs.owned.size(), Vector::Zero());
+  grips_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
+  if (!sliding.is_trial) slips_before_ = slips_;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    Vector& slip = slips_[places_[k]];
+    slip.setZero();
+    if (!facing_[k].touches()) continue;
+    Vector place = Vector::Zero();
+    if (!sliding.is_trial) place = between_surfaces(k);
+    if (!place.isZero(0)) own[k] = couples.of(kinematics, pairs.owned[k], place.norm());
+    if (!own[k].patch.turns) place.setZero();  // nothing could take up the couple
+    const Patch patch = felt_patch(pairs, k, place);
+    const Vector normal = gradient_[k].stableNormalized();
+    slip = slips_before_[places_[k]] - sliding.times * own[k].spin.cross(place) +
+           slip_of(pairs, k, patch, place, !sliding.is_trial, [&](int site) { return ways[site]; });
+    slip -= slip.dot(normal) * normal;
+    slip = bearable(patch, place, slip);
+    const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
+    const double most = coefficient * facing_[k].push * gradient_[k].norm(), wanted = stiffness * slip.norm();
+    friction[k] = yielding_spring(most, stiffness, slip);
+    rubbing[k] = rubbing_of(patch, place, friction[k]);
+    turned[k] = place.cross(friction[k]);
+    if (!sliding.is_trial) continue;
+    const bool slides = wanted > most;
+    grips_[k] = {.along = friction[k].stableNormalized(),
+                 .normal = normal,
+                 .spring = slides ? stiffness * most / wanted : stiffness,
+                 .by_share = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
+                 .patch = patch,
+                 .slides = slides};
+  }
+  exchange_records(pairs, rubbing);
+  if (!sliding.is_trial) couples.add_forces(kinematics.domain, own, turned, force_density);
+  if (!any_touches_) return;
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+      friction[k] += pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].reaction(-eta);
+    });
+    force_density[pairs.owned[k]] += friction[k] / points_[places_[k]].volume;
+  }
+}
+
+void Surfaces::commit(const std::vector<Vector>& friction) {
+  slips_before_ = slips_;
+  friction_before_.assign(points_.size(), Vector::Zero());
+  for (std::size_t k = 0; k < friction.size(); ++k) friction_before_[places_[k]] = friction[k];
+}
+
+std::vector<Vector> Surfaces::committed_friction() const {
+  std::vector<Vector> friction;
+  for (const int place : places_) friction.push_back(friction_before_[place]);
+  return friction;
+}
+
+double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& friction,
+                               std::span<const Vector> way) const {
+  double work = 0;
+  for (std::size_t k = 0; k < friction.size(); ++k) {
+    const Vector before = friction_before_.empty() ? Vector::Zero() : friction_before_[places_[k]];
+    work += 0.5 * (before + friction[k]).dot(way[pairs.owned[k]]);
+  }
+  return work;
+}
+
+void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
+  struct Change {
+    Vector of_place = Vector::Zero();
+    Rubbing friction;    // of the change of the friction
+    double tension = 0;  // κ times the change of ρ
+  };
+  std::vector<Change> changes(pairs.sites.size());
+  std::vector<Vector> drags(pairs.owned.size(), Vector::Zero());
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) changes[k].of_place = field[pairs.owned[k]];
+  exchange_records(pairs, changes);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    if (!facing_[k].touches()) continue;
+    double share = gradient_[k].dot(changes[k].of_place);
+    over_felt(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+      share += pairs.sites[partner].volume() * Smoothing(reach).slope_over_distance(distance2) *
+               eta.dot(changes[partner].of_place);
+    });
+    changes[k].tension = facing_[k].stiffness * share;
+    if (grips_.empty()) continue;
+    const Grip& grip = grips_[k];
+    Vector slip =
+        slip_of(pairs, k, grip.patch, Vector::Zero(), false, [&](int site) { return changes[site].of_place; });
+    slip -= slip.dot(grip.normal) * grip.normal;
+    slip = bearable(grip.patch, Vector::Zero(), slip);
+    if (grip.slides) slip -= slip.dot(grip.along) * grip.along;
+    drags[k] = grip.spring * slip + grip.by_share * share * grip.along;
+    changes[k].friction = rubbing_of(grip.patch, Vector::Zero(), drags[k]);
+  }
+  exchange_records(pairs, changes);
+  for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
+    Vector sum = changes[k].tension * gradient_[k] - drags[k];
+    over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
+      const Smoothing around(reach);
+      const double volume = pairs.sites[k].volume();
+      sum -= changes[partner].tension * volume * around.slope_over_distance(distance2) * eta;
+      sum -= volume * around.value(distance2) * changes[partner].friction.reaction(-eta);
+    });
+    result[pairs.owned[k]] += sum;
+  }
+}
+
+}  // namespace strut::contact

@@ -1,0 +1,42 @@
+// Inside io: names as the Exodus library takes them, and errors about a file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/errors.hpp"
+
+namespace strut::io {
+
+[[noreturn]] inline void fail_at(const std::filesystem::path& path, std::string_view doing, const std::string& cause) {
+  throw Error(path.string() + ": cannot " + std::string(doing) + ": " + cause);
+}
+
+// Names come and go as arrays of pointers to buffers of one length.
+class NameTable {
+ public:
+  // `longest`: of a name, in bytes.
+  NameTable(std::size_t count, std::size_t longest)
+      : width_(longest + 1), buffer_(count * width_, '\0'), pointers_(count) {
+    for (std::size_t i = 0; i < count; ++i) pointers_[i] = buffer_.data() + i * width_;
+  }
+  NameTable(const std::vector<std::string>& names, std::size_t longest) : NameTable(names.size(), longest) {
+    for (std::size_t i = 0; i < names.size(); ++i) names[i].copy(pointers_[i], width_ - 1);
+  }
+  char** data() { return pointers_.data(); }
+  std::string operator[](std::size_t i) const { return pointers_[i]; }
+  std::vector<std::string> names() const { return {pointers_.begin(), pointers_.end()}; }
+
+ private:
+  std::size_t width_;
+  std::vector<char> buffer_;
+  std::vector<char*> pointers_;
+};
+
+inline std::string quoted(const std::string& name, std::int64_t id) {
+  return name.empty() ? std::to_string(id) : "'" + name + "'";
+}
+
+}  // namespace strut::io

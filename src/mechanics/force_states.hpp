@@ -1,0 +1,72 @@
+// What bonds read of their ends: force states, by formulation.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace strut {
+
+// What a bond reads of an end by correspondence: a tensor by columns, and in their fourth lanes up to three numbers.
+struct alignas(32) TensorRecord {
+  Eigen::Array4d column[3];
+};
+
+// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none); 1 if the end has failed; 1
+// if bonds of it have broken in this step, where it has springs on the residual of both ends' gradients.
+struct ForceState : TensorRecord {
+  double& stiffness() { return column[0][3]; }
+  double stiffness() const { return column[0][3]; }
+  double& failed() { return column[1][3]; }
+  double failed() const { return column[1][3]; }
+  double& lost_bonds() { return column[2][3]; }
+  double lost_bonds() const { return column[2][3]; }
+};
+
+// F, and of the springs on the residual of both ends' gradients C, the share of the step at whose end they act, and
+// which stabilization they are (its index in the variant).
+struct GradientState : TensorRecord {
+  double& stiffness() { return column[0][3]; }
+  double stiffness() const { return column[0][3]; }
+  double& step_share() { return column[1][3]; }
+  double kind() const { return column[2][3]; }
+};
+
+// The same of an ordinary end, whose force state along the bond is t = ω (a |ξ| + b e).
+struct alignas(16) ScalarState {
+  double a = 0, b = 0;  // (3K − 5μ) θ/m; 15 μ/m; Pa/m⁵
+};
+
+// The same of an end by quadratic correspondence (quadratic_bonds.hpp): first and second force state, the part of the
+// consistency correction, and 1 if all places of the end have failed.
+struct alignas(64) QuadraticState {
+  double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, failed = 0;
+  static constexpr int size = 40;
+
+  // Half of this one and half of the other, but for the mark.
+  void take_half_of(const QuadraticState& other) {
+    for (int n = 0; n < 9; ++n) first[n] = 0.5 * (first[n] + other.first[n]);
+    for (int n = 0; n < 18; ++n) second[n] = 0.5 * (second[n] + other.second[n]);
+    for (int n = 0; n < 9; ++n) correction[n] = 0.5 * (correction[n] + other.correction[n]);
+    for (int n = 0; n < 3; ++n) offset[n] = 0.5 * (offset[n] + other.offset[n]);
+  }
+};
+
+// One entry a point, ghosts too, in every formulation that the scene has: zero where the point is of another, so that a
+// bond between any two is the sum over the formulations.
+struct ForceStates {
+  std::vector<ForceState> tensors;
+  std::vector<ScalarState> scalars;
+  std::vector<GradientState> gradients;  // empty where no block has a stabilization by the gradients of both ends
+  std::vector<QuadraticState> quadratics;
+
+  // Whether point i, or a ghost, has failed.
+  bool has_failed(std::size_t i) const {
+    return (!tensors.empty() && tensors[i].failed() > 0) || (!quadratics.empty() && quadratics[i].failed > 0);
+  }
+  double bytes() const {
+    return static_cast<double>(tensors.size() * sizeof(ForceState) + scalars.size() * sizeof(ScalarState) +
+                               gradients.size() * sizeof(GradientState) + quadratics.size() * sizeof(QuadraticState));
+  }
+};
+
+}  // namespace strut

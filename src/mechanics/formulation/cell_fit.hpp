@@ -1,0 +1,62 @@
+// Inside mechanics: the fit of y_j − y_i = F ξ + ½ H : ξ⊗ξ over the family of one point, for its cell.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mechanics/body.hpp"
+#include "mechanics/formulation/quadratic_fit.hpp"
+
+namespace strut {
+
+// The penalty on H beside the mean square of the bonds, in spacings, where metal has not flowed.
+inline constexpr double least_penalty = 1e-4;
+
+// The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
+// carries no stress.
+inline constexpr double least_for_stress = 0.02;
+
+using Basis = Eigen::Matrix<double, 9, 1>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+CellShape cube_of(double volume);  // m³
+CellShape shape_of(const Body& body, int i);
+Basis basis(const Vector& xi, double h);    // ξ and q, in spacings h
+double least_square(const Tensor& spread);  // the least eigenvalue: in the direction in which it is the least
+
+void set_cell(const CellShape& shape, QuadraticFit& fit);
+Vector place_of(const QuadraticFit& fit, int q);  // of the cell, from the point, m
+
+// Sums over a family, in spacings: of (1, b bᵀ) with ω V_j, and of g gᵀ/V_j, g = ω V_j b being what y_j gives to the
+// fit; the point itself, which gives −Σ g, is counted.
+struct FamilySums {
+  double weight = 0;
+  Matrix9 moments = Matrix9::Zero(), squares = Matrix9::Zero();
+};
+
+// Of a point with the spacing h; over(visit) calls visit(ω V_j, V_j, ξ).
+template <class Over>
+FamilySums sums_of_family(double h, double volume, const Over& over) {
+  FamilySums sums;
+  Basis first = Basis::Zero();
+  over([&](double w, double far_volume, const Vector& xi) {
+    const Basis b = basis(xi, h);
+    const Matrix9 product = b * b.transpose();
+    sums.weight += w;
+    sums.moments += w * product;
+    sums.squares += w * w / far_volume * product;
+    first += w * b;
+  });
+  sums.squares += first * first.transpose() / volume;
+  return sums;
+}
+
+// P, B, Q of a point with the spacing h (m) and a volume (m³), whose cell is set, by the least penalty or a larger one.
+// False where its neighbors do not span space.
+bool fit_motion(const FamilySums& sums, double h, double volume, double least, QuadraticFit& fit);
+bool fit_motion(const Body& body, int i, double least, QuadraticFit& fit);
+
+// What y_j gives to F at a place of the cell of i, as a vector, 1/m: ∂F_rb/∂y_jr. `w`: ω V_j; `mu`: μ_j.
+Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Vector& xi, const Eigen::Array4d& mu,
+                      const Vector& place);
+
+}  // namespace strut

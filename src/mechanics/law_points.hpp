@@ -1,0 +1,126 @@
+// What a material point, or an integration point of its cell, keeps between steps.
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <vector>
+
+#include "base/fields.hpp"
+#include "base/math/rotation.hpp"
+#include "base/math/tensors.hpp"
+#include "base/math/tiles.hpp"
+
+namespace strut {
+
+// What only the point itself reads.
+struct MaterialPoint {
+  Tensor deformation_gradient = Tensor::Identity();  // F
+  Rotation rotation;                                 // R
+  Symmetric stress = Symmetric::Zero();              // unrotated Cauchy stress, Pa
+  double stabilization = 0;                          // C of the stabilization, Pa/m⁵
+};
+
+// The numbers of a material point, in the order of its parts.
+template <class Point>
+requires std::same_as<std::remove_const_t<Point>, MaterialPoint>
+auto& number_of(Point& point, int n) {
+  if (n < 9) return point.deformation_gradient.data()[n];
+  if (n < 15) return point.rotation.number(n - 9);
+  return n < 21 ? point.stress[n - 15] : point.stabilization;
+}
+inline std::vector<FieldPart> parts_of_material_point() {
+  return {{.name = "deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = 9},
+          {.name = "rotation", .unit = "1", .meaning = "R of F = V R, two columns", .kept = true, .width = 6},
+          {.name = "stress",
+           .unit = "Pa",
+           .meaning = "Rᵀ σ R",
+           .kept = true,
+           .variable = "Unrotated_Cauchy_Stress",
+           .width = 6},
+          {.name = "stabilization",
+           .unit = "Pa/m⁵",
+           .meaning = "C of the stabilization; none is left of a failed point",
+           .kept = true,
+           .width = 1}};
+}
+
+// The law points of quadratic correspondence in tiles: of each F by columns, the six numbers of R, the stress.
+class CellPoints {
+ public:
+  static constexpr int rotation = 9, stress = 15, size = 21;  // where they begin; all numbers
+  static std::vector<FieldPart> parts() {
+    return {{.name = "cell_deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = rotation},
+            {.name = "cell_rotation", .unit = "1", .meaning = "R", .kept = true, .width = stress - rotation},
+            {.name = "cell_stress", .unit = "Pa", .meaning = "Rᵀ σ R", .kept = true, .width = size - stress}};
+  }
+
+  void resize(std::size_t places) { numbers_.assign(places, numbers_of(MaterialPoint())); }
+  std::size_t places() const { return numbers_.size(); }
+  MaterialPoint operator[](std::size_t place) const {
+    MaterialPoint point;
+    for (int n = 0; n < size; ++n) number_of(point, n) = numbers_.at(place, n);
+    return point;
+  }
+  void set(std::size_t place, const MaterialPoint& point) {
+    const auto numbers = numbers_of(point);
+    for (int n = 0; n < size; ++n) numbers_.at(place, n) = numbers[n];
+  }
+  double& at(std::size_t place, int n) { return numbers_.at(place, n); }
+  double at(std::size_t place, int n) const { return numbers_.at(place, n); }
+  small::Tiles& tiles() { return numbers_; }
+  double bytes() const { return numbers_.bytes(); }
+
+ private:
+  static std::array<double, size> numbers_of(const MaterialPoint& point) {
+    std::array<double, size> numbers;
+    for (int n = 0; n < size; ++n) numbers[n] = number_of(point, n);
+    return numbers;
+  }
+
+  small::Tiles numbers_;
+};
+
+// What an ordinary point has besides.
+struct OrdinaryPoint {
+  double weighted_volume = 0;  // m = Σ ω |ξ|² V = tr K, m⁵
+  double dilatation = 0;       // θ
+  double energy = 0;           // W, J/m³; current after a step with diagnostics
+
+  static constexpr double OrdinaryPoint::*numbers[] = {&OrdinaryPoint::weighted_volume, &OrdinaryPoint::dilatation,
+                                                       &OrdinaryPoint::energy};
+  static std::vector<FieldPart> parts() {
+    return {{.name = "weighted_volume", .unit = "m⁵", .meaning = "m", .width = 1},
+            {.name = "dilatation", .unit = "1", .meaning = "θ", .kept = true, .width = 1},
+            {.name = "energy", .unit = "J/m³", .meaning = "W", .kept = true, .width = 1}};
+  }
+};
+
+// What the artificial viscosity of a block keeps of a point.
+struct ViscousPoint {
+  double pressure = 0;  // J q of the last step, Pa
+  double work = 0;      // taken so far, J per m³ of reference volume
+  double damping = 0;   // part of the critical damping of the fastest wave between points
+  double edge = 0;      // of a cube as large as the whole cell, of which a node on a symmetry plane has a part, m
+
+  static constexpr double ViscousPoint::*numbers[] = {&ViscousPoint::pressure, &ViscousPoint::work,
+                                                      &ViscousPoint::damping, &ViscousPoint::edge};
+  static std::vector<FieldPart> parts() {
+    return {
+        {.name = "viscous_pressure",
+         .unit = "Pa",
+         .meaning = "of the artificial viscosity, times J",
+         .kept = true,
+         .variable = "Viscous_Pressure",
+         .width = 1},
+        {.name = "viscous_work",
+         .unit = "J/m³",
+         .meaning = "what the artificial viscosity has taken",
+         .kept = true,
+         .variable = "Viscous_Work_Density",
+         .width = 1},
+        {.name = "viscous_damping", .unit = "1", .meaning = "part of the critical damping", .kept = true, .width = 1},
+        {.name = "edge", .unit = "m", .meaning = "of a cube as large as the cell", .width = 1}};
+  }
+};
+
+}  // namespace strut
