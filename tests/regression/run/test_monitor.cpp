@@ -311,6 +311,34 @@ TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
   EXPECT_EQ(outcome(folder, parts).error, "");
 }
 
+// The same by nodes, which are on the faces that meet: one on another, or a corner on a face.
+TEST(Monitor, FacesOfNodesThatPressEachOtherDoNotPass) {
+  const RunFolder folder;
+  const auto meet = [&folder](double aside, const std::string& keys) {
+    io::Mesh mesh = Lattice{4, 4, 3}.mesh();
+    io::Mesh::Block above{"block_2", "HEX8", mesh.blocks[0].nodes, {}};
+    const std::vector<Vector> below = mesh.nodes;
+    for (const Vector& X : below) mesh.nodes.push_back(X + Vector(aside, aside, 3.1e-3));
+    for (int& node : above.nodes) node += static_cast<int>(below.size());
+    mesh.blocks[0].name = "block_1";
+    mesh.blocks.push_back(above);
+    run_on_root(folder.world, [&] { io::write_mesh(folder / "two.g", mesh); });
+    Parts parts = thrown_block(section("Models", section("m", key("Contact Model", "Surface") + keys)) +
+                               section("Interactions", section("General Contact", key("Contact Model", "m"))));
+    parts.mesh_type = "Exodus", parts.mesh_file = "two.g", parts.points = "Nodes";
+    parts.conditions = along("flight", "Initial Velocity", "block_2", "z", "-20");
+    parts.watch = key("Beyond Limits", "Continue");
+    parts.times = key("Final Time", keys.empty() ? "12e-6" : "80e-6");
+    const Outcome o = outcome(folder, parts);
+    EXPECT_EQ(o.error, "");
+    return folder.world.max(o.said.find("pass through each other:") != std::string::npos ? 1.0 : 0.0) > 0;
+  };
+  for (const double aside : {0.0, 0.5e-3}) {
+    EXPECT_FALSE(meet(aside, "")) << aside;
+    EXPECT_TRUE(meet(aside, key("Stiffness Factor", "1e-7") + key("Largest Overlap", "0"))) << aside;
+  }
+}
+
 // A layer that is drawn through the others.
 TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
   const RunFolder folder;
