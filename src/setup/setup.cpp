@@ -25,6 +25,7 @@
 #include "setup/undeclared_contact.hpp"
 #include "setup/unheld_bodies.hpp"
 #include "setup/weak_contact.hpp"
+#include "setup/without_effect.hpp"
 
 namespace strut {
 
@@ -129,6 +130,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   const std::vector<contact::Interaction> interactions = add_contact(deck, scene);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   scene.highest_frequency = scale_masses(deck, scene.body, scene.warnings);
+  scene.warnings += without_effect(deck, scene.body.domain);
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
   const std::vector<Trajectory> ways = trajectories(scene, start, duration);
   scene.outline = outline(scene, ways, start, duration);
