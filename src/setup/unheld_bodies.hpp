@@ -1,4 +1,4 @@
-// Bodies of an equilibrium that nothing but contact holds.
+// Bodies of an equilibrium that nothing holds, or nothing but contact.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace strut {
 
 // Collective. A warning for each piece of a scene of equilibria that contact may push along, as neither conditions nor
-// what it is bonded to keep it from moving as a whole. Tools that touch it at `start` (s) hold it along their normals;
-// `step`: of the load, s.
+// what it is bonded to keep it from moving as a whole, or on which loads act that nothing at all holds. Tools that
+// touch it at `start` (s) hold it along their normals; `step`: of the load, s.
 std::string unheld_bodies(const Scene& scene, const std::vector<contact::Interaction>& interactions, double start,
                           double step);
 
