@@ -17,6 +17,9 @@ constexpr double least_density = 10, most_density = 30e3;         // kg/m³
 constexpr double least_wave_speed = 100, most_wave_speed = 20e3;  // m/s
 // Of the yield stress over Young's modulus: soft pure metals have some 1e-5, whiskers and polymers come near 0.1.
 constexpr double least_yield = 1e-7, most_yield = 0.1;
+// Of what metals harden by until a plastic strain of 1, over the yield stress: 1 of 50 MPa at least, if any.
+constexpr double least_hardening = 1e-4;
+constexpr double least_heat = 20, most_heat = 20e3;  // J/(kg K): gold has 130, water 4200
 // What is smaller has few atoms across; what is larger is no specimen. From `long_for_waves` on a wave should come
 // through it in the run: of lengths in mm that are taken for m it is a thousandth of the way.
 constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
@@ -34,6 +37,22 @@ double yield_ratio(const BlockMaterial& material) {
         const materials::Moduli moduli = law.moduli();
         const double E = 9 * moduli.bulk * moduli.shear / (3 * moduli.bulk + moduli.shear);
         return law.flow_stress(materials::virgin_state_of(law)) / E;
+      },
+      material.law);
+}
+
+// By how much the flow stress rises until a plastic strain of 1, over that of the undeformed material; 0 where that is
+// not told by the plastic strain alone.
+double hardening(const BlockMaterial& material) {
+  return std::visit(
+      []<class L>(const L& law) {
+        if constexpr (requires(typename L::State state) { state.equivalent_plastic_strain; }) {
+          typename L::State state = materials::virgin_state_of(law);
+          const double yield = law.flow_stress(state);
+          state.equivalent_plastic_strain = 1;
+          return law.flow_stress(state) / yield - 1;
+        }
+        return 0.0;
       },
       material.law);
 }
@@ -101,6 +120,11 @@ std::string improbable_materials(const Situation& situation) {
       text << "WARNING: block '" << block.name << "' yields at " << yield
            << " of its Young's modulus; solids have 1e-7 to 0.1: are both in Pa (50 MPa are 50e6)?\n";
     }
+    const double hardens = hardening(block.material);
+    if (hardens > 1e-12 && hardens < least_hardening) {
+      text << "WARNING: block '" << block.name << "' hardens by " << hardens
+           << " of its yield stress until a plastic strain of 1, which is nothing: are both in Pa (50 MPa are 50e6)?\n";
+    }
   }
   return text.str();
 }
@@ -117,11 +141,43 @@ const materials::ThermalJ2* hot_metal(const materials::AnyLaw& law) {
   return std::visit(metal_of, law);
 }
 
+const materials::JohnsonCookSoftening* softening_of(const materials::ThermalJ2& metal) {
+  const auto* flow = std::get_if<materials::SoftenedFlow>(&metal.flow);
+  return flow ? std::get_if<materials::JohnsonCookSoftening>(&flow->softening) : nullptr;
+}
+
 // Below it a metal does not soften; not finite where no law has such a limit, K.
 double reference_temperature(const materials::ThermalJ2& metal) {
-  const auto* flow = std::get_if<materials::SoftenedFlow>(&metal.flow);
-  const auto* softening = flow ? std::get_if<materials::JohnsonCookSoftening>(&flow->softening) : nullptr;
+  const materials::JohnsonCookSoftening* softening = softening_of(metal);
   return softening ? softening->reference : -std::numeric_limits<double>::infinity();
+}
+
+// By what a ductile metal fails, or nullptr.
+const materials::JohnsonCookFailure* failure_of(const materials::AnyLaw& law) {
+  return std::visit(
+      []<class L>(const L& one) -> const materials::JohnsonCookFailure* {
+        if constexpr (requires { one.ductility; })
+          return std::get_if<materials::JohnsonCookFailure>(&one.ductility.criterion);
+        return nullptr;
+      },
+      law);
+}
+
+// T* of softening and that of failure are of one metal.
+std::string two_temperature_scales(const MaterialBlock& block, const materials::ThermalJ2& metal) {
+  constexpr double differs = 0.05;
+  const materials::JohnsonCookFailure* failure = failure_of(block.material.law);
+  const materials::JohnsonCookSoftening* softening = softening_of(metal);
+  if (!failure || !softening || failure->constants[4] == 0) return "";
+  const double span = softening->melting - softening->reference;
+  if (std::abs(failure->room - softening->reference) <= differs * span &&
+      std::abs(failure->melting - softening->melting) <= differs * span)
+    return "";
+  std::ostringstream text;
+  text << "WARNING: block '" << block.name << "' softens between a Reference Temperature of " << softening->reference
+       << " K and a Melting Temperature of " << softening->melting << " K, and D5 of its Damage Model acts between "
+       << failure->room << " and " << failure->melting << " K: they are of one metal; expected the same\n";
+  return text.str();
 }
 
 double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
@@ -152,6 +208,28 @@ std::string improbable_temperatures(const Situation& situation) {
       text << begins << initial << " K, below the Reference Temperature of " << reference
            << " K at which its softening begins: its flow stress is that at the reference\n";
     }
+    const std::string block_begins = "WARNING: block '" + block.name + "'";
+    if (std::isfinite(reference) && reference < cold && initial >= cold) {
+      text << block_begins << " softens from a Reference Temperature of " << reference << " K on, which is "
+           << reference - 273.15 << " °C; at its Initial Temperature of " << initial << " K it has "
+           << flow_stress_at(*metal, initial) / flow_stress_at(*metal, reference)
+           << " of its flow stress: are both in K (20 °C are 293 K)?\n";
+    }
+    const double heat = metal->heating.capacity / block.material.density;
+    if (heat > 0 && !(heat >= least_heat && heat <= most_heat)) {
+      text << block_begins << " has a Specific Heat of " << heat
+           << " J/(kg K); solids have 100 to 5,000: is it in J/(kg K) (0.383 kJ/(kg K) are 383)?\n";
+    }
+    if (metal->shear_fall > 0 && metal->shear_reference < cold) {
+      text << block_begins << " has its elastic constants at a Shear Modulus Temperature of " << metal->shear_reference
+           << " K, which is " << metal->shear_reference - 273.15 << " °C: is it in K (20 °C are 293 K)?\n";
+    }
+    if (metal->moduli().shear <= (1 + 1e-9) * materials::ThermalJ2::least_shear * metal->shear) {
+      text << block_begins << " has a tenth of its shear modulus at " << initial
+           << " K, below which it does not fall; are Shear Modulus Slope (1/K) and Shear Modulus Temperature as "
+              "meant?\n";
+    }
+    text << two_temperature_scales(block, *metal);
   }
   return text.str();
 }

@@ -1,10 +1,13 @@
 #include "advice/overlaps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
 #include "contact/passing.hpp"
+#include "points/nearby_ranks.hpp"
+#include "points/neighbors/cell_grid.hpp"
 #include "setup/found_points.hpp"
 
 namespace strut {
@@ -16,16 +19,66 @@ namespace {
 constexpr double crowded = 1.65;
 constexpr double least_horizon = 1.5;  // edges of a cube of the point's volume
 
-bool is_crowded(const Domain& domain, int i) {
-  const double volume = domain.volume(i), horizon = domain.horizon(i);
-  if (domain.families.lattice(i) || horizon < least_horizon * std::cbrt(volume)) return false;
-  return volume + family_volume(domain, i) > crowded * 4 * std::numbers::pi / 3 * horizon * horizon * horizon;
+// A point as it travels to other ranks.
+struct Grain {
+  double place[3], volume;
+  std::int64_t body;
+};
+
+std::int64_t body_of(const Domain& domain, int i) { return domain.blocks[domain.cloud.blocks[i]].body; }
+
+// Collective. Of owned points the volume of their bodies within the horizon, themselves included, bonded or not.
+std::vector<double> volumes_within_horizons(const Domain& domain) {
+  std::vector<Vector> places;
+  std::vector<Grain> grains;
+  Eigen::AlignedBox3d mine;
+  double reach = 0;
+  for (int i = 0; i < domain.owned; ++i) {
+    const Vector X = domain.reference(i);
+    places.push_back(X);
+    grains.push_back({{X[0], X[1], X[2]}, domain.volume(i), body_of(domain, i)});
+    mine.extend(X);
+    reach = std::max(reach, domain.horizon(i));
+  }
+  reach = domain.communicator.max(reach);
+  for (const Grain& one : from_nearby_ranks(mine, places, std::span<const Grain>(grains), reach, domain.communicator)) {
+    places.emplace_back(one.place[0], one.place[1], one.place[2]);
+    grains.push_back(one);
+  }
+  const CellGrid grid(places, reach);
+  std::vector<double> volumes(domain.owned, 0);
+  for (int i = 0; i < domain.owned; ++i) {
+    const double horizon = domain.horizon(i);
+    grid.visit_near(places[i], [&](int j, const Vector& y) {
+      const bool is_within = (y - places[i]).squaredNorm() < horizon * horizon;
+      if (is_within && grains[j].body == grains[i].body) volumes[i] += grains[j].volume;
+    });
+  }
+  return volumes;
 }
 
-std::string crowds(const Body& body) {
+bool is_crowded(const Domain& domain, int i, double volume_within) {
+  const double horizon = domain.horizon(i);
+  if (horizon < least_horizon * std::cbrt(domain.volume(i))) return false;
+  return volume_within > crowded * 4 * std::numbers::pi / 3 * horizon * horizon * horizon;
+}
+
+// Where a body is of several pieces, bonds through material may leave out what is at one place; else families tell.
+bool has_pieces(const Domain& domain, std::int64_t pieces) {
+  std::int64_t bodies = 0;
+  for (const BlockHorizons& block : domain.blocks) bodies = std::max<std::int64_t>(bodies, block.body + 1);
+  return pieces > bodies;
+}
+
+std::string crowds(const Body& body, std::int64_t pieces) {
+  const Domain& domain = body.domain;
+  std::vector<double> volumes;
+  if (has_pieces(domain, pieces)) volumes = volumes_within_horizons(domain);
   std::vector<int> points;
   for (int i = 0; i < body.owned(); ++i) {
-    if (is_crowded(body.domain, i)) points.push_back(i);
+    if (domain.families.lattice(i)) continue;
+    if (is_crowded(domain, i, volumes.empty() ? domain.volume(i) + family_volume(domain, i) : volumes[i]))
+      points.push_back(i);
   }
   const FoundPoints found = found_points(body, {points})[0];
   if (found.count == 0) return "";
@@ -42,7 +95,7 @@ std::string overlaps(const Situation& situation) {
   const Body& body = situation.scene.body;
   const Domain& domain = body.domain;
   std::ostringstream text;
-  text << crowds(body);
+  text << crowds(body, situation.scene.pieces);
   for (const auto& [first, second, points] : contact::overlapping_blocks(domain)) {
     const FoundPoints found = found_points(body, {points})[0];
     if (found.count == 0) continue;

@@ -7,8 +7,8 @@
 
 namespace strut {
 
-// Collective. Warnings: of bonded points around which there is more material than fits, and of blocks of different
-// bodies that lie inside each other. Points at one place are an error before (topology/coincident.hpp).
+// Collective. Warnings: of points around which a body has more material than fits, and of blocks of different bodies
+// that lie inside each other. Points at one place are an error before (topology/coincident.hpp).
 std::string overlaps(const Situation& situation);
 
 }  // namespace strut

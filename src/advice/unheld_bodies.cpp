@@ -27,6 +27,7 @@ constexpr std::size_t most_lines = 3;  // a scan may have many loose pieces
 
 struct Piece {
   std::vector<double> of_block;  // how many of its points are of each
+  double loaded = 0;             // on how many of its points a Body Force acts
   Vector middle = Vector::Zero();
   Tensor moments = Tensor::Zero();  // Σ |r|² 1 − r⊗r over its points, m²
   double radius = 0;                // of gyration, m
@@ -150,7 +151,16 @@ void hold(const Scene& scene, double start, double step, Pieces& pieces) {
   }
   hold_by_images(domain, pieces);
   hold_by_tools(scene, start, pieces);
-  sum(domain.communicator, pieces.all, [](Piece& piece) { return numbers_in(piece.holds); });
+  scene.conditions.visit([&]<class One>(const One& one) {
+    if constexpr (std::is_same_v<One, BodyForce>) {
+      for (const int i : one.points) ++pieces.all[pieces.of[i]].loaded;
+    }
+  });
+  sum(domain.communicator, pieces.all, [](Piece& piece) {
+    std::vector<double*> numbers = numbers_in(piece.holds);
+    numbers.push_back(&piece.loaded);
+    return numbers;
+  });
 }
 
 // Of each block, how many pieces have points of it.
@@ -225,7 +235,9 @@ std::string name_of(const Piece& piece, const Domain& domain, const std::vector<
 
 std::string unheld_bodies(const Situation& situation) {
   const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
-  if (interactions.empty() || !scene.quasi_static) return "";
+  if (!scene.quasi_static) return "";
+  const bool any_tools = !tools_of(scene.conditions).empty();
+  if (interactions.empty() && any_tools) return "";
   const Domain& domain = scene.body.domain;
   Pieces pieces = pieces_of(domain);
   hold(scene, start, duration / scene.quasi_static->load_steps, pieces);
@@ -238,15 +250,26 @@ std::string unheld_bodies(const Situation& situation) {
   std::size_t found = 0;
   for (std::size_t p = 0; p < pieces.all.size(); ++p) {
     const std::string free = freedom(pieces.all[p].holds);
-    if (free.empty() || !may_be_pushed(pieces.all[p], counts, interactions) || ++found > most_lines) continue;
+    const bool is_pushed = may_be_pushed(pieces.all[p], counts, interactions);
+    const bool by_nothing = !is_pushed && !any_tools && free == "it" && pieces.all[p].loaded > 0;
+    if (free.empty() || !(is_pushed || by_nothing) || ++found > most_lines) continue;
+    const std::string name = name_of(pieces.all[p], domain, points_of_blocks);
+    if (by_nothing) {
+      text << "WARNING: " << name << ": nothing holds it in these equilibria, and loads act: where they are not in "
+           << "balance there is no equilibrium, else it rests anywhere; expected a Prescribed Displacement or a "
+              "Symmetry Plane that "
+           << "holds it, or Verlet for a body that flies\n";
+      continue;
+    }
     text
-        << "WARNING: " << name_of(pieces.all[p], domain, points_of_blocks) << ": only contact and friction hold "
-        << free << " in these equilibria; where they do not press it from both sides it is pushed along, and rests "
+        << "WARNING: " << name << ": only contact and friction hold " << free
+        << " in these equilibria; where they do not press it from both sides it is pushed along, and rests "
         << "anywhere short of a force; expected a Prescribed Displacement or a Symmetry Plane that holds it, or Verlet "
         << "for a body that flies\n";
   }
   if (found > most_lines) {
-    text << "WARNING: only contact and friction hold " << found - most_lines << " more pieces in these equilibria\n";
+    text << "WARNING: nothing, or only contact and friction, holds " << found - most_lines
+         << " more pieces in these equilibria\n";
   }
   return text.str();
 }

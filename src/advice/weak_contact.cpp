@@ -114,6 +114,19 @@ std::string gap(const contact::Law& law, const Side& a, const Side& b) {
   return text.str();
 }
 
+std::string of_blocks(const Side& a, const Side& b) { return "contact of blocks " + a.name + " and " + b.name; }
+
+// Points of another body that are farther than a few spacings push as well, as if they touched.
+std::string far_reach(const contact::Law& law, const Side& a, const Side& b) {
+  constexpr double far = 3;
+  const double spacing = std::max(a.spacing, b.spacing), radius = contact::radius_of(law);
+  if (std::holds_alternative<contact::SurfaceLaw>(law) || radius <= far * spacing) return "";
+  std::ostringstream text;
+  text << of_blocks(a, b) << ": Contact Radius " << radius << " m is " << radius / spacing << " spacings of " << spacing
+       << " m: bodies push each other from so far; a spacing is a good choice (is it in m?)";
+  return text.str();
+}
+
 std::string remedy(const contact::Law& law, const Side& a, const Side& b, double times) {
   const std::string slips = gap(law, a, b);
   if (!slips.empty()) return slips;
@@ -124,8 +137,6 @@ std::string remedy(const contact::Law& law, const Side& a, const Side& b, double
        << times << " times as large";
   return text.str();
 }
-
-std::string of_blocks(const Side& a, const Side& b) { return "contact of blocks " + a.name + " and " + b.name; }
 
 // What is wrong with the strength of contact; `surely`: whether it can hold nothing.
 std::string weakness(const contact::Law& law, const Side& a, const Side& b, const Approach& speed, bool& surely) {
@@ -156,9 +167,24 @@ double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side
   return spring / std::max(a.modulus * a.spacing, b.modulus * b.spacing);
 }
 
+// The first step of a touch is as long as those before it: (ω Δt)²/4 of the energy, ω of the contact.
+std::string stiffness_of_first_touches(const contact::SurfaceLaw& law, const Side& a, const Side& b) {
+  constexpr double much = 1;
+  if (law.factor < much) return "";
+  std::ostringstream text;
+  text
+      << of_blocks(a, b) << " has a Stiffness Factor of " << law.factor
+      << ": the step does not foresee how stiff a touch of surfaces will be, so that each first touch may cost or give "
+         "some percent of the energy of the impact (1 % with 1, the more the stiffer); expected 0.25, or what is below "
+         "1";
+  return text.str();
+}
+
 // Where points meet at the pace of contact, not of the bodies, a touch lasts a step or two, which see little of it.
 std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, const Side& b) {
   constexpr double much = 10;
+  if (const auto* of_surfaces = std::get_if<contact::SurfaceLaw>(&law))
+    return stiffness_of_first_touches(*of_surfaces, a, b);
   const auto* of_points = std::get_if<contact::PairLaw>(&law);
   const double ratio = of_points ? relative_stiffness(*of_points, a, b) : 0;
   if (!(ratio > much)) return "";
@@ -225,6 +251,7 @@ std::string weak_contacts(const Situation& situation) {
       text = weakness(model.law, a, b, approach(trajectories[first], trajectories[second], duration), surely);
     if (surely && deck.watch.stops && !may_be_stopped(scene, interactions, first, second))
       problems.add("Contact", text);
+    if (text.empty()) text = far_reach(model.law, a, b);
     if (text.empty() && !scene.quasi_static) text = stiffness_of_short_touches(model.law, a, b);
     const std::string slips = gap(model.law, a, b);
     if (text.empty() && !slips.empty()) text = of_blocks(a, b) + ": " + slips;

@@ -78,12 +78,13 @@ Changes changes(const std::string& before, const std::string& now) {
   for (const auto& [path, text] : old_texts) paths.insert(path);
   for (const auto& [path, text] : new_texts) paths.insert(path);
   Changes changes;
-  std::string whole;  // a section that one of both has: its keys follow, and are not named
+  std::string whole;  // a section that one of both has: its keys follow, and only what is refused in it is named
   for (const std::string& path : paths) {
     const std::string was = text_at(old_texts, path), is = text_at(new_texts, path);
-    if (was == is || (!whole.empty() && is_within(path, whole))) continue;
-    whole = was == section_text || is == section_text ? path : "";
-    auto& kind = is_accepted(path, old_texts, new_texts)                ? changes.accepted
+    const bool accepted = is_accepted(path, old_texts, new_texts), within = !whole.empty() && is_within(path, whole);
+    if (was == is || (within && (accepted || !is_accepted(whole, old_texts, new_texts)))) continue;
+    if (!within) whole = was == section_text || is == section_text ? path : "";
+    auto& kind = accepted                                               ? changes.accepted
                  : is_load(path, old_texts) && is_load(path, new_texts) ? changes.loads
                                                                         : changes.refused;
     kind.push_back(path + ": " + was + " before, " + is + " now");

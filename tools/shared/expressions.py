@@ -8,6 +8,7 @@ import numpy as np
 
 DEEPEST = 100  # brackets, signs and blocks within each other
 RANKS = {"||": 0, "&&": 1, "==": 2, "!=": 2, "<=": 3, ">=": 3, "<": 3, ">": 3, "+": 4, "-": 4, "*": 5, "/": 5}
+COMPARISONS = {"==", "!=", "<=", ">=", "<", ">"}
 OPERATIONS = {"||": lambda a, b: float(a != 0 or b != 0), "&&": lambda a, b: float(a != 0 and b != 0),
               "==": np.equal, "!=": np.not_equal, "<=": np.less_equal, ">=": np.greater_equal, "<": np.less,
               ">": np.greater, "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": np.power}
@@ -182,9 +183,12 @@ class Parser:
     # ---- expressions: functions that return a number
 
     def binary(self, rank):
-        first, others = self.within(self.power), []
+        first, others, compared = self.within(self.power), [], set()
         while RANKS.get(self.coming(), -1) >= rank:
             token = self.coming()
+            if token in COMPARISONS and RANKS[token] in compared:
+                raise NoExpression("write a < b && b < c for a < b < c")
+            compared.add(RANKS[token])
             self.at += 1
             others.append((OPERATIONS[token], self.binary(RANKS[token] + 1)))
         return chained(first, others) if others else first

@@ -28,7 +28,7 @@ constexpr Operator operators[] = {
     {"!=", Do::different, 2}, {"<=", Do::less_or_equal, 3}, {">=", Do::greater_or_equal, 3},
     {"<", Do::less, 3},       {">", Do::greater, 3},        {"+", Do::add, 4},
     {"-", Do::subtract, 4},   {"*", Do::multiply, 5},       {"/", Do::divide, 5}};
-constexpr int ranks = 6;
+constexpr int rank_of_equality = 2, rank_of_order = 3, ranks = 6;
 
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool in_name(char c) { return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -231,7 +231,9 @@ class ExpressionParser {
   void binary(int rank) {
     if (rank == ranks) return power();
     binary(rank + 1);
-    while (const Operator* one = coming_operator(rank)) {
+    for (bool first = true; const Operator* one = coming_operator(rank); first = false) {
+      // A comparison gives 1 or 0, and that is hardly what the next one is meant to compare.
+      if (!first && (rank == rank_of_order || rank == rank_of_equality)) fail("write a < b && b < c for a < b < c");
       take(one->text);
       binary(rank + 1);
       emit(one->what);

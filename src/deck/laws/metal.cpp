@@ -1,5 +1,8 @@
 #include "deck/laws/metal.hpp"
 
+#include <cmath>
+#include <sstream>
+
 #include "deck/laws/constants.hpp"
 #include "deck/laws/flow_stress.hpp"
 #include "deck/laws/one_of.hpp"
@@ -77,6 +80,17 @@ Heating make_heating(const Values& material) {
   return {.capacity = read_density(material) * section[specific_heat], .plastic_share = section[plastic_share]};
 }
 
+// The elastic constants have one, too: of these the shear modulus alone counts.
+void note_two_bulk_moduli(const Values& material, double elastic, double of_equation, Problems& problems) {
+  constexpr double differs = 0.25;  // what is measured statically and by shocks differs by some percent
+  if (std::abs(of_equation - elastic) <= differs * elastic) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << "has a bulk modulus of " << of_equation << " Pa, the elastic constants one of " << elastic
+       << " Pa, which does not count: are they of one metal?";
+  problems.note("WARNING: " + material.section(equation_name).path(), text.str());
+}
+
 bool is_thermal(const Values& material) {
   return has_thermal_flow(material) || material.has_section(heating_name) || material[shear_fall] > 0;
 }
@@ -114,6 +128,7 @@ AnyLaw make_metal(const Values& material, Problems& problems) {
                   .shear_reference = material[shear_reference]};
   if (!equation) return metal;
   metal.bulk = std::visit([](const auto& law) { return law.bulk(); }, *equation);
+  note_two_bulk_moduli(material, moduli.bulk, metal.bulk, problems);
   return ShockJ2{metal, *equation};
 }
 

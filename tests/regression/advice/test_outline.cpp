@@ -108,6 +108,95 @@ TEST(Improbable, InitialTemperaturesOfAMeltOrInCelsiusAreWarnedOf) {
     EXPECT_EQ(told_at(usual).find("WARNING"), std::string::npos) << usual;
 }
 
+// Copper of 90 MPa, whatever further keys say, at the temperature of the start.
+std::string told_of_copper(const std::string& keys, const std::string& of_block = "",
+                           const std::string& sections = "") {
+  Parts parts = flying();
+  parts.materials = copper(key("Yield Stress", "90e6") + keys);
+  parts.blocks =
+      section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") + of_block);
+  const RunFolder folder;
+  const std::string text = changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + sections);
+  return describe_scene(set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world));
+}
+
+// T* = (293 - 25)/(1083 - 25) = 0.2533: θ = 0.7467.
+TEST(Improbable, TemperaturesOfAMaterialInCelsiusAreWarnedOf) {
+  const auto softening = [](const std::string& from, const std::string& to) {
+    return section("Softening", key("Type", "Johnson-Cook") + key("Reference Temperature", from) +
+                                    key("Melting Temperature", to) + key("Exponent", "1"));
+  };
+  expect_told(
+      told_of_copper(softening("25", "1083")),
+      {"softens from a Reference Temperature of 25 K on, which is -248.1 °C", "293 K it has 0.7467 of its flow"});
+  EXPECT_EQ(told_of_copper(softening("298", "1356")).find("WARNING"), std::string::npos);
+  const std::string slope = key("Shear Modulus Slope", "4e-4");
+  expect_told(told_of_copper(slope + key("Shear Modulus Temperature", "20")),
+              {"Shear Modulus Temperature of 20 K, which"});
+  EXPECT_EQ(told_of_copper(slope).find("WARNING"), std::string::npos);
+  expect_told(told_of_copper(key("Shear Modulus Slope", "4e-3"), key("Initial Temperature", "800")),
+              {"has a tenth of its shear modulus at 800 K"});
+  const auto failing = [&](const std::string& from, const std::string& to) {
+    return told_of_copper(
+        softening("298", "1356"), key("Damage Model", "f"),
+        section("Damage Models",
+                section("f", key("Damage Model", "Johnson-Cook") + key("D1", "0.54") + key("D2", "4.89") +
+                                 key("D3", "-3.03") + key("D5", "1.12") + key("Reference Temperature", from) +
+                                 key("Melting Temperature", to))));
+  };
+  expect_told(failing("298", "933"),
+              {"Melting Temperature of 1356 K, and D5 of its Damage Model acts between 298 and 933"});
+  EXPECT_EQ(failing("298", "1356").find("D5"), std::string::npos);
+}
+
+TEST(Improbable, HeatsAndHardeningInOtherUnitsAreWarnedOf) {
+  const auto heating = [](const std::string& heat) { return section("Heating", key("Specific Heat", heat)); };
+  expect_told(told_of_copper(heating("0.383")), {"has a Specific Heat of 0.383 J/(kg K)"});
+  EXPECT_EQ(told_of_copper(heating("383")).find("WARNING"), std::string::npos);
+  const auto hardening = [](const std::string& modulus) {
+    return section("Hardening", key("Type", "Linear") + key("Hardening Modulus", modulus));
+  };
+  expect_told(told_of_copper(hardening("900")), {"hardens by 1e-05 of its yield stress until a plastic strain of 1"});
+  for (const char* usual : {"0", "90e6"})
+    EXPECT_EQ(told_of_copper(hardening(usual)).find("WARNING"), std::string::npos) << usual;
+}
+
+// 8930 kg/m³ times the squares of 3940 and 6000 m/s are 138.6 and 321.5 GPa; K of the elastic constants is 130 GPa.
+TEST(Improbable, BulkModuliThatDifferAreWarnedOf) {
+  const auto equation = [](const std::string& speed) {
+    return section("Equation of State", key("Type", "Mie-Gruneisen") + key("Sound Speed", speed) +
+                                            key("Hugoniot Slope", "1.49") + key("Gruneisen Parameter", "2"));
+  };
+  expect_told(told_of_copper(equation("6000")),
+              {"Equation of State has a bulk modulus of 3.215e+11 Pa, the elastic constants one of 1.3e+11 Pa"});
+  EXPECT_EQ(told_of_copper(equation("3940")).find("WARNING"), std::string::npos);
+}
+
+// The bar is 4 x 4 x 6 mm.
+TEST(WithoutEffect, CracksModelsAndSetsThatChangeNothingAreToldOf) {
+  const auto disk = [](const std::string& z) {
+    std::string keys = key("Type", "Disk") + key("Radius", "1") + key("Center_Z", z);
+    for (const char* zero : {"Normal_X", "Normal_Y", "Center_X", "Center_Y"}) keys += key(zero, "0");
+    return section("crack" + z, keys + key("Normal_Z", "1"));
+  };
+  const auto told_with = [&](const std::string& cracks, const std::string& set) {
+    Parts parts = flying();
+    parts.node_sets = key("part", set);
+    const RunFolder folder;
+    const std::string models = section(
+        "Damage Models", section("tears", key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.1")));
+    std::string text = changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + models);
+    text = changed(text, "<ParameterList name=\"Discretization\">",
+                   "<ParameterList name=\"Discretization\">" + section("Bond Filters", cracks));
+    return describe_scene(set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world));
+  };
+  const std::string told = told_with(disk("3e-3") + disk("3"), "z &lt; 3");
+  expect_told(told, {"Damage Models > tears: no section of Blocks names it",
+                     "the crack around (0, 0, 3) m cuts no bond", "Node Sets > part: holds all points"});
+  EXPECT_EQ(told.find("(0, 0, 0.003) m cuts"), std::string::npos) << told;
+  EXPECT_EQ(told_with(disk("3e-3"), "z &lt; 3e-3").find("holds all"), std::string::npos);
+}
+
 std::string told_of_cubes(double spacing, const std::string& final_time) {
   const RunFolder folder;
   Parts parts = flying();

@@ -35,6 +35,27 @@ TEST(Overlaps, OfBondedBlocksAreTold) {
   }
 }
 
+// Hexahedra that share no nodes: bonds run through material, so neither is bonded to the other.
+TEST(Overlaps, OfPiecesOfABodyThatAreNotBondedAreTold) {
+  const auto told = [](double apart) {
+    const RunFolder folder;
+    io::Mesh mesh = Lattice{5, 5, 5}.mesh();
+    const std::vector<Vector> once = mesh.nodes;
+    std::vector<int>& elements = mesh.blocks[0].nodes;
+    const std::vector<int> of_one = elements;
+    for (const Vector& X : once) mesh.nodes.push_back(X + Vector::Constant(apart));
+    for (const int node : of_one) elements.push_back(node + static_cast<int>(once.size()));
+    run_on_root(folder.world, [&] { io::write_mesh(folder / "bar.g", mesh); });
+    Parts parts;
+    parts.materials = changed(copper(), key("Density", "8930"),
+                              key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
+    return set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+  };
+  for (const double apart : {0.5e-3, 1.3e-3})
+    EXPECT_NE(told(apart).find("times as much material as fits"), std::string::npos) << apart;
+  for (const double apart : {5e-3, 5.1e-3}) EXPECT_EQ(told(apart).find("as much material"), std::string::npos) << apart;
+}
+
 TEST(Overlaps, OfSeparateBodiesAreTold) {
   for (const double apart : {0.3e-3, 0.5e-3, 1.3e-3}) {
     EXPECT_NE(warnings(apart, true, "").find("points of the blocks 'block_1' and 'block_2', one of them at"),

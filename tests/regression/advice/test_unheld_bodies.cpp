@@ -84,6 +84,23 @@ TEST(UnheldBodies, AreHeldByTheirMirrorImages) {
   EXPECT_EQ(told(folder, parts_with(held("left", "yz"))), "");
 }
 
+// Weight that nothing bears has no equilibrium; what conditions or a tool may bear is not told of.
+TEST(UnheldBodies, OnWhichLoadsActAreToldOf) {
+  const RunFolder folder;
+  const auto told_of = [&folder](const std::string& conditions) {
+    Parts parts;
+    parts.conditions = conditions;
+    parts.times = key("Final Time", "1");
+    parts.verlet = key("Number of Load Steps", "2");
+    return told(folder, parts);
+  };
+  const std::string weight = along("weight", "Body Force", "all", "z", "-1e4");
+  EXPECT_EQ(told_of(weight), "bar: nothing holds it\n");
+  EXPECT_EQ(told_of(weight + held("foot", "z")), "");
+  EXPECT_EQ(told_of(weight + plane("floor", "Rigid Plane", "all", "0 0 0", "0 0 1")), "");
+  EXPECT_EQ(told_of(held("foot", "z")), "");
+}
+
 // Loose pieces of one block, which another may push.
 TEST(UnheldBodies, MayBePiecesOfABlock) {
   const RunFolder folder;

@@ -311,6 +311,57 @@ TEST(Monitor, BodiesThatPressEachOtherDoNotPass) {
   EXPECT_EQ(outcome(folder, parts).error, "");
 }
 
+// Two blocks of 4 x 4 x 3 cells whose nodes are the points; the upper one, a gap above, is thrown along an axis.
+Parts thrown_nodes(const RunFolder& folder, double aside, double gap, const std::string& axis,
+                   const std::string& contact) {
+  io::Mesh mesh = Lattice{4, 4, 3}.mesh();
+  io::Mesh::Block above{"block_2", "HEX8", mesh.blocks[0].nodes, {}};
+  const std::vector<Vector> below = mesh.nodes;
+  for (const Vector& X : below) mesh.nodes.push_back(X + Vector(aside, aside, 3e-3 + gap));
+  for (int& node : above.nodes) node += static_cast<int>(below.size());
+  mesh.blocks[0].name = "block_1";
+  mesh.blocks.push_back(above);
+  run_on_root(folder.world, [&] { io::write_mesh(folder / "two.g", mesh); });
+  Parts parts = thrown_block(contact);
+  parts.mesh_type = "Exodus", parts.mesh_file = "two.g", parts.points = "Nodes";
+  parts.conditions = along("flight", "Initial Velocity", "block_2", axis, "-20");
+  parts.watch = key("Beyond Limits", "Continue");
+  return parts;
+}
+
+bool passes_through(const RunFolder& folder, Parts parts, const std::string& final_time) {
+  parts.times = key("Final Time", final_time);
+  const Outcome o = outcome(folder, parts);
+  EXPECT_EQ(o.error, "");
+  return folder.world.max(o.said.find("pass through each other") != std::string::npos &&
+                                  o.said.find("WARNING: at t = ") != std::string::npos
+                              ? 1.0
+                              : 0.0) > 0;
+}
+
+// Nodes are on the faces that meet: one on another, or a corner on a face.
+TEST(Monitor, FacesOfNodesThatPressEachOtherDoNotPass) {
+  const RunFolder folder;
+  const auto contact = [](const std::string& keys) {
+    return section("Models", section("m", key("Contact Model", "Surface") + keys)) +
+           section("Interactions", section("General Contact", key("Contact Model", "m")));
+  };
+  const std::string soft = key("Stiffness Factor", "1e-7") + key("Largest Overlap", "0");
+  for (const double aside : {0.0, 0.5e-3}) {
+    EXPECT_FALSE(passes_through(folder, thrown_nodes(folder, aside, 1e-4, "z", contact("")), "12e-6")) << aside;
+    EXPECT_TRUE(passes_through(folder, thrown_nodes(folder, aside, 1e-4, "z", contact(soft)), "80e-6")) << aside;
+  }
+}
+
+// By half a spacing at the most, along each other or towards each other, and off the edge of the other one.
+TEST(Monitor, FacesOfNodesThatOnlyComeNearDoNotPass) {
+  const RunFolder folder;
+  EXPECT_FALSE(passes_through(folder, thrown_nodes(folder, 0, 1e-3, "z", ""), "40e-6"));
+  EXPECT_TRUE(passes_through(folder, thrown_nodes(folder, 0, 1e-3, "z", ""), "60e-6"));
+  for (const double gap : {0.1e-3, 0.3e-3})
+    EXPECT_FALSE(passes_through(folder, thrown_nodes(folder, 0, gap, "x", ""), "220e-6")) << gap;
+}
+
 // A layer that is drawn through the others.
 TEST(Monitor, InvertedPointsGoOnAsMassesWhereTheDeckSaysSo) {
   const RunFolder folder;

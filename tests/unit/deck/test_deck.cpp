@@ -661,6 +661,22 @@ TEST(Changes, AWholeSectionIsNamedOnce) {
             std::vector<std::string>{"Boundary Conditions > pull: a section before, not there now"});
 }
 
+// Steps may change, masses may not.
+TEST(Changes, OfMassesWithinASectionOfStepsAreRefused) {
+  const std::size_t begin = full_deck.find("<ParameterList name=\"Verlet\">");
+  const std::size_t end = full_deck.find("</ParameterList>", begin);
+  std::string without = full_deck, scaled = full_deck;
+  without.erase(begin, end + 16 - begin);
+  scaled.replace(begin, end - begin,
+                 R"(<ParameterList name="Verlet"><Parameter name="Mass Scaling dt" type="double" value="1e-7"/>)");
+  const Changes more = changes(without, scaled);
+  EXPECT_EQ(more.accepted, std::vector<std::string>{"Solver > Verlet: not there before, a section now"});
+  EXPECT_EQ(more.refused, std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: not there before, 1e-07 now"});
+  EXPECT_EQ(changes(scaled, without).refused,
+            std::vector<std::string>{"Solver > Verlet > Mass Scaling dt: 1e-07 before, not there now"});
+  EXPECT_TRUE(changes(without, full_deck).refused.empty());
+}
+
 // A default that is written down is none; a key that goes back to its default is one.
 TEST(Changes, AreOfValuesNotOfKeys) {
   const std::string damping = R"(<Parameter name="Stabilization Coefficient" type="double" value="0.05"/>)";
