@@ -6,9 +6,11 @@
 #include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "mechanics/formulation/quadratic_fit.hpp"
+#include "mechanics/formulation/steepness.hpp"
 #include "points/partition.hpp"
 #include "setup/blocks.hpp"
 #include "setup/dropped.hpp"
+#include "setup/found_points.hpp"
 
 namespace strut {
 
@@ -86,6 +88,31 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
       raise_together(communicator, "Discretization > Degenerate Points: no point is left after dropping");
     }
   }
+}
+
+// By the mean gradient; ordinary points have no F, and quadratic cells a penalty.
+std::string flat_families(const Body& body) {
+  constexpr double very_flat = 20;  // `flatness`: a tenth of a spacing thick; two layers have 1.3
+  std::vector<std::vector<int>> flat(body.blocks.size());
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    for (const int i : body.blocks[b].points) {
+      if (body.blocks[b].is_ordinary() || body.blocks[b].is_quadratic()) break;
+      const LatticeFamilies* stencil = body.domain.families.lattice(i);
+      if (stencil && stencil->spans_space(i)) continue;
+      if (flatness(body.domain, i) > very_flat) flat[b].push_back(i);
+    }
+  }
+  const std::vector<FoundPoints> found = found_points(body, flat);
+  std::ostringstream text;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b].count == 0) continue;
+    text << "WARNING: block '" << body.blocks[b].name << "': the neighbors of " << found[b].count
+         << " points, one of them at " << place_text(found[b].one)
+         << ", nearly lie in one plane: the strain across it is noise of the mesh, and the critical time step is "
+         << "several times shorter; expected two layers of points or more, also on each side of a crack "
+         << "(Discretization > Bond Filters)\n";
+  }
+  return text.str();
 }
 
 }  // namespace strut

@@ -138,6 +138,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.warnings += improbable_scales(scene, ways, start, duration);
   scene.warnings += large_elastic_strains(scene, ways, start, duration);
   scene.warnings += overlaps(scene.body);
+  scene.warnings += flat_families(scene.body);
   scene.warnings += contact_at_mirrors(deck, scene.body.domain, interactions);
   scene.warnings += filled_tools(scene, start);
   scene.warnings += thin_tools(scene, ways, spacing, start, duration);
