@@ -21,13 +21,11 @@ namespace {
 // A check returns its warnings, a line each; collective. They are told in this order.
 using Check = std::string (*)(const Situation&);
 constexpr Check checks[] = {
-    without_effect,        improbable_materials,  improbable_temperatures,
-    improbable_scales,     large_elastic_strains, overlaps,
-    contact_at_mirrors,    filled_tools,          thin_tools,
-    apart_tools,           meeting_tools,         overruled_motions,
-    thin_members,          sudden_failure,        noisy_cracks,
-    breaks_under_pressure, bonded_contacts,       undeclared_contacts,
-    unheld_bodies,         weak_contacts,
+    without_effect, improbable_materials,  improbable_temperatures, improbable_scales,   large_elastic_strains,
+    overlaps,       flat_families,         contact_at_mirrors,      filled_tools,        thin_tools,
+    apart_tools,    meeting_tools,         overruled_motions,       thin_members,        sudden_failure,
+    noisy_cracks,   breaks_under_pressure, bonded_contacts,         undeclared_contacts, unheld_bodies,
+    weak_contacts,
 };
 
 Situation situation_of(const deck::Deck& deck, const Scene& scene) {

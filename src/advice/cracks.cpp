@@ -49,18 +49,20 @@ std::string noisy_cracks(const Situation& situation) {
 }
 
 // By docs/theory.md, By the energy of a bond: the part of the dilatation that a bond takes with it counts against it
-// where K > 5/3 G, which is looked at bond by bond.
+// where K > 5/3 G. Criteria of energy look at that bond by bond, those of stretch do not.
 std::string breaks_under_pressure(const Situation& situation) {
   const Body& body = situation.scene.body;
   std::string text;
   for (const MaterialBlock& block : body.blocks) {
     const auto& damage = block.material.damage;
-    if (!damage || !damage->critical_bond_energy) continue;
+    if (!damage || !block.is_ordinary()) continue;
     const auto [bulk, shear] = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
     if (!(bulk > (5.0 / 3 + 1e-9) * shear)) continue;
-    text += "block '" + block.name +
-            "': bonds break by their energy, and Poisson's ratio is above 0.25: several that break in one step under "
-            "pressure may give some (a thousandth of all was seen); told where Fracture_Energy falls below -1 %\n";
+    text += "block '" + block.name + "': bonds break by their " +
+            (damage->critical_bond_energy ? "energy" : "stretch") + ", and Poisson's ratio is above 0.25: " +
+            (damage->critical_bond_energy ? "several that break in one step" : "some that break") +
+            " under pressure may give some energy (a thousandth of all was seen); told where Fracture_Energy falls "
+            "below -1 %\n";
   }
   return text;
 }

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "contact/passing.hpp"
-#include "points/nearby_ranks.hpp"
-#include "points/neighbors/cell_grid.hpp"
 #include "setup/found_points.hpp"
+#include "topology/nearby_ranks.hpp"
+#include "topology/neighbors/cell_grid.hpp"
 
 namespace strut {
 

@@ -5,7 +5,9 @@
 #include <sstream>
 
 #include "mechanics/expected_error.hpp"
+#include "mechanics/formulation/steepness.hpp"
 #include "mechanics/thin_members.hpp"
+#include "setup/found_points.hpp"
 
 namespace strut {
 
@@ -89,6 +91,31 @@ std::string thin_members(const Situation& situation) {
     if (found.empty()) continue;
     text << "block '" << body.blocks[b].name << "': members are " << all[b] << " spacings thick (4 volume/surface); "
          << found << "\n";
+  }
+  return text.str();
+}
+
+std::string flat_families(const Situation& situation) {
+  const Body& body = situation.scene.body;
+  constexpr double very_flat = 20;  // `flatness`: a tenth of a spacing thick; two layers have 1.3
+  std::vector<std::vector<int>> flat(body.blocks.size());
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    for (const int i : body.blocks[b].points) {
+      if (body.blocks[b].is_ordinary() || body.blocks[b].is_quadratic()) break;
+      const LatticeFamilies* stencil = body.domain.families.lattice(i);
+      if (stencil && stencil->spans_space(i)) continue;
+      if (flatness(body.domain, i) > very_flat) flat[b].push_back(i);
+    }
+  }
+  const std::vector<FoundPoints> found = found_points(body, flat);
+  std::ostringstream text;
+  for (std::size_t b = 0; b < found.size(); ++b) {
+    if (found[b].count == 0) continue;
+    text << "WARNING: block '" << body.blocks[b].name << "': the neighbors of " << found[b].count
+         << " points, one of them at " << place_text(found[b].one)
+         << ", nearly lie in one plane: the strain across it is noise of the mesh, and the critical time step is "
+         << "several times shorter; expected two layers of points or more, also on each side of a crack "
+         << "(Discretization > Bond Filters)\n";
   }
   return text.str();
 }

@@ -1,4 +1,4 @@
-// Members of a few spacings, and the errors to expect of them.
+// Members of a few spacings, families that are nearly flat, and the errors to expect of them.
 #pragma once
 
 #include <string>
@@ -10,5 +10,8 @@ namespace strut {
 // Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness, of
 // ordinary points are off by a tenth in tension, or by quadratic correspondence may be off by a twentieth.
 std::string thin_members(const Situation& situation);
+
+// Collective. The warnings of blocks with points whose families nearly lie in a plane.
+std::string flat_families(const Situation& situation);
 
 }  // namespace strut

@@ -6,6 +6,7 @@
 
 #include "materials/state_variables.hpp"
 #include "mechanics/formulation/consistency_correction.hpp"
+#include "mechanics/formulation/steepness.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/shape_tensor.hpp"
@@ -175,11 +176,20 @@ void set_what_blocks_feel(Body& body) {
   }
 }
 
+// The part of a cell's edge over which the mean F of a point is measured. A flat family has its own frequencies far
+// above those of waves between points, and viscosity by the whole edge would damp them by more than a step can follow.
+double part_of_edge(const Domain& domain, const MaterialBlock& block, int i) {
+  constexpr double usual = 2;
+  const LatticeFamilies* stencil = domain.families.lattice(i);
+  if (block.is_quadratic() || (stencil && stencil->spans_space(i))) return 1;
+  return 1 / std::sqrt(std::max(1.0, flatness(domain, i) / usual));
+}
+
 void set_viscous(const Domain& domain, MaterialBlock& block) {
   block.viscous.use(block.law_points());
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
-    const double edge = std::cbrt(coincident_images(domain, i) * domain.volume(i));
+    const double edge = part_of_edge(domain, block, i) * std::cbrt(coincident_images(domain, i) * domain.volume(i));
     for (int q = 0; q < block.places_a_point(); ++q) block.viscous[block.place(k, q)].edge = edge;
   }
 }

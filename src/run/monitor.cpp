@@ -238,6 +238,15 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
                 "steps, or a load too sudden; a smaller Safety Factor follows it";
     warn(turning, negative.str());
   }
+  if (ledger.elastic < -worth_telling * ledger.largest) {
+    std::ostringstream negative;
+    negative
+        << at(ledger.time) << "Elastic_Energy is negative, " << ledger.elastic
+        << " J: a law gave back more energy than it stored. Likely causes: steps in which metal heats so much that "
+           "its Shear Modulus Slope takes much of its modulus (more load steps; is Specific Heat in J/(kg K)?), "
+           "elastic strains far beyond those of a rate form";
+    warn(unstored, negative.str());
+  }
   if (ledger.fracture < -worth_telling * ledger.largest) {
     std::ostringstream given;
     given

@@ -55,6 +55,7 @@ class Monitor {
     breaking,
     failing,
     meeting,
+    unstored,
     count
   };
   static constexpr double looks = 200;  // in a run, at energies, bodies inside each other, tools between points

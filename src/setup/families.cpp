@@ -88,4 +88,5 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
   }
 }
 
+// By the mean gradient; ordinary points have no F, and quadratic cells a penalty.
 }  // namespace strut

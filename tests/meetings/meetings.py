@@ -25,6 +25,7 @@ import sys
 import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
+from multiprocessing.util import Finalize
 from pathlib import Path
 
 try:
@@ -154,6 +155,7 @@ WORKER = None
 def begin(options):
     global WORKER
     WORKER = Worker(options)
+    Finalize(None, WORKER.close, exitpriority=1)  # also at the end of a process of a pool, where atexit has no part
 
 
 def work(seed):
@@ -165,7 +167,6 @@ def reports_of(options):
     if options.jobs == 1:
         begin(options)
         yield from map(work, seeds)
-        WORKER.close()
         return
     with ProcessPoolExecutor(options.jobs, initializer=begin, initargs=(options,)) as pool:
         yield from pool.map(work, seeds)

@@ -9,4 +9,9 @@ namespace strut {
 // is 0 where the point carries no stress.
 double steepness(const Body& body, int i);
 
+// l² V tr S⁻¹ of an owned point, S = Σ V ξ ⊗ ξ over its family and l = V^⅓, V of the whole cell: 0.3 or less inside of
+// a lattice, 1.3 at corners of two layers, (l/t)²/n where n neighbors lie at a mean distance t from one plane, which is
+// what F across it is measured over then.
+double flatness(const Domain& domain, int i);
+
 }  // namespace strut

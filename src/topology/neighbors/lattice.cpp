@@ -44,18 +44,23 @@ BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizon
   return points;
 }
 
-// The smallest step between coordinates along an axis that is more than round-off; infinite where all are alike.
-double smallest_step(const std::vector<Vector>& positions, int axis, double horizon) {
-  std::vector<double> x;
-  x.reserve(positions.size());
-  for (const Vector& X : positions) x.push_back(X[axis]);
-  std::sort(x.begin(), x.end());
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 1; k < x.size(); ++k) {
-    const double step = x[k] - x[k - 1];
-    if (step > 1e-6 * horizon) smallest = std::min(smallest, step);
+// Collective. The largest length of which all coordinates along an axis are multiples, from `low` on, whatever ranks
+// they are on; by Euclid's algorithm, until it is too short for a lattice. Infinite where all are alike.
+double common_step(const std::vector<Vector>& positions, int axis, double low, double size, double horizon,
+                   const Communicator& communicator) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (double step = infinite;;) {
+    double rest = infinite;
+    for (const Vector& X : positions) {
+      const double x = X[axis] - low, off = std::abs(x - (step < infinite ? std::round(x / step) * step : 0));
+      if (off > 1e-6 * horizon) rest = std::min(rest, off);  // more than round-off
+    }
+    rest = communicator.min(rest);
+    if (rest == infinite) return step;
+    const double cells = std::round(size / rest);
+    step = std::abs(size / rest - cells) < 1e-3 ? size / cells : rest;  // of many cells: free of round-off
+    if (step * (LatticeFamilies::width + 1) < horizon) return step;
   }
-  return smallest;
 }
 
 // Whether all points are at cells of the frame.
@@ -83,7 +88,7 @@ std::optional<LatticeFrame> frame_of(const BodyPoints& points, int body, const C
   frame.origin = box.min();
   for (int axis = 0; axis < 3; ++axis) {
     const double size = box.sizes()[axis];
-    const double step = communicator.min(smallest_step(points.positions, axis, largest));
+    const double step = common_step(points.positions, axis, frame.origin[axis], size, largest, communicator);
     const double cells = std::round(size / step);
     frame.spacing[axis] = cells > 0 ? size / cells : largest;  // the mean step is free of round-off
   }

@@ -15,6 +15,7 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/portions.hpp"
 #include "topology/domain.hpp"
+#include "topology/neighbors/lattice.hpp"
 #include "topology/partition.hpp"
 
 namespace strut {
@@ -267,6 +268,24 @@ INSTANTIATE_TEST_SUITE_P(Points, DomainOf,
                                          Case{3, {1.0}, 5},                             // fewer points than ranks
                                          Case{1, {1.0}, 6}),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+// Sums by stencils and by lists round differently: all numbers of ranks must find the same lattices. Layers along y lie
+// 2, 3 and 2 spacings apart, and of four ranks none has two of them.
+TEST(Lattice, IsFoundThoughNoRankSeesItsSpacing) {
+  const Communicator world;
+  const std::array<double, 4> layers{0, 2, 5, 7};
+  PointCloud cloud;
+  cloud.block_names = {"block_1"};
+  for (std::size_t y = world.rank(); y < layers.size(); y += world.size()) {
+    for (int n = 0; n < 9; ++n) cloud.positions.emplace_back(n % 3, 0.25 * layers[y], n / 3);
+  }
+  cloud.ids.resize(cloud.positions.size());
+  cloud.blocks.assign(cloud.positions.size(), 0);
+  const std::vector<double> horizons(cloud.positions.size(), 1.5);
+  const std::vector<LatticeFrame> frames = lattice_frames(cloud, horizons, {BlockBonds(1.5)}, world);
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].spacing, Vector(1, 0.25, 1));
+}
 
 // Points exactly at the horizon are neighbors on any number of ranks, in spite of the round-off of their places.
 TEST(Lattice, NeighborsAtExactlyTheHorizonAreIn) {

@@ -117,7 +117,7 @@ std::string told_of_copper(const std::string& keys, const std::string& of_block 
       section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") + of_block);
   const RunFolder folder;
   const std::string text = changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + sections);
-  return describe_scene(set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world));
+  return described(deck::read(folder.write("deck.xml", text), folder.world), folder.world);
 }
 
 // T* = (293 - 25)/(1083 - 25) = 0.2533: θ = 0.7467.
@@ -188,7 +188,7 @@ TEST(WithoutEffect, CracksModelsAndSetsThatChangeNothingAreToldOf) {
     std::string text = changed(parts.text(), "<ParameterList>\n", "<ParameterList>\n" + models);
     text = changed(text, "<ParameterList name=\"Discretization\">",
                    "<ParameterList name=\"Discretization\">" + section("Bond Filters", cracks));
-    return describe_scene(set_up(deck::read(folder.write("deck.xml", text), folder.world), folder.world));
+    return described(deck::read(folder.write("deck.xml", text), folder.world), folder.world);
   };
   const std::string told = told_with(disk("3e-3") + disk("3"), "z &lt; 3");
   expect_told(told, {"Damage Models > tears: no section of Blocks names it",
@@ -249,18 +249,24 @@ TEST(LargeElasticStrains, AreToldOf) {
 
 // K > 5/3 G is a Poisson's ratio above 1/4.
 TEST(BreaksUnderPressure, AreToldOfWhereTheyMayGiveEnergy) {
-  const auto tells = [](const std::string& ratio) {
+  const std::string by_energy = key("Damage Model", "Bond Energy") + key("Fracture Energy", "1e5"),
+                    by_stretch = key("Damage Model", "Critical Stretch") + key("Critical Stretch", "0.01");
+  const auto tells = [](const std::string& model, const std::string& ratio, const std::string& damage,
+                        const std::string& words) {
     Parts parts;
-    parts.materials = section("copper", key("Material Model", "Elastic") + key("Density", "8930") +
+    parts.materials = section("copper", key("Material Model", model) + key("Density", "8930") +
                                             key("Young's Modulus", "117e9") + key("Poisson's Ratio", ratio));
-    parts.damage = section("tough", key("Damage Model", "Bond Energy") + key("Fracture Energy", "1e5"));
+    parts.damage = section("tough", damage);
     parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
                                         key("Damage Model", "tough"));
-    return told_of(parts).find("several that break in one step under pressure may give some") != std::string::npos;
+    return told_of(parts).find(words + " under pressure may give some energy") != std::string::npos;
   };
-  EXPECT_TRUE(tells("0.3"));
-  EXPECT_FALSE(tells("0.25"));
-  EXPECT_FALSE(tells("0.2"));
+  EXPECT_TRUE(tells("Elastic", "0.3", by_energy, "several that break in one step"));
+  EXPECT_FALSE(tells("Elastic", "0.25", by_energy, ""));
+  EXPECT_FALSE(tells("Elastic", "0.2", by_energy, ""));
+  EXPECT_TRUE(tells("Elastic", "0.3", by_stretch, "some that break"));
+  EXPECT_FALSE(tells("Elastic", "0.25", by_stretch, ""));
+  EXPECT_FALSE(tells("Elastic Correspondence", "0.3", by_stretch, ""));
 }
 
 // 4 x 4 points of the lowest layer have their centers 0.5 mm above z = 0, of the next 1.5 mm.

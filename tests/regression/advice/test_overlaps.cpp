@@ -49,7 +49,7 @@ TEST(Overlaps, OfPiecesOfABodyThatAreNotBondedAreTold) {
     Parts parts;
     parts.materials = changed(copper(), key("Density", "8930"),
                               key("Density", "8930") + key("Formulation", "Quadratic Correspondence"));
-    return set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
   };
   for (const double apart : {0.5e-3, 1.3e-3})
     EXPECT_NE(told(apart).find("times as much material as fits"), std::string::npos) << apart;

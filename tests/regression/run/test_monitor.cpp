@@ -113,15 +113,19 @@ struct Told {
   bool ended = false;
 };
 
-Told told_of(const std::vector<double>& gained, double kinetic = 1, double fracture = 0) {
+Told told_of(const std::vector<double>& gained, double kinetic = 1, double fracture = 0, double elastic = 0) {
   const RunFolder folder;
   Simulation run(folder, {});
   Told told;
   const deck::Watch limits{.stops = true, .balance_error = 0.5};
   Monitor monitor(limits, 1, run.body(), [&](const std::string& line) { told.lines.push_back(line); });
   const auto check = [&](double part, bool last) {
-    const Ledger ledger{
-        .kinetic = kinetic, .fracture = fracture, .gained = part, .largest = 1, .balance_error = std::abs(part)};
+    const Ledger ledger{.kinetic = kinetic,
+                        .elastic = elastic,
+                        .fracture = fracture,
+                        .gained = part,
+                        .largest = 1,
+                        .balance_error = std::abs(part)};
     monitor.check_energy(ledger, last);
   };
   for (int n = 0; n < 10; ++n) check(0, false);
@@ -158,6 +162,11 @@ TEST(Monitor, NegativeKineticEnergyIsTold) {
 TEST(Monitor, BreaksThatGiveEnergyAreTold) {
   EXPECT_EQ(told_of({0, 0, 0}, 1, -0.009).lines.size(), 0u);
   EXPECT_EQ(told_of({0, 0, 0}, 1, -0.011).lines.size(), 1u);
+}
+
+TEST(Monitor, LawsThatGiveMoreThanTheyStoredAreTold) {
+  EXPECT_EQ(told_of({0, 0, 0}, 1, 0, -0.009).lines.size(), 0u);
+  EXPECT_EQ(told_of({0, 0, 0}, 1, 0, -0.011).lines.size(), 1u);
 }
 
 // A bar that nothing acts on holds energies of round-off, which balance by chance alone.
