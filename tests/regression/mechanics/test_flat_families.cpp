@@ -25,7 +25,7 @@ Parts plate(const RunFolder& folder, int layers) {
 TEST(FlatFamilies, AreToldOf) {
   const RunFolder folder;
   const auto told_of = [&folder](const Parts& parts) {
-    return describe_scene(set_up(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world));
+    return told_at_the_start(deck::read(folder.write("deck.xml", parts.text()), folder.world), folder.world).warnings;
   };
   const std::string words = "nearly lie in one plane", told = told_of(plate(folder, 1));
   EXPECT_NE(told.find("WARNING: block 'block_1': the neighbors of 25 points"), std::string::npos) << told;
