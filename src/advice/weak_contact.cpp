@@ -188,13 +188,15 @@ std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, c
   const auto* of_points = std::get_if<contact::PairLaw>(&law);
   const double ratio = of_points ? relative_stiffness(*of_points, a, b) : 0;
   if (!(ratio > much)) return "";
-  const auto [key, value] = std::visit(
-      []<class Law>(const Law& one) {
-        if constexpr (std::is_same_v<Law, contact::HertzLaw>) {
-          return std::pair("an Effective Modulus", one.effective_modulus);
-        } else {
-          return std::pair("a Spring Constant", one.penalty);
-        }
+  // The key that sets the stiffness of a law in Pa, where it has one.
+  const std::string wanted = std::visit(
+      [ratio]<class Law>(const Law& one) -> std::string {
+        std::ostringstream text;
+        text.precision(2);
+        if constexpr (std::is_same_v<Law, contact::HertzLaw>)
+          text << "an Effective Modulus of " << one.effective_modulus / ratio;
+        if constexpr (std::is_same_v<Law, contact::PenaltyLaw>) text << "a Spring Constant of " << one.penalty / ratio;
+        return text.str().empty() ? "" : "; as stiff as that block is " + text.str() + " Pa";
       },
       *of_points);
   std::ostringstream text;
@@ -202,8 +204,7 @@ std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, c
   text
       << of_blocks(a, b) << " is " << ratio
       << " times as stiff as the stiffer block: the time step falls with it, and a touch lasts a few steps only, which "
-      << "may cost or give as much energy as the points had; as stiff as that block is " << key << " of "
-      << value / ratio << " Pa";
+      << "may cost or give as much energy as the points had" << wanted;
   return text.str();
 }
 
