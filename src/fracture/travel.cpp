@@ -61,7 +61,7 @@ bool Travel::advance(const Body& body, std::span<const Vector> velocities, doubl
     const double speed = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).norm();
     all.extend(Vector::Constant(speed)), all.extend(Vector::Constant(-speed));
   }
-  double passed = -never, at_ghosts = -never;  // how far a due travel is exceeded, m; where ghosts are: without this step
+  double passed = -never, at_ghosts = -never;  // excess over a due travel, m; where ghosts are: without this step
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     Region& region = regions_[r];
     if (region.box.isEmpty()) continue;
