@@ -12,14 +12,14 @@ namespace strut {
 
 namespace {
 
-constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths beside the horizon, as bonded() has it
+constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths relative to the horizon, as in bonded()
 
-// The farthest cell along one axis that a family can hold.
+// Largest distance along an axis, in cells, within a family.
 int cells_within(const LatticeFrame& frame, int axis) {
   return static_cast<int>(std::floor(frame.horizon * (1 + tolerance) / frame.spacing[axis]));
 }
 
-// ---- Is it a lattice? ----------------------------------------------------------------------------------------------
+// ---- Detection of lattices -----------------------------------------------------------------------------------------
 
 struct BodyPoints {
   std::vector<Vector> positions;
@@ -44,7 +44,7 @@ BodyPoints points_of(const PointCloud& cloud, const std::vector<double>& horizon
   return points;
 }
 
-// The smallest step between coordinates along an axis that is more than round-off; infinite where all are alike.
+// The smallest step between coordinates along an axis above round-off; infinite if all coordinates are equal.
 double smallest_step(const std::vector<Vector>& positions, int axis, double horizon) {
   std::vector<double> x;
   x.reserve(positions.size());
@@ -58,12 +58,12 @@ double smallest_step(const std::vector<Vector>& positions, int axis, double hori
   return smallest;
 }
 
-// Whether all points are at cells of the frame.
+// True if all points are at cells of the frame.
 bool fits(const LatticeFrame& frame, const std::vector<Vector>& positions) {
   return std::all_of(positions.begin(), positions.end(), [&](const Vector& X) { return frame.has(X); });
 }
 
-// Whether a grid over the body takes less than lists would: 64 bytes a point are 16 neighbors.
+// True if a grid over the body takes less memory than lists: 64 bytes per point are 16 neighbors.
 bool is_compact(const LatticeFrame& frame, const Eigen::Array3d& size, double points) {
   Eigen::Array3d cells = (size + 2 * frame.horizon) / frame.spacing.array() + 1;
   cells[0] = cells[0] / LatticeFamilies::width + 4;
@@ -129,7 +129,7 @@ std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vec
 
 // ---- Slots ---------------------------------------------------------------------------------------------------------
 
-// The grid: pencils along x, then y, then z; wide enough for a stencil about every slot.
+// The grid: pencils along x, then y, then z; with a margin for the stencil around every slot.
 struct LatticeFamilies::Box {
   Eigen::Array3i low, shape;  // x in pencils
 
