@@ -7,7 +7,7 @@ namespace strut::contact {
 
 namespace {
 
-// Σ V ξ over the family, in units of its volume and the horizon: 0 inside a body.
+// |Σ V ξ| over the family, divided by its volume and the horizon: about 0 inside a body.
 double one_sidedness(const Domain& domain, int i) {
   Vector sum = Vector::Zero();
   double volume = 0;

@@ -11,20 +11,20 @@ namespace strut::contact {
 
 namespace {
 
-// The usual skin distances of a pair together, in units of the smaller horizon. Points that are not bonded start at
-// least a horizon apart, and a pair touches at 0.9 of its distance at the most: with less than a tenth, no pair of
-// undeformed material is in a list but those of fast points, and what is left of the tenth is the strain at which
-// others get there.
+// The sum of both points' usual skin distances, in units of the smaller horizon. Points that are not bonded start at
+// least one horizon apart, and a pair touches at no more than 0.9 of its initial distance. With less than a tenth,
+// pairs of undeformed material are listed only for fast points; the rest of the tenth is the strain at which others are
+// listed.
 constexpr double skin_share = 0.08;
 
-// A search is due this many steps before a skin distance is used up, since the motion of the next step is a forecast,
-// and points that come to touch in the step after it count in the stiffness, too.
+// A search is made this many steps before a skin distance is used up, because the motion of the next step is a
+// forecast, and points that touch in the step after it contribute to the stiffness, too.
 constexpr double forecast = 3;
 
-// A search is made where a point has really used this part of its skin distance; by the bound it often only trembles.
+// A search is made only if a point has really used this fraction of its skin distance: the bound adds up vibration.
 constexpr double most_used = 0.5;
 
-// The bound of the stiffness falls so slowly after points have parted: a step that jumps with every touch costs energy.
+// Factor per step by which the stiffness bound falls after separation: a step that jumps with every touch costs energy.
 constexpr double decay = 0.99;
 
 std::vector<int> points_of(const Domain& domain, int first, int second) {
@@ -76,8 +76,8 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
   ++searches_;
 }
 
-// Collective. The bound grows with every tremble. How far points have really gone is looked at before a search, which
-// costs many times as much.
+// Collective. The bound grows with every vibration, so the distance that points have really moved is checked before a
+// search, which costs many times as much.
 void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
@@ -92,8 +92,8 @@ void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact
   }
 }
 
-// Whether points whose bonds have broken since the last search are about to touch: that search has left them out, and
-// they may be nearer to each other than two skin distances. Blocks do not matter: of ghosts they are not known.
+// True if points whose bonds broke since the last search are about to touch: that search has excluded them, and they
+// may be nearer to each other than two skin distances. Blocks are ignored, because those of ghosts are unknown.
 bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair) {
   constexpr double about_to_touch = 1.05;
   const Domain& domain = kinematics.domain;
@@ -119,7 +119,7 @@ void Contact::look_where_due(const Kinematics& kinematics, double dt) {
 }
 
 // ---- Points that touch points of several blocks --------------------------------------------------------------------
-// The bound of the step and the friction on a point do not depend on how the body that it touches is cut into blocks.
+// The bound of the step and the friction on a point do not depend on how the other body is divided into blocks.
 
 void Contact::find_points_of_several() {
   for (ContactPair& pair : contact_pairs_) pair.elsewhere.clear();
@@ -149,8 +149,8 @@ bool of_same_bodies(const Domain& domain, const BlockPair& one, const BlockPair&
 
 }  // namespace
 
-// All springs hold a point at once, and its contacts share what stops its sliding; its surface is pushed by all blocks
-// of the other body.
+// Sums the loads of all contact pairs on each point: all springs hold it at once, all its contacts share the impulse
+// that stops its sliding, and all blocks of the other body push its surface.
 std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair& contact_pair) const {
   std::vector<Load> loads = contact_pair.loads;
   for (const auto& [k, pair, there] : contact_pair.elsewhere) {
@@ -164,7 +164,7 @@ std::vector<Load> Contact::loads_of_all(const Domain& domain, const ContactPair&
   return loads;
 }
 
-// The same, where any of its points touches several blocks, else none; their springs together bound the step.
+// The same if any point touches several blocks, else empty. The stiffness bound then includes all springs of a point.
 std::vector<Load> Contact::joined_loads(const Domain& domain, ContactPair& contact_pair) const {
   if (contact_pair.elsewhere.empty()) return {};
   std::vector<Load> loads = loads_of_all(domain, contact_pair);
@@ -226,7 +226,7 @@ void Contact::add_forces(const Kinematics& kinematics, double dt, std::vector<Ve
 }
 
 void Contact::foresee(const Kinematics& kinematics, double dt) {
-  std::vector<Vector> forces(kinematics.domain.owned, Vector::Zero());  // those at the present places are known
+  std::vector<Vector> forces(kinematics.domain.owned, Vector::Zero());  // those at the present positions are known
   for (ContactPair& pair : contact_pairs_) {
     const bool of_points = !pair.surfaces && (!pair.pairs.empty() || pair.pairs.halo);
     if (of_points) add_normal_forces(kinematics, dt, pair, forces);
@@ -302,7 +302,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
     if (contact_pair.surfaces) {
       of_surfaces += numbers[3 * m];
     } else {
-      of_points = std::max(of_points, numbers[3 * m]);  // joined where points touch several blocks
+      of_points = std::max(of_points, numbers[3 * m]);  // includes all blocks that a point touches
     }
     contact_pair.meets = numbers[3 * m + 1] > 0;
     const double use = dt * numbers[3 * m + 2];
@@ -324,12 +324,12 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   }
   if (!archive.loading()) return;
   std::vector<Vector> forces(kinematics.domain.owned,
-                             Vector::Zero());  // the solver has them; here are pairs and friction
+                             Vector::Zero());  // the solver has the forces; this restores pairs and friction
   for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.due = true;
   add_forces(kinematics, dt, forces);
   for (ContactPair& contact_pair : contact_pairs_) {
-    contact_pair.due = true;  // how far points may go in the next step, nobody has asked
-    // An equilibrium has no step whose friction could be made anew: it is that of the last commit.
+    contact_pair.due = true;  // the use of the skin distances in the next step is unknown
+    // An equilibrium has no time step from which to recompute friction: it is that of the last commit.
     const bool rubs = contact_pair.surfaces && contact_pair.model.friction > 0;
     if (rubs && dt == 0) contact_pair.friction = contact_pair.surfaces->committed_friction();
   }

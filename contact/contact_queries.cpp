@@ -1,4 +1,4 @@
-// What contact is asked of its state between steps.
+// Queries of the contact state between steps.
 #include <algorithm>
 
 #include "contact/contact.hpp"

@@ -14,7 +14,7 @@ void Couples::take(const Domain& domain, const std::vector<int>& points) {
     domain.families.for_each(i, [&](int j) { affected[j] = 1; });
   }
   domain.halo.exchange(marks);
-  for (int i = domain.interior; i < domain.owned; ++i) {  // bonds go both ways
+  for (int i = domain.interior; i < domain.owned; ++i) {  // bonds are symmetric
     domain.families.for_each(i, [&](int j) { affected[i] |= marks[j]; });
   }
   for (int i = 0; i < domain.owned; ++i) {

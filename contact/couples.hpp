@@ -1,5 +1,5 @@
-// Friction between points acts midway between them, friction of surfaces where these are: beside the points, whose
-// bodies it would turn. What it turns of a body is the neighborhood of the point, its family and itself (patch.hpp).
+// Friction between points acts midway between them, friction of surfaces at the surfaces: off the points, so it would
+// rotate bodies. Its couple acts on the neighborhood of the point, its family and itself (patch.hpp).
 #pragma once
 
 #include <span>
@@ -12,21 +12,21 @@ namespace strut::contact {
 
 class Couples {
  public:
-  // Collective, after a search: the points that may get couples, ascending.
+  // Collective, after a search. `points`: those that may get couples, ascending.
   void take(const Domain& domain, const std::vector<int>& points);
   bool any() const { return any_; }
 
-  // The neighborhood of a point: its middle as seen from the point; how fast it turns, 1/s.
+  // The neighborhood of a point: its patch, relative to the point; its angular velocity, 1/s.
   struct Neighborhood {
     Patch patch;
     Vector spin = Vector::Zero();
   };
-  // Collective: what ghosts are doing now. After that `of` answers for owned points.
+  // Collective: exchanges the present motion of ghosts. `of` is valid for owned points afterwards.
   void bring_to_present(const Kinematics& kinematics);
   Neighborhood of(const Kinematics& kinematics, int i, double arm) const;  // `arm`: as PatchSums has it
 
-  // Collective. Adds forces that are couples[k] (N m) on the neighborhood of points[k]. Each point sums its own, in the
-  // order of its family: the same on any number of ranks.
+  // Collective. Adds the forces of the couples couples[k] (N m) on the neighborhoods of points[k]. Each point sums its
+  // own, in the order of its family, so the result is the same on any number of ranks.
   void add_forces(const Domain& domain, const std::vector<Neighborhood>& neighborhoods,
                   const std::vector<Vector>& couples, std::vector<Vector>& force_density);
 
@@ -41,14 +41,14 @@ class Couples {
     Vector place, velocity;
   };
   struct Twist {
-    Vector turn, middle;  // θ and where forces are none
+    Vector turn, middle;  // θ, and the position where the forces vanish
   };
   Vector place(const Domain& domain, int i) const { return i < domain.owned ? domain.current(i) : motions_[i].place; }
 
   bool any_ = false;             // on any rank
-  std::vector<int> points_;      // that may get couples
-  std::vector<int> affected_;    // owned points in the neighborhoods of such, of any rank
-  std::vector<Vector> forces_;   // on them, N; none where nothing rubs
+  std::vector<int> points_;      // points that may get couples
+  std::vector<int> affected_;    // owned points in the neighborhoods of such points of any rank
+  std::vector<Vector> forces_;   // forces on them, N; empty without friction
   std::vector<Motion> motions_;  // of owned points that are ghosts elsewhere, and of ghosts
   std::vector<Twist> twists_;    // of owned points and ghosts
 };

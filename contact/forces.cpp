@@ -1,5 +1,5 @@
-// Each point sums the forces of its own pairs, in the order of ids: no atomics, the same on any number of ranks, and
-// equal and opposite to the last bit at the two ends of a pair.
+// Each point sums the forces of its own pairs in the order of ids. So there are no atomics, results are the same on any
+// number of ranks, and forces are equal and opposite to the last bit at the two ends of a pair.
 #include "contact/forces.hpp"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace strut::contact {
 
 namespace {
 
-// Pairs that are just at the distance at which they touch, as bodies with a common face are at the start, count as
-// touching: their stiffness belongs into the first step.
+// Pairs exactly at the touching distance, as on a common face at the start, count as touching: their stiffness must
+// limit the first step.
 constexpr double just = 1 + 1e-9;
 
-// The stiffness that bounds the next step is that of so many times the present overlap.
+// The stiffness that bounds the next step is that of this many times the present overlap.
 constexpr double growth = 2;
 
-// A pair that touches, or comes to in a step like the last.
+// A pair that touches now, or will in a step like the last one.
 template <ContactLaw L>
 struct Touch {
   const L& law;
@@ -40,13 +40,13 @@ struct Touch {
   }
 };
 
-// How far the sites of pairs went in the last step, m; empty: there was none.
+// Displacements of the sites of pairs in the last step, m; empty if there was none.
 struct Ways {
   std::vector<Vector> of = {};
-  double most = 0;  // that two of them may have come nearer to each other
+  double most = 0;  // upper bound of the approach of two of them
 };
 
-// By velocities, so that they do not depend on when a search has found the pairs.
+// Computed from velocities, so that the displacements do not depend on when a search found the pairs.
 Ways ways_of(const Kinematics& kinematics, double dt, Pairs& pairs) {
   Ways ways;
   if (dt == 0) return ways;
@@ -66,7 +66,7 @@ PointPair pair_of(const Site& a, const Site& b, bool one_body) {
           one_body};
 }
 
-// Calls visit(Touch) for the partners of owned[k] that touch it, or come to.
+// Calls visit(Touch) for each partner of owned[k] that touches it or is about to.
 template <ContactLaw L, class Visit>
 void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size_t k, Visit&& visit) {
   const Site& here = pairs.sites[k];
@@ -82,7 +82,7 @@ void for_each_near(const Pairs& pairs, const Ways& ways, const L& law, std::size
     if (!(distance2 < just * seen * seen)) continue;
     const double distance = std::sqrt(distance2);
     const double to_come = ways.of.empty() ? distance : (eta + ways.of[partner] - ways.of[k]).norm();
-    // Two points at the same place have no direction: nothing parts them in this step.
+    // Two points at the same position have no direction: no force separates them in this step.
     const Vector direction = distance > 0 ? Vector(eta / distance) : Vector::Zero();
     const Touch<L> touch{law, pair, partner, direction, distance, touching, to_come};
     if (touch.is_now() || to_come < touching) visit(touch);
@@ -94,16 +94,16 @@ void for_each_touch(const Pairs& pairs, const L& law, std::size_t k, Visit&& vis
   for_each_near(pairs, Ways(), law, k, visit);
 }
 
-// What the partners of a point must know of it for friction.
+// Data of a point that its partners need for friction.
 struct Slider {
   Vector velocity = Vector::Zero();
   Vector spin = Vector::Zero();  // of its neighborhood, 1/s
   Vector push = Vector::Zero();  // the sum of its normal forces, N
-  double mobility = 0;           // velocity that its contacts give it by a unit of impulse each, 1/kg
-  double turning = 0;            // the same beside it, by turning its neighborhood, over arm², 1/(kg m²)
-  double turns = 0;              // 1: its neighborhood can take up couples
+  double mobility = 0;           // velocity per unit of impulse from each of its contacts, 1/kg
+  double turning = 0;            // the same off the point, by rotation of its neighborhood, over arm², 1/(kg m²)
+  double turns = 0;              // 1: its neighborhood can take a couple
 
-  // The velocity of the body, m/s, at a place so far from the point, m.
+  // The velocity of the body, m/s, at the position `arm` relative to the point, m.
   Vector velocity_at(const Vector& arm) const { return velocity + spin.cross(arm); }
   double mobility_at(const Vector& arm) const { return mobility + turning * arm.squaredNorm(); }
 };
@@ -121,7 +121,7 @@ std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto&
     neighborhoods[k] = couples.of(kinematics, pairs.owned[k], 0.5 * law.radius);
     const Patch& patch = neighborhoods[k].patch;
     if (!patch.turns) continue;
-    slider.turning = slider.mobility * patch.weight / patch.smallest;  // by all of its points
+    slider.turning = slider.mobility * patch.weight / patch.smallest;  // includes all of its points
     slider.spin = neighborhoods[k].spin;
     slider.turns = 1;
   }
@@ -129,12 +129,12 @@ std::vector<Slider> sliders(const Kinematics& kinematics, const ContactLaw auto&
   return all;
 }
 
-// How far from a point, of the way to its partner, friction acts on both: midway, or at one that cannot take up a
-// couple.
+// Fraction of the vector from a point to its partner at which friction acts on both: midway, or at the one that cannot
+// take a couple.
 double place_of_friction(const Slider& here, const Slider& there) { return 0.5 * (1 + here.turns - there.turns); }
 
-// The normal of two surfaces of points, from the pushes on both. That of a single pair sways as points pass each other:
-// with it, the friction of a flat face would be larger than μ times its load.
+// The normal of two surfaces of points, from the normal forces on both. The direction of a single pair oscillates as
+// points pass each other, which would make the friction of a flat face exceed μ times its load.
 Vector surface_normal(const Slider& here, const Slider& there, const Vector& direction) {
   const Vector difference = here.push.stableNormalized() - there.push.stableNormalized();
   const double length = difference.norm();
@@ -170,7 +170,7 @@ struct Friction {
   std::vector<Vector> forces, couples;
 };
 
-// None between two points that both have no neighbors, or one row of them: nothing could take up its couple.
+// No friction between two points that both have no neighbors or neighbors in one line: neither could take the couple.
 template <ContactLaw L>
 Friction friction_forces(const Kinematics& kinematics, const L& law, double coefficient, double dt, Pairs& pairs,
                          const std::vector<Load>& loads, const Couples& couples,
@@ -197,7 +197,7 @@ Friction friction_forces(const Kinematics& kinematics, const L& law, double coef
   return friction;
 }
 
-// Calls visit(k, partner, n, stiffness) for the touching pairs, k of the points pairs.owned.
+// Calls visit(k, partner, n, stiffness) for the touching pairs of the points pairs.owned[k].
 template <class Visit>
 void for_each_spring(const PairLaw& law, const Pairs& pairs, const Visit& visit) {
   std::visit(

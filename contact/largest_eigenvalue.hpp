@@ -1,4 +1,4 @@
-// What bounds ω² of a point that springs hold.
+// The bound of ω² of a point held by springs.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -7,7 +7,7 @@
 
 namespace strut::contact {
 
-// Of a positive semidefinite tensor, where it is above `floor`: it is at most the trace.
+// Largest eigenvalue of a positive semidefinite tensor; 0 if its trace, an upper bound, is at most `floor`.
 inline double largest_eigenvalue(const Tensor& springs, double floor) {
   if (!(springs.trace() > floor)) return 0;
   return Eigen::SelfAdjointEigenSolver<Tensor>(springs, Eigen::EigenvaluesOnly).eigenvalues()[2];

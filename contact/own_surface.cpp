@@ -17,28 +17,28 @@ namespace strut::contact {
 
 namespace {
 
-// Lengths in spacings of the point's own body.
-constexpr double least_area = 0.1;  // of a cell, that its surface have a direction
-constexpr double smooth = 0.2;      // what the surface of a cell may spread along its normals to be taken for a plane
-constexpr double rim = 0.55;        // from here on it has an edge of the body
-constexpr double around = 1.6;      // what of the surface tells its curvature
-constexpr double alike = 0.1;       // the cosine between the normals of these
-constexpr double sharpest = 0.5;    // mean curvature, of a strut of two cells
-constexpr double planes_within = 1.8;  // the surface that a point lies below
-constexpr double deepest = 0.8;        // what lies farther below, without a surface of its own, feels for none
+// Lengths are in spacings of the point's own body.
+constexpr double least_area = 0.1;  // of a cell: below it the surface has no direction
+constexpr double smooth = 0.2;      // largest spread of a cell's surface along its normals for a plane
+constexpr double rim = 0.55;        // spread from which a cell contains an edge of the body
+constexpr double around = 1.6;      // radius in which surface pieces give the curvature
+constexpr double alike = 0.1;       // least cosine between the normals of these pieces
+constexpr double sharpest = 0.5;    // largest mean curvature, that of a strut of two cells
+constexpr double planes_within = 1.8;  // radius in which a point uses surface planes
+constexpr double deepest = 0.8;        // largest depth of a point without surface of its own that still touches
 
-// In those of the reach of ρ: where points of the other body are when they touch, and how far a piece of the surface
-// tells what is missing.
+// In units of the reach of ρ: distance of the other body's points in front of the surface when they touch; radius in
+// which a piece of surface corrects volumes.
 constexpr double before = 0.4, tells = 2;
-constexpr double least_missing = 0.7, most_missing = 4;  // with less the body goes on before it, or behind a plane
+constexpr double least_missing = 0.7, most_missing = 4;  // beyond them the body goes on in front, or behind a plane
 
-// The surface of a cell as a plane: a record as it travels.
+// The surface of a cell as a plane, in the form in which it is sent to other ranks.
 struct Piece {
   double place[3], normal[3];
   double area;           // m²
-  double spread;         // of its places along its normals, m: none of a plane
-  double curvature = 0;  // the mean of both principal ones, 1/m
-  double missing = 1;    // ρ before a flat face over that before the piece; 0: it is no free surface
+  double spread;         // of its positions along its normals, m: 0 for a plane
+  double curvature = 0;  // mean curvature, 1/m
+  double missing = 1;    // ρ before a flat face divided by ρ before the piece; 0: no free surface
   double spacing;        // m
   std::int64_t body, id;
 
@@ -47,7 +47,7 @@ struct Piece {
   bool is_smooth() const { return spread < smooth * spacing && missing > 0; }
 };
 
-// A point as it adds to ρ.
+// A point with its contribution to ρ.
 struct Grain {
   double place[3], volume;
   std::int64_t body, id;
@@ -55,15 +55,15 @@ struct Grain {
   Vector at() const { return {place[0], place[1], place[2]}; }
 };
 
-// Records near this rank's points, of all ranks, in the order of ids: sums over them are the same on any number of
-// ranks.
+// Records of all ranks near this rank's points, in the order of ids, so that sums over them are the same on any number
+// of ranks.
 template <class Record>
 class Near {
  public:
   Near(std::vector<Record> own, const Eigen::AlignedBox3d& mine, double reach, const Communicator& communicator)
       : all_(with_others(std::move(own), mine, reach, communicator)), grid_(places(all_), reach) {}
 
-  // Calls visit(record, its place from x) for those of a body within `reach` of x.
+  // Calls visit(record, its position relative to x) for those of a body within `reach` of x.
   template <class Visit>
   void over(const Vector& x, double reach, std::int64_t body, const Visit& visit) const {
     found_.clear();
@@ -101,8 +101,8 @@ bool is_of(const Domain& domain, const BlockPair& blocks, int i) {
   return body == domain.blocks[blocks.first].body || body == domain.blocks[blocks.second].body;
 }
 
-// n·M n is the mean height of the cell's surface over its projection along n, and the trace that over the surface, each
-// place along its own normal: they are the same where it is a plane.
+// n·M n is the mean height of the cell's surface over its projection along n; the trace of M is the mean over the
+// surface, each position along its own normal. They are equal for a plane.
 void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
   const CellShape& shape = domain.cloud.shapes[i];
   const double spacing = domain.cloud.spacings[i], area = shape.surface.norm();
@@ -118,9 +118,9 @@ void add_piece(const Domain& domain, int i, std::vector<Piece>& pieces) {
                     .id = domain.id(i)});
 }
 
-// Collective. The curvature κ is the mean over directions, from Σ Δn·Δx = κ Σ Δx². A bent surface has its summit by a
-// twelfth of its area times κ above its mean height. As much again is missed by points that lie a spacing apart, and
-// half of it is made good: of two bodies' points those that come first touch.
+// Collective. The curvature κ is the mean over directions, from Σ Δn·Δx = κ Σ Δx². The summit of a curved surface is a
+// twelfth of its area times κ above its mean height. Points a spacing apart miss as much again, of which half is
+// corrected, because the first points of the two bodies touch first.
 void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   Eigen::AlignedBox3d mine;
   for (const Piece& piece : own) mine.extend(piece.at());
@@ -142,8 +142,8 @@ void bend(const Domain& domain, double spacing, std::vector<Piece>& own) {
   }
 }
 
-// Collective. The images of the bodies that go on behind symmetry planes: contact does not see them, and ρ is to be as
-// it would be with them.
+// Collective. The mirror images of bodies behind symmetry planes: contact does not see them, but ρ must include
+// them.
 Images images_of(const Domain& domain, double reach) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Mirror& mirror : domain.mirrors) {
@@ -156,7 +156,7 @@ Images images_of(const Domain& domain, double reach) {
   return {domain.mirrors, boxes, reach};
 }
 
-// Collective. What ρ is in front of a flat face, over what it is in front of each smooth piece.
+// Collective. Sets `missing`: ρ before a flat face divided by ρ before each smooth piece.
 void compare_with_face(const Domain& domain, const BlockPair& blocks, double reach, std::vector<Piece>& own) {
   const double unit = reach / reach_in_spacings, ahead = before * unit;
   const auto in_front = [ahead](const Piece& piece) { return Vector(piece.at() + ahead * piece.out()); };
@@ -187,8 +187,8 @@ void compare_with_face(const Domain& domain, const BlockPair& blocks, double rea
   }
 }
 
-// The mean of what is missing around a point, as of inverse powers, which leans to the least: before an edge of the
-// body more is missing, which no volume should make up for, and of an edge itself nothing is.
+// Scale of a point's volume: the mean of `missing` around it, by inverse powers, which favors the least. Before an edge
+// of the body ρ is lower, but no volume should correct that; pieces at an edge count as 1.
 double scale(const Near<Piece>& pieces, const Vector& X, int body, double within) {
   constexpr double power = -8;
   double weight = 0, sum = 0;
@@ -200,7 +200,7 @@ double scale(const Near<Piece>& pieces, const Vector& X, int body, double within
   return weight > 0 ? std::pow(sum / weight, 1 / power) : 1;
 }
 
-// How far a point lies below the planes of smooth pieces beside it; infinite where there are none.
+// Depth of a point below the planes of smooth pieces near it, m; infinite without any.
 double depth_below(const Near<Piece>& pieces, const Vector& X, int body, double spacing) {
   double depth = std::numeric_limits<double>::infinity();
   pieces.over(X, planes_within * spacing, body, [&](const Piece& piece, const Vector& apart) {
@@ -210,8 +210,8 @@ double depth_below(const Near<Piece>& pieces, const Vector& X, int body, double 
   return depth;
 }
 
-// By how much the cell of a point reaches beyond it towards the surface of its body, m; where that has no direction, as
-// in a thin plate, the mean of all.
+// Extent of a point's cell beyond the point toward the surface of its body, m; the mean over all directions if the
+// surface has no direction, as in a thin plate.
 double reach_to_surface(const Domain& domain, int i) {
   const PointCloud& cloud = domain.cloud;
   if (cloud.shapes.empty()) return reach_of_cell(cloud, domain.volume(i), i, Vector::Zero());
@@ -221,7 +221,7 @@ double reach_to_surface(const Domain& domain, int i) {
   return reach_of_cell(cloud, domain.volume(i), i, surface / area);
 }
 
-// Sets depth, volume and touch of this rank's points of both blocks by the pieces around them.
+// Sets depth, volume and may_touch of this rank's points of both blocks from the pieces around them.
 void look_at(const Domain& domain, const BlockPair& blocks, double reach, const Near<Piece>& pieces,
              OwnSurface& surface) {
   for (std::size_t k = 0; k < blocks.points.size(); ++k) {

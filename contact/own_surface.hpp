@@ -1,10 +1,10 @@
-// The own surface of a body, as contact of surfaces needs it. A mesh tells the surface of each cell by two integrals
-// (CellShape): a plane through it, and how these planes turn from cell to cell, its curvature. From them come
+// The surface of a body, as surface contact needs it. The mesh gives two integrals over the surface of each cell
+// (CellShape): they define a plane, and its change of direction from cell to cell gives the curvature. These give
 //
-// - how deep a point lies below the surface: from there it touches another body;
-// - the volume with which a point counts in ρ. Before a curved surface, or a member thinner than the reach of ρ, ρ is
-//   less than before a flat face: by as much the volumes of the points there are larger, so that a surface is felt
-//   where it is.
+// - the depth of a point below the surface, at which it touches another body;
+// - the volume of a point in ρ. Before a curved surface, or a member thinner than the reach of ρ, ρ is smaller than
+//   before a flat face; the volumes of the points there are larger by that factor, so that contact starts at the
+//   surface.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,8 @@ namespace strut::contact {
 
 namespace {
 
-// Of the share at the nearest point of the other body. What presses on a face stays in front of its first layer of
-// points, where the share falls by half within half a spacing.
+// Fraction of ρ at the nearest point of the other body. A body that presses on a face stays in front of its first layer
+// of points, where ρ falls by half within half a spacing.
 constexpr double as_deep = 0.95;
 // Of the share half a spacing further in: 0.7 spacings behind a face of nodes, 0.1 within a sheet of one cell.
 constexpr double as_far_in = 0.9;
@@ -40,12 +40,12 @@ std::vector<Extent> extents_of_blocks(const Domain& domain, Place place) {
   return all;
 }
 
-// A point as it travels to other ranks.
+// A point, in the form in which it is sent to other ranks.
 struct Seen {
   double place[3], volume;
 };
 
-// The material of one body.
+// The material of one body, for the smoothed volume fraction.
 class Material {
  public:
   Material(const std::vector<Seen>& points, double spacing, PointsAt at)
@@ -53,8 +53,8 @@ class Material {
     for (const Seen& point : points) volumes_.push_back(point.volume);
   }
 
-  // Whether a place is as deep in it as the nearest of its points. Nodes are on the surface, as what only touches it
-  // is; with them, whether there is hardly more material half a spacing further in.
+  // True if a position is as deep in the material as the nearest of its points. Nodes are on the surface, as a body is
+  // that only touches it; with nodes, true if the volume fraction hardly grows half a spacing further in.
   bool holds(const Vector& x) const {
     double nearest = spacing_ * spacing_;
     const Vector* point = nullptr;
@@ -104,7 +104,7 @@ class Material {
   std::vector<double> volumes_;
 };
 
-// This rank's points of a block within `box`, and with them those near `mine` of other ranks.
+// The material of a block: this rank's points within `box`, and those of other ranks near `mine`.
 Material material_of(const Domain& domain, int block, Place place, const Eigen::AlignedBox3d& box,
                      const Eigen::AlignedBox3d& mine, double near) {
   std::vector<Vector> places;
@@ -120,7 +120,7 @@ Material material_of(const Domain& domain, int block, Place place, const Eigen::
   return {points, domain.blocks[block].spacing, domain.cloud.at};
 }
 
-// Collective. This rank's points of two blocks that are inside the other one.
+// Collective. This rank's points of two blocks that are inside the other block.
 std::vector<int> points_inside(const Domain& domain, int first, int second, const Eigen::AlignedBox3d& overlap,
                                Place place) {
   std::vector<int> tested;
@@ -131,7 +131,7 @@ std::vector<int> points_inside(const Domain& domain, int first, int second, cons
     tested.push_back(i);
     mine.extend((domain.*place)(i));
   }
-  // As far as the nearest point may be, and what is around that.
+  // Distance to the nearest point, and the material around that point.
   const double near = (1 + reach_in_spacings) * std::max(domain.blocks[first].spacing, domain.blocks[second].spacing);
   const Vector margin = Vector::Constant(near);
   const Eigen::AlignedBox3d around(overlap.min() - margin, overlap.max() + margin);
@@ -142,7 +142,7 @@ std::vector<int> points_inside(const Domain& domain, int first, int second, cons
   return tested;
 }
 
-// Of all ranks, that of the lowest id.
+// Collective. The point with the lowest id over all ranks.
 int one_of(const std::vector<int>& points, const Domain& domain) {
   double lowest = std::numeric_limits<double>::max();
   int point = -1;

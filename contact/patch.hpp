@@ -1,7 +1,7 @@
-// A piece of a body that takes up friction. Friction acts at one place on both bodies, or it would turn them: at a
-// place beside its points a piece goes as a rigid body would that moves as they do, and a force there is one at its
-// middle and a couple. Both are each other's transpose, so that friction never does work on bodies that stick to each
-// other there.
+// A patch: a piece of a body that takes friction as a whole. Friction acts at one position on both bodies, else it
+// would rotate them. Off its points a patch moves like a rigid body with the mean motion of its points, and a force
+// there acts as a force at its center and a couple. Motion and force are transposes of each other, so friction does no
+// work on bodies that stick to each other.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -14,13 +14,13 @@ namespace strut::contact {
 struct Patch {
   double weight = 0;                   // of all its points
   Vector middle = Vector::Zero();      // m
-  Tensor per_couple = Tensor::Zero();  // θ of a couple: points feel it as the forces weight θ × (place − middle)
-  double smallest = 0;                 // moment of its points about any axis, weight m²
-  bool turns = false;                  // about any axis: its points are not in one row
-  Vector row = Vector::Zero();  // of unit length along the row; zero where the patch turns, or is as good as one point
+  Tensor per_couple = Tensor::Zero();  // rotation θ per couple: points get the forces weight θ × (position − middle)
+  double smallest = 0;                 // smallest moment of its points about any axis, weight m²
+  bool turns = false;                  // about any axis: its points are not in one line
+  Vector row = Vector::Zero();  // unit vector along the line; zero if the patch turns, or is like one point
 };
 
-// The sums over the points of a patch; places are seen from one near them, m.
+// Sums over the points of a patch; positions are relative to one near them, m.
 class PatchSums {
  public:
   void add(double weight, const Vector& place) {
@@ -29,12 +29,12 @@ class PatchSums {
     second_ += weight * place * place.transpose();
   }
 
-  Vector middle() const { return first_ / weight_; }  // of some weight
+  Vector middle() const { return first_ / weight_; }  // some weight must have been added
 
-  // `arm`: how far from the middle friction acts, m. About an axis with a moment so small beside it that a force there
-  // would meet next to no inertia, the patch does not turn.
+  // `arm`: distance from the center at which friction acts, m. The patch does not turn about an axis whose moment is so
+  // small compared with it that a force there would meet almost no inertia.
   Patch patch(double arm) const {
-    constexpr double most = 10;  // arm² in moments over weight: what is then felt there is as heavy as a point or more
+    constexpr double most = 10;  // largest arm²/(moment/weight): the effective mass at the arm is at least a point's
     Patch patch;
     if (!(weight_ > 0)) return patch;
     patch.weight = weight_;
@@ -60,7 +60,7 @@ class PatchSums {
   Tensor second_ = Tensor::Zero();
 };
 
-// The part of a force at `place` whose couple a patch takes up.
+// The part of a force at `place` whose couple a patch can take.
 inline Vector bearable(const Patch& patch, const Vector& place, const Vector& force) {
   if (patch.turns) return force;
   const Vector arm = place - patch.middle;

@@ -1,4 +1,4 @@
-// Friction between surfaces: what points that touch feel, and its tangent.
+// Friction between surfaces: the forces on touching points, and their tangent.
 #include <algorithm>
 #include <cmath>
 
@@ -9,29 +9,29 @@ namespace strut::contact {
 
 namespace {
 
-// The stiffness of the springs of friction, of that of the surfaces. With less than 1 they do not limit the time step.
+// Stiffness of friction springs, relative to that of the surfaces. Below 1 they do not limit the time step.
 constexpr double of_friction = 0.5;
 
-// The friction on a point, as its partners need it.
+// Friction exchange: the friction on a point, as its partners need it.
 struct Rubbing {
-  Vector drag = Vector::Zero();    // over its ρ, N
-  Vector twist = Vector::Zero();   // θ of their patch, N/m
-  Vector middle = Vector::Zero();  // of their patch, from the point, m
+  Vector drag = Vector::Zero();    // friction over the point's ρ, N
+  Vector twist = Vector::Zero();   // rotation θ of the point's patch, N/m
+  Vector middle = Vector::Zero();  // center of the patch, relative to the point, m
 
-  // What a partner η before the point feels per V W.
+  // The reaction on a partner at η from the point, per V W.
   Vector reaction(const Vector& eta) const { return twist.cross(Vector(eta - middle)) - drag; }
 };
 
-// A force on the point's body at a place, seen from the point, N, and what its reaction there makes of the patch that
-// the point feels.
+// The exchange of a force (N) on the point's body at a position relative to the point: its reaction there acts as a
+// force and a couple on the patch that the point feels.
 Rubbing rubbing_of(const Patch& patch, const Vector& place, const Vector& force) {
   return {force / patch.weight, patch.per_couple * (patch.middle - place).cross(force), patch.middle};
 }
 
 }  // namespace
 
-// `motion`: of pairs.sites, velocities or ways. Of the patch that the point feels, less its own: at a place, seen from
-// the point, if the patch `turns` with its points, else the mean of theirs.
+// `motion`: of pairs.sites, velocities or displacements. The motion of the patch that the point feels minus the point's
+// own: at a position relative to the point if the patch `turns` with its points, else the mean over its points.
 template <class MotionOf>
 Vector Surfaces::slip_of(const Pairs& pairs, std::size_t k, const Patch& patch, const Vector& place, bool turns,
                          const MotionOf& motion) const {
@@ -53,7 +53,7 @@ Patch Surfaces::felt_patch(const Pairs& pairs, std::size_t k, const Vector& plac
   return sums.patch((sums.middle() - place).norm());
 }
 
-// Seen from a point that touches: midway between the surface of its body and that of the other one.
+// Position, relative to a touching point, midway between the surface of its body and that of the other one.
 Vector Surfaces::between_surfaces(std::size_t k) const {
   return (points_[places_[k]].depth - 0.5 * overlaps_[places_[k]]) * gradient_[k].stableNormalized();
 }
@@ -78,7 +78,7 @@ void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding
     Vector place = Vector::Zero();
     if (!sliding.is_trial) place = between_surfaces(k);
     if (!place.isZero(0)) own[k] = couples.of(kinematics, pairs.owned[k], place.norm());
-    if (!own[k].patch.turns) place.setZero();  // nothing could take up the couple
+    if (!own[k].patch.turns) place.setZero();  // nothing could take the couple
     const Patch patch = felt_patch(pairs, k, place);
     const Vector normal = gradient_[k].stableNormalized();
     slip = slips_before_[places_[k]] - sliding.times * own[k].spin.cross(place) +
@@ -135,7 +135,7 @@ double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& fr
 void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
   struct Change {
     Vector of_place = Vector::Zero();
-    Rubbing friction;    // of the change of the friction
+    Rubbing friction;    // change of the friction
     double tension = 0;  // κ times the change of ρ
   };
   std::vector<Change> changes(pairs.sites.size());

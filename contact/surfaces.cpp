@@ -16,8 +16,8 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// No share of material grows faster than this over the smallest reach when all that is near moves by a length:
-// ∫ |W'| dV is 6.3/R, and material may be denser than it was.
+// Upper bound of the change of ρ, times the smallest reach, per length that all near points move: ∫ |W'| dV is 6.3/R,
+// and material may be denser than in the reference state.
 constexpr double steepest_share = 10;
 
 // `depth`: below the surface of its body, m.
@@ -25,7 +25,7 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other,
   const PointCloud& cloud = domain.cloud;
   const double spacing = cloud.spacings[i];
   const double reach = reach_in_spacings * std::max(spacing, spacing_of_other);
-  const double beyond = std::min(depth, 0.5 * reach);  // farther out ρ tells nothing
+  const double beyond = std::min(depth, 0.5 * reach);  // farther out ρ has no information
   const bool nodes = cloud.at == PointsAt::nodes;
   const Face other{reach, spacing_of_other, !nodes};
   return {.reach = reach,
@@ -40,10 +40,10 @@ SurfacePoint surface_point(const Domain& domain, int i, double spacing_of_other,
 
 }  // namespace
 
-// ρ at a point and how it changes with the places.
+// ρ at a point and its derivatives by positions.
 struct Surfaces::Felt {
   double share = 0;
-  Vector gradient = Vector::Zero();  // by its own place, 1/m
+  Vector gradient = Vector::Zero();  // by the point's own position, 1/m
   double of_partners = 0;            // Σ |∂ρ/∂y_j|/√m_j
 };
 
@@ -96,7 +96,7 @@ void Surfaces::take(const BlockPair& blocks, Pairs& pairs) {
   set_volumes(pairs);
 }
 
-// Sets the volumes that the share ρ sums.
+// Sets the volumes that ρ sums.
 void Surfaces::set_volumes(Pairs& pairs) const {
   std::vector<double> volumes(pairs.sites.size());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) volumes[k] = volumes_[places_[k]];
@@ -116,7 +116,7 @@ void Surfaces::set_smallest_reaches(const Pairs& pairs) {
   }
 }
 
-// Points that have lost bonds are at a surface from then on.
+// Points with broken bonds are at a surface from then on.
 void Surfaces::take_broken(const Domain& domain, const Pairs& pairs) {
   if (domain.families.broken.empty()) return;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
@@ -136,7 +136,7 @@ Surfaces::Felt Surfaces::feel(const Pairs& pairs, std::size_t k) const {
   return felt;
 }
 
-// `overlap`: before, and now; 0 where there is none.
+// `overlap`: on entry that of the last forces, on return the present one; 0 if the point does not touch.
 Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& point, const Felt& felt, double mass,
                                   double& overlap) const {
   Facing facing{.reach = point.reach};
@@ -151,8 +151,8 @@ Surfaces::Facing Surfaces::facing(const SurfaceLaw& law, const SurfacePoint& poi
   return facing;
 }
 
-// How far two points of the pairs may have moved towards each other since the search: twice the largest motion against
-// the mean of each step, added up.
+// Adds to the bound of how far two points of the pairs may have approached since the search: twice the largest
+// displacement of each step relative to the mean.
 void Surfaces::advance_travel(const Pairs& pairs) {
   if (seen_.size() != pairs.sites.size()) {
     travel_ = 0;
@@ -176,8 +176,8 @@ void Surfaces::note_touching() {
   }
 }
 
-// What each point feels: energy and deepest overlap. One that does not touch is asked again when the motion since then
-// may have sufficed.
+// Evaluates each point: energy and deepest overlap. A point that does not touch is evaluated again when the motion
+// since then may have closed its gap.
 ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
   advance_travel(pairs);
   ForceResult result;
@@ -195,7 +195,7 @@ ForceResult Surfaces::feel_all(const SurfaceLaw& law, const Pairs& pairs) {
   return result;
 }
 
-// The Hessian Σ κ ∇ρ ⊗ ∇ρ of all points that feel, with M^(−1/2) on both sides, is at most a tensor of each point:
+// The Hessian Σ κ ∇ρ ⊗ ∇ρ of all touching points, with M^(−1/2) on both sides, is bounded by a tensor for each point:
 // (Σ_m g_m·x_m)² ≤ S Σ_m (√m_m/|g_m|) (g_m·x_m)² with S = Σ_m |g_m|/√m_m (Cauchy and Schwarz).
 ForceResult Surfaces::add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                         std::vector<Vector>& force_density) {

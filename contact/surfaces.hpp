@@ -1,14 +1,14 @@
-// Contact between the surfaces of two blocks (laws/surface.hpp). Each point at a surface feels for the other body: it
-// has the energy A E(g), with half of its share of the surface, A, and the overlap g = (ρ(y) − threshold)/slope at its
-// place. The force on every point is the derivative of the sum of these energies, so forces are central, equal and
-// opposite, and what a contact has stored it gives back. With a_i = A_i p(g_i)/slope_i and η = y_j − y_i
+// Contact between the surfaces of two blocks (laws/surface.hpp). Each point at a surface has the energy A E(g): A is
+// half of its area of the surface, g = (ρ(y) − threshold)/slope the overlap at its position. The force on every point
+// is the derivative of the sum of these energies, so forces are central, equal and opposite, and contact returns the
+// energy that it stores. With a_i = A_i p(g_i)/slope_i and η = y_j − y_i
 //   f_i = Σ_j (a_i V_j W'_i + a_j V_i W'_j) η/|η|.
 //
-// Friction is a spring from each such point to the patch that it feels. It acts at one place, where both surfaces are:
-// there the point's own neighborhood (couples.hpp) and the patch take it, as a force and a couple (patch.hpp). It
-// yields at μ times the normal force (Coulomb): what sticks does not creep. In equilibria the place is the point
-// itself, and the spring follows the mean of the patch's points instead of the patch as it turns: pressed and dragged
-// surfaces turn between their points, which as slip would be a compliance of its own.
+// Friction is a spring from each such point to the patch of the other body that it feels. It acts at one position,
+// between both surfaces, on the point's own neighborhood (couples.hpp) and on the patch, as a force and a couple
+// (patch.hpp). It yields at μ times the normal force (Coulomb), so sticking points do not creep. In equilibria it acts
+// at the point itself, and the spring follows the mean motion of the patch's points instead of the rotating patch:
+// pressed and sheared surfaces rotate between their points, which as slip would be an additional compliance.
 #pragma once
 
 #include <cmath>
@@ -23,20 +23,20 @@
 
 namespace strut::contact {
 
-// What a point of a body knows of itself.
+// Constants of a point of a body.
 struct SurfacePoint {
-  double reach = 0;      // from how far it sees another body, m
-  double threshold = 0;  // ρ from which it touches
+  double reach = 0;      // largest distance at which it sees another body, m
+  double threshold = 0;  // ρ at which it touches
   double slope = 0;      // of ρ with the distance there, 1/m
   double depth = 0;      // below the surface of its body, m
-  double area = 0;       // half of its share of the surface, m²: the other body's points have the other half
+  double area = 0;       // half of its area of the surface, m²: the other body's points have the other half
   double spacing = 0;    // m
   double volume = 0;     // m³
   bool is_at_surface = false;
 };
 
-// By how much points have moved: `of` them, velocities (m/s) or ways (m), times so much. A trial starts where the last
-// commit was; else one step follows the other.
+// Motion of the points: `of` are velocities (m/s) or displacement increments (m), to be multiplied by `times`. A trial
+// starts from the last commit; else steps follow each other.
 struct Sliding {
   std::span<const Vector> of;
   double times = 1;
@@ -45,22 +45,22 @@ struct Sliding {
 
 class Surfaces {
  public:
-  // Collective. Of two blocks where they stand at first. Bodies whose surfaces overlap from the start do not press each
-  // other by that: it is added to the threshold.
+  // Collective. The blocks must be at their initial positions. Bodies whose surfaces overlap at the start do not press
+  // each other thereby: the overlap is added to the threshold.
   Surfaces(const Domain& domain, const BlockPair& blocks, const SurfaceLaw& law);
 
-  // After a search.
+  // Call it after a search.
   void take(const BlockPair& blocks, Pairs& pairs);
 
-  // As forces.hpp has them for pairs of points. `penetration`: the overlap in spacings of the point.
+  // As in forces.hpp for pairs of points. `penetration`: the overlap in spacings of the point.
   ForceResult add_normal_forces(const Kinematics& kinematics, const SurfaceLaw& law, Pairs& pairs,
                                 std::vector<Vector>& force_density);
   void for_each_normal_force(const Pairs& pairs, const std::function<void(std::size_t, Vector)>& visit) const;
-  // Collective but in a trial. `friction`: on pairs.owned, N, beside that of `couples`, which has taken pairs.owned.
+  // Collective except in a trial. `friction`: on pairs.owned, N, without that of `couples`, which has pairs.owned.
   void add_friction(const Kinematics& kinematics, const Sliding& sliding, const SurfaceLaw& law, double coefficient,
                     Pairs& pairs, Couples& couples, std::vector<Vector>& force_density, std::vector<Vector>& friction);
-  // What the last trial has come to is where the next ones start. Before that: the work of friction since the last
-  // time, by the mean of the forces at both ends, J; `way`: of owned points since then, m.
+  // commit makes the state of the last trial the start of the next ones. friction_work, before it: the work of friction
+  // since the last commit by the mean of the forces at both ends, J; `way`: displacement of owned points since then, m.
   void commit(const std::vector<Vector>& friction);
   std::vector<Vector> committed_friction() const;  // on the owned points of the last search, N
   double friction_work(const Pairs& pairs, const std::vector<Vector>& friction, std::span<const Vector> way) const;
@@ -68,29 +68,29 @@ class Surfaces {
   void add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const;
   void add_springs(const Pairs& pairs, std::span<Tensor> springs) const;
 
-  // The stretch of the springs of friction at the start of the last step or trial, and the friction there. `name`: of
-  // this pair of blocks.
+  // Stretch of the friction springs at the start of the last step or trial, and the friction there. `name`: of this
+  // pair of blocks.
   void serialize(Archive& archive, const std::string& name, const Domain& domain, const BlockPair& blocks);
 
  private:
-  // What the partners of a point must know of how it feels.
+  // Contact state of a point, as its partners need it.
   struct Facing {
     double reach = 0;
     double push = 0;       // a, N m
     double stiffness = 0;  // A p'/slope², N m: of the energy's second derivative by ρ
-    double to_come = 0;    // the same if the overlap grows on as in the last step
+    double to_come = 0;    // stiffness if the overlap grows on as in the last step
     double spread = 0;     // Σ |∂ρ/∂y|/√m over all points that it depends on, 1/(m √kg)
 
     bool touches() const { return to_come > 0; }
   };
   struct Felt;
-  // How friction at a point follows its motion.
+  // Friction tangent: how the friction on a point changes with its motion.
   struct Grip {
-    Vector along = Vector::Zero();   // the direction of the force
-    Vector normal = Vector::Zero();  // of the surface
-    double spring = 0;               // N/m, along the surface; of what slides across its direction only
-    double by_share = 0;             // N: the force of what slides, by the change of ρ
-    Patch patch;                     // that it feels, seen from the point
+    Vector along = Vector::Zero();   // direction of the force
+    Vector normal = Vector::Zero();  // normal of the surface
+    double spring = 0;               // N/m, along the surface; while sliding, only across the direction of sliding
+    double by_share = 0;             // N: change of the sliding force with ρ
+    Patch patch;                     // the patch that the point feels, relative to the point
     bool slides = false;
   };
 
@@ -118,23 +118,23 @@ class Surfaces {
   std::vector<SurfacePoint> points_;          // of blocks.points
   std::vector<double> volumes_;               // of blocks.points: V of ρ, m³ (own_surface.hpp)
   std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
-  std::vector<Vector> slips_, slips_before_;  // of blocks.points: the springs of friction; a step before, m
-  std::vector<Vector> friction_before_;       // of blocks.points, N: as of the last commit
-  std::vector<Grip> grips_;                   // of pairs.owned, of a trial
+  std::vector<Vector> slips_, slips_before_;  // of blocks.points: stretch of the friction springs; a step before, m
+  std::vector<Vector> friction_before_;       // of blocks.points, N: at the last commit
+  std::vector<Grip> grips_;                   // of pairs.owned, in a trial
   std::vector<int> places_;                   // of pairs.owned in blocks.points
-  std::vector<double> due_;                   // of pairs.owned: the travel at which one may come to touch, m
+  std::vector<double> due_;                   // of pairs.owned: the travel at which the point may touch, m
   std::vector<double> smallest_reach_;        // of pairs.owned, for any partner, m
-  std::vector<Vector> seen_;                  // where pairs.sites were, m
+  std::vector<Vector> seen_;                  // last positions of pairs.sites, m
   double travel_ = 0;                         // since the search, m
-  std::vector<Facing> facing_;                // of pairs.sites, as of the last forces
-  std::vector<char> touches_;                 // of pairs.sites: what is asked of every partner, close together
-  bool any_touches_ = false;                  // of pairs.sites
-  std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by its own place, 1/m
+  std::vector<Facing> facing_;                // of pairs.sites, at the last forces
+  std::vector<char> touches_;                 // of pairs.sites: touches(), compact because every partner reads it
+  bool any_touches_ = false;                  // any of pairs.sites
+  std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by their own positions, 1/m
 };
 
 // ---- Loops over the partners that points see, or that see them
 
-// From how far a point sees another: within a body, if they were near each other, from a share of that distance only.
+// Distance at which a point sees another: within a body at most a fraction of their reference distance.
 inline double reach_between(double reach, const Site& here, const Site& there, bool one_body) {
   if (!one_body) return reach;
   const double apart2 = (there.reference - here.reference).head<3>().matrix().squaredNorm();
@@ -146,7 +146,7 @@ void exchange_records(const Pairs& pairs, std::vector<Record>& records) {
   if (pairs.halo) pairs.halo->exchange<unchanged>(records);
 }
 
-// Calls visit(partner, η, |η|², reach) for the partners that pairs.owned[k] sees.
+// Calls visit(partner, η, |η|², reach) for each partner that pairs.owned[k] sees.
 template <class Visit>
 void Surfaces::over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) const {
   const Site& here = pairs.sites[k];
@@ -161,7 +161,7 @@ void Surfaces::over_felt(const Pairs& pairs, std::size_t k, const Visit& visit) 
   }
 }
 
-// The same of the partners that touch and see pairs.owned[k].
+// The same for the partners that touch and see pairs.owned[k].
 template <class Visit>
 void Surfaces::over_feeling(const Pairs& pairs, std::size_t k, const Visit& visit) const {
   const Site& here = pairs.sites[k];
@@ -176,8 +176,8 @@ void Surfaces::over_feeling(const Pairs& pairs, std::size_t k, const Visit& visi
   }
 }
 
-// Calls visit(facing, ∂ρ/∂y) for the ρ of all points that touch and depend on the place y of pairs.owned[k]: its own,
-// and those of partners.
+// Calls visit(facing, ∂ρ/∂y) for the ρ of all touching points that depends on the position y of pairs.owned[k]: its
+// own, and those of partners.
 template <class Visit>
 void Surfaces::over_gradients(const Pairs& pairs, std::size_t k, const Visit& visit) const {
   visit(facing_[k], gradient_[k]);

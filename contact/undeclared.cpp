@@ -12,9 +12,9 @@ namespace strut::contact {
 
 namespace {
 
-constexpr double near = 0.5;  // of the smaller spacing
+constexpr double near = 0.5;  // in smaller spacings
 
-// Blocks that go together, without contact.
+// Pairs of blocks without declared contact.
 class Uncovered {
  public:
   Uncovered(const Domain& domain, const Contact& contact) : blocks_(domain.blocks.size()), pairs_(blocks_ * blocks_) {
@@ -34,7 +34,7 @@ class Uncovered {
   bool any_ = false;
 };
 
-// A point as it travels to other ranks.
+// A point, in the form in which it is sent to other ranks.
 struct Seen {
   double current[3], reference[3], inward[3], spacing, horizon, block, index;
 };
@@ -73,8 +73,8 @@ bool is_behind(const Seen& point, const Seen& face) {
   return apart.dot(inward) > straight * apart.norm() * inward.norm();
 }
 
-// Whether two points, nearer to each other than `near`, have come from where they could not have been without passing
-// through what is between them.
+// True if two points within `near` of each other started so far apart that they must have passed through the material
+// between them.
 bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a, const Seen& b) {
   const int one = static_cast<int>(a.block), other = static_cast<int>(b.block);
   if (!uncovered.has(one, other)) return false;
@@ -85,7 +85,7 @@ bool has_passed(const Domain& domain, const Uncovered& uncovered, const Seen& a,
                                                               : first > std::min(a.spacing, b.spacing);
 }
 
-// No two points have come so near to each other that were two horizons or, of two bodies, a spacing apart.
+// True if no two points can have come close that were two horizons, or in two bodies a spacing, apart.
 bool hardly_moved(const Domain& domain) {
   Eigen::AlignedBox3d ways;
   double spacing = std::numeric_limits<double>::max();
@@ -97,7 +97,7 @@ bool hardly_moved(const Domain& domain) {
   return ways.isEmpty() || ways.diagonal().norm() < (1 - near) * domain.communicator.min(spacing);
 }
 
-// What this rank's points tell, the first of `all`, which are at `places`.
+// Counts the passed points of this rank, which are the first `mine` of `all`; `places`: positions of all.
 Undeclared passed_points(const Domain& domain, const Uncovered& uncovered, std::size_t mine,
                          const std::vector<Seen>& all, const std::vector<Vector>& places, double reach) {
   Undeclared found;

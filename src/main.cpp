@@ -1,5 +1,5 @@
 // strut: correspondence peridynamics of foams and bars under impact.
-// What it can be told stands in `help`.
+// Its options are described in `help`.
 #include <algorithm>
 #include <csignal>
 #include <iostream>
@@ -53,12 +53,12 @@ int say(const strut::Communicator& world, const std::string& text) {
   return 0;
 }
 
-// A launcher of another MPI makes each of its processes a run of one rank, and all would do the same work.
+// A launcher of another MPI starts each process as a run of one rank, and all would do the same work.
 bool started_as_ranks(const strut::Launch& launch, const strut::Communicator& world) {
   return launch.processes <= 1 || world.size() > 1;
 }
 
-// The first process tells, and its status is the job's: another that failed might have it killed before it tells.
+// The first process prints the error, and its status is the job's: if another failed, the job might be killed before.
 int refuse(const strut::Launch& launch) {
   if (launch.number != 0) return 0;
   std::cerr << "strut: one of " << launch.processes << " processes (" << launch.variable
@@ -77,10 +77,10 @@ int run(const std::string& deck, const strut::Communicator& world, strut::Start 
 
 std::optional<int> number_of_threads(const std::string& word) {
   const std::optional<int> number = strut::whole_number(word);
-  return number >= 1 && number <= strut::most_threads ? number : std::nullopt;  // nothing is less than any number
+  return number >= 1 && number <= strut::most_threads ? number : std::nullopt;  // 0 is not a number of threads
 }
 
-// Of words that ask for nothing that there is.
+// Describes the error in words that are no valid command.
 std::string what_is_wrong(const std::vector<std::string>& words) {
   static const std::vector<std::string> options = {"--continue", "--check", "--log",     "--threads",
                                                    "--explain",  "--keys",  "--version", "--help"};
@@ -102,7 +102,7 @@ std::string what_is_wrong(const std::vector<std::string>& words) {
 
 int act(const std::vector<std::string>& words, const strut::Communicator& world);
 
-// Its error is told: raised on all ranks, rank 0 speaks for them.
+// Prints the error: it is raised on all ranks, and rank 0 prints it.
 int reported(const std::vector<std::string>& words, const strut::Communicator& world) {
   try {
     return act(words, world);
@@ -144,12 +144,12 @@ int act(const std::vector<std::string>& words, const strut::Communicator& world)
 
 int main(int argc, char** argv) {
   strut::Runtime runtime(argc, argv);
-  std::signal(SIGXFSZ, SIG_IGN);  // a write that is too much fails, and is told as a full disk is
-  std::signal(SIGPIPE, SIG_IGN);  // who read what is said has gone: the run goes on
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails, and is reported like a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // if the reader of the output is gone, the run continues
   const strut::Communicator world;
   try {
     return reported({argv + 1, argv + argc}, world);
-  } catch (const std::exception& error) {  // this rank alone: the others would wait for it
+  } catch (const std::exception& error) {  // on this rank alone: the others would wait for it
     std::cerr << "strut: rank " << world.rank() << ": " << error.what() << "\n";
     world.abort();
   }

@@ -1,6 +1,6 @@
-// What a law of contact is: the touching distance of two points, and from their overlap the force that parts them, its
-// slope and the energy that it stores. A new law is a type of its own (penalty.hpp, hertz.hpp), a line in laws.hpp, and
-// an entry in src/deck/sections/contact_laws.cpp.
+// Interface of a contact law between points: the touching distance of two points and, as functions of their overlap,
+// the repulsive force, its slope and the stored energy. A new law needs a type of its own (penalty.hpp, hertz.hpp), a
+// line in laws.hpp and an entry in src/deck/sections/contact_laws.cpp.
 #pragma once
 
 #include <algorithm>
@@ -9,31 +9,31 @@
 
 namespace strut::contact {
 
-// Two points that are near each other, as a law sees them: the same from both.
+// A pair of points as a law sees it, symmetric in both.
 struct PointPair {
   double volumes[2];                   // in the reference state, m³
   std::pair<double, double> horizons;  // m
   double reference_distance;           // m
-  bool one_body;                       // or two: then they are not bonded wherever they are
+  bool one_body;                       // false: points of two bodies, which are never bonded
 };
 
-// No two points touch from farther than this, whatever the law (the search rests on it): r_c, but never more than a
-// share of their distance in the reference state. Of one body: 0.9 of it (Parks et al. 2008, LAMMPS' PERI package). So
-// a body does not start under pressure from points that are beyond each other's horizon but within r_c, and the
-// material that joins two points is left to its own law until it has been shortened by a tenth. Of two bodies: all of
-// it, so that bodies with a common face start without pressure and without a gap.
+// Upper bound of the touching distance for any law (the search relies on it): r_c, limited to a fraction of the
+// reference distance. Within a body the fraction is 0.9 (Parks et al. 2008, LAMMPS' PERI package), so that a body does
+// not start under pressure from points beyond each other's horizon but within r_c, and the material between two points
+// follows its own law until it is compressed by a tenth. Between two bodies it is 1, so that bodies with a common face
+// start without pressure and without a gap.
 inline constexpr double reference_share = 0.9;
 inline double largest_touching_distance(double radius, double reference_distance, bool one_body) {
   return std::min(radius, (one_body ? reference_share : 1) * reference_distance);
 }
 
-// With `overlap`, m: by how much two points are nearer than their touching distance; never negative. The stiffness may
-// not fall as the overlap grows (forces.cpp bounds that of the next step), and is not less than 0 where there is none.
+// `overlap`: touching distance minus distance, m, never negative. The stiffness must not decrease as the overlap grows
+// (forces.cpp bounds that of the next step), and must not be negative at zero overlap.
 template <class L>
 concept ContactLaw = std::copyable<L> && requires(const L& law, const PointPair& pair, double overlap) {
   { law.radius } -> std::convertible_to<double>;                     // r_c, m
-  { law.touching_distance(pair) } -> std::same_as<double>;           // m: the largest one, or less
-  { law.normal_force(pair, overlap) } -> std::same_as<double>;       // N, > 0 parts them
+  { law.touching_distance(pair) } -> std::same_as<double>;           // m, at most the largest one
+  { law.normal_force(pair, overlap) } -> std::same_as<double>;       // N, repulsive if > 0
   { law.tangent_stiffness(pair, overlap) } -> std::same_as<double>;  // the slope of the force, N/m
   { law.stored_energy(pair, overlap) } -> std::same_as<double>;      // its integral from 0 on, J
 };

@@ -1,9 +1,9 @@
-// Points as elastic spheres (Hertz; Johnson, Contact Mechanics 1985, ch. 4): f = 4/3 E* √R* o^(3/2), with o the overlap
+// Points as elastic spheres (Hertz; Johnson, Contact Mechanics 1985, ch. 4): f = 4/3 E* √R* o^(3/2), with the overlap o
 // and 1/R* = 1/R₁ + 1/R₂.
 //
-// R is half the edge of a cube with the volume of the point: neighbors on a lattice are spheres that touch. Then two
-// faces of points a spacing h apart press each other with f/h² = 2/3 E* (o/h)^(3/2), the same for any spacing; half the
-// contact radius in its place would make finer meshes stiffer, and all points of two blocks equal.
+// R is half the edge of a cube with the volume of the point, so that neighbors on a lattice are touching spheres. Two
+// faces of points with the spacing h then press each other with f/h² = 2/3 E* (o/h)^(3/2) for any spacing. Half the
+// contact radius instead would make finer meshes stiffer, and would give all points of two blocks the same radius.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace strut::contact {
 
 struct HertzLaw {
-  double radius = 0;             // r_c, m: from where points touch, not a radius of spheres
+  double radius = 0;             // r_c, m: distance at which points may touch, not a radius of spheres
   double effective_modulus = 0;  // E*, Pa: 1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂
 
   // R*, m.

@@ -1,4 +1,4 @@
-// All laws of contact. Whoever has one of them asks which it is once for all pairs of two blocks, not for each.
+// All contact laws. The type of the law is resolved once for all pairs of two blocks, not for each pair.
 #pragma once
 
 #include <variant>
@@ -9,16 +9,16 @@
 
 namespace strut::contact {
 
-using PairLaw = std::variant<PenaltyLaw, HertzLaw>;  // of two points
+using PairLaw = std::variant<PenaltyLaw, HertzLaw>;  // between points
 using Law = std::variant<PairLaw, SurfaceLaw>;
 
-// No two points touch from farther than this, m.
+// Upper bound of the touching distance, m.
 inline double radius_of(const Law& law) {
   if (const auto* surface = std::get_if<SurfaceLaw>(&law)) return surface->radius;
   return std::visit([](const ContactLaw auto& one) { return one.radius; }, std::get<PairLaw>(law));
 }
 
-// What two blocks do to each other where they touch.
+// The contact model of two blocks.
 struct Model {
   Law law;
   double friction = 0;  // Coulomb's coefficient

@@ -1,5 +1,5 @@
 // The short-range penalty of Postek, Nowak & Pęcherski (2021), eq. 22: f = K_c (r − d) V₁ V₂, with d the distance of
-// two points and r the one from which they touch; K_c is the mean of both points', as in Peridigm, where each pushes.
+// two points and r their touching distance; K_c is the mean of both points', as in Peridigm, where each point pushes.
 #pragma once
 
 #include <numbers>

@@ -1,11 +1,11 @@
-// Contact between surfaces. What is around a place is told by a smooth share of the other body's material,
-//   ρ(x) = Σ V_j W(|y_j − x|),  W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶,  whose integral is 1:
-// it goes from 0 to 1 across a flat face, and hardly shows the lattice behind it; V_j is such that it does so across a
-// curved one, too (contact/own_surface.hpp). A point touches where ρ exceeds what a face has at the distance e, by
-// which the point lies below the surface of its own body. The overlap g is that excess over the slope of ρ, and the
-// pressure
-//   p(g) = K g, or K g/(1 − g/g_l), where there is a largest overlap g_l,
-// is the derivative of an energy a face, so that forces derive from it too (contact/surfaces.hpp).
+// Contact between surfaces. It starts from a smoothed volume fraction of the other body,
+//   ρ(x) = Σ V_j W(|y_j − x|),  W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶ with the integral 1,
+// which goes from 0 to 1 across a flat face and hardly shows the lattice; V_j is corrected so that it does so across a
+// curved face, too (contact/own_surface.hpp). A point touches if ρ exceeds its value before a flat face at the distance
+// e, the depth of the point below the surface of its own body. The overlap g is that excess divided by the slope of ρ,
+// and the pressure
+//   p(g) = K g, or K g/(1 − g/g_l) with a largest overlap g_l,
+// is the derivative of an energy per area, so that forces derive from it, too (contact/surfaces.hpp).
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 
 namespace strut::contact {
 
-// The reach R in spacings. Two equal lattices slide on each other with slopes below 1 % (docs/theory.md); with less the
-// lattice shows, with more the surfaces of thin members become blunt.
+// The reach R in spacings. Two equal lattices slide on each other with slopes below 1 % (docs/theory.md); a smaller
+// reach shows the lattice, a larger one blunts the surfaces of thin members.
 inline constexpr double reach_in_spacings = 2.5;
 
-// W of the square of a distance r < `reach`, and its slope over r, which is finite at r = 0.
+// W as a function of r², r < `reach`, and its slope divided by r, which is finite at r = 0.
 class Smoothing {
  public:
   explicit Smoothing(double reach)
@@ -36,14 +36,14 @@ class Smoothing {
   double inverse2_, norm_;
 };
 
-// Before the face of a body on a lattice.
+// The smoothed volume fraction before a flat face of a body on a lattice.
 struct Face {
   double reach;    // R, m
   double spacing;  // of its layers, m
-  bool is_middle;  // its points are middles of cells, half a spacing behind the face; else nodes, of which those on the
+  bool is_middle;  // its points are centers of cells, half a spacing behind the face; else nodes, of which those on the
                    // face have half a volume
 
-  // ρ at the distance d, and −dρ/dd, 1/m.
+  // ρ at the distance d from the face, and −dρ/dd, 1/m.
   double share(double d) const {
     return over_layers(d, [this](double x) { return 6435.0 / 4096 / reach * std::pow(x, 7); });
   }
@@ -53,7 +53,7 @@ struct Face {
   }
 
  private:
-  // Of a layer at the distance z a function of 1 − z²/R².
+  // `of_layer`: a function of 1 − z²/R² for a layer at the distance z.
   template <class OfLayer>
   double over_layers(double d, const OfLayer& of_layer) const {
     const auto at = [&](double z) { return of_layer(1 - z * z / (reach * reach)); };
@@ -66,15 +66,15 @@ struct Face {
 struct SurfaceLaw {
   double factor = 0.25;        // of the stiffness of a layer one spacing thick
   double largest_overlap = 0;  // of a spacing; 0: no limit
-  // As the two blocks have it (setup).
+  // From the two blocks, at set-up.
   double modulus = 0;  // M*, Pa: 1/M* = (1/M₁ + 1/M₂)/2, M of longitudinal waves
-  double radius = 0;   // m: from where a point may see another body
+  double radius = 0;   // m: largest distance at which a point may see another body
   double spacing = 0;  // m: the mean of the largest spacings of both
 
   double stiffness() const { return factor * modulus / spacing; }  // K, Pa/m: of two faces
   double limit() const { return largest_overlap * spacing; }       // g_l, m
 
-  // Of the overlap g, m. Near the limit, where a step may go beyond it, p goes on along its tangent.
+  // Functions of the overlap g, m. Near the limit, which a step may exceed, p continues along its tangent.
   double pressure(double g) const {  // Pa
     if (limit() == 0) return stiffness() * g;
     const double near = std::min(g, most * limit());

@@ -1,5 +1,5 @@
-// Bounding volumes of cells and clusters of points: what rules out that any of their points touch, asked of as many at
-// a time as a register holds (clusters.hpp).
+// Bounding volumes of cells and clusters of points. They rule out that any of their points touch, for as many volumes
+// at a time as a register has lanes (clusters.hpp).
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace strut::contact {
 
 using small::Lanes;
 
-// What is asked of bounding volumes and in registers must not rule out a pair by round-off.
+// Margin, so that round-off in bounding volumes and registers never rules out a pair.
 inline constexpr double round_off = 1e-9;
 
-// Numbers that are read some at a time, from any place.
+// A column of numbers that is read several at a time, from any index.
 class Column {
  public:
   void add(double value) { values_.push_back(value); }
-  void close() { values_.insert(values_.end(), small::lane_count, 0.0); }  // so that the last ones can be read as any
+  void close() { values_.insert(values_.end(), small::lane_count, 0.0); }  // padding for reads of full lanes
   double operator[](std::size_t i) const { return values_[i]; }
   Lanes at(std::size_t i) const { return Eigen::Map<const Lanes>(values_.data() + i); }
 
@@ -39,15 +39,15 @@ struct Columns3 {
   Vector operator[](std::size_t i) const { return {c[0][i], c[1][i], c[2][i]}; }
 };
 
-// Of points that move as one: y = place + rotation (X − reference) but for `spread`.
+// Points that move rigidly except for `spread`: y = place + rotation (X − reference).
 struct BoundingVolume {
   Vector place, reference;  // of its center, m
-  // The largest |y − place|, |X − reference|, distance to where this motion puts a point, and skin distance; m.
+  // The largest |y − place|, |X − reference|, deviation from the rigid motion, and skin distance; m.
   double radius, size, spread, skin;
   Tensor rotation;
 };
 
-// How near points may touch: r_c, and the smallest horizon, 0 between bodies; m.
+// Distances at which points may touch: r_c, and the smallest horizon (0 between bodies); m.
 struct Reach {
   double radius, horizon;
   double slack() const { return round_off * radius; }
@@ -55,7 +55,7 @@ struct Reach {
 
 inline Lanes squared_length(const Lanes* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-// Bounding volumes side by side.
+// Bounding volumes in columns, tested several at a time.
 class BoundingVolumes {
  public:
   void add(const BoundingVolume& volume);
@@ -65,7 +65,7 @@ class BoundingVolumes {
   double skin(int n) const { return skin_[n]; }
   double largest_skin() const { return largest_skin_; }
 
-  // Of those from n on: not negative where no point of them can touch one of `one`.
+  // For those from n on: not negative if no point of the volume can touch one of `one`.
   Lanes ruled_out(int n, const BoundingVolume& one, const Reach& reach) const;
 
  private:

@@ -1,4 +1,4 @@
-// Candidates: the points that a search on this rank knows, and which two of them may touch.
+// Candidates: the points that a search on this rank knows, and the criterion by which two of them may touch.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace strut::contact {
 
-// A point as it travels to other ranks.
+// A candidate, in the form in which it is sent to other ranks.
 struct Candidate {
   double reference[4], current[4];  // of Site
   double mass, skin;                // kg; its skin distance, m
@@ -29,7 +29,7 @@ struct CandidatePool {
   bool owns(int m) const { return m < static_cast<int>(owned); }
 };
 
-// Whether two candidates may touch before both have used up their skin distances.
+// True if two candidates may touch before both have used up their skin distances.
 struct Criterion {
   double radius;  // r_c, m
   const BlockPair& blocks;
@@ -43,7 +43,7 @@ struct Criterion {
     const double apart = (reference(b) - reference(a)).norm();
     const bool anywhere = blocks.by_surfaces && !blocks.one_body;
     const double touching = anywhere ? radius : largest_touching_distance(radius, apart, blocks.one_body);
-    const double reach = touching + (a.skin + b.skin);  // the same from both
+    const double reach = touching + (a.skin + b.skin);  // the same from both ends
     return (place(b) - place(a)).squaredNorm() <= reach * reach;
   }
 };

@@ -18,10 +18,10 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 constexpr int width = small::lane_count;
 
-// Points that are this near to where they were, in units of their extent: how they have turned is not asked.
+// Points whose displacements are this small, relative to their extent, need no fitted rotation.
 constexpr double hardly_turned = 2e-3;
 
-// The rotation R that comes nearest to y − place = R (X − reference): of the moment Σ (y − place) ⊗ (X − reference).
+// The rotation R that fits y − place = R (X − reference) best, from the moment Σ (y − place) ⊗ (X − reference).
 Tensor fitted_rotation(const Tensor& moment) {
   const Eigen::JacobiSVD<Tensor> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Tensor U = svd.matrixU();
@@ -29,7 +29,7 @@ Tensor fitted_rotation(const Tensor& moment) {
   return U * svd.matrixV().transpose();
 }
 
-// Of a cell for about 64 points of a block where they are dense, m.
+// Width of a cell for about 64 points of a block where they are dense, m.
 double cell_width(const CandidatePool& candidates, int block) {
   double volume = 0, count = 0;
   for (const Candidate& member : candidates.members) {
@@ -38,7 +38,7 @@ double cell_width(const CandidatePool& candidates, int block) {
   return count > 0 ? 4 * std::cbrt(volume / count) : 1;
 }
 
-// Calls visit(i) for the lanes below zero of those that stand for i = begin … end − 1.
+// Calls visit(i) for the lanes below zero; the lanes stand for i = begin … end − 1.
 template <class Visit>
 void visit_below_zero(const Lanes& values, int begin, int end, const Visit& visit) {
   const unsigned there = (1u << std::min(width, end - begin)) - 1;
@@ -63,8 +63,8 @@ class Clusters {
     return {members_.data() + start_[begin], members_.data() + start_[end]};
   }
 
-  // Calls visit for the cells whose bounding volumes are not ruled out beside `one`; for the clusters of one of them;
-  // for the candidates in a cluster that are not ruled out beside a point.
+  // Call visit for the cells whose bounding volumes are not ruled out against `one`; for the clusters of one of them;
+  // for the candidates of a cluster that are not ruled out against a point.
   template <class Visit>
   void visit_cells_near(const BoundingVolume& one, const Reach& reach, const Visit& visit) const;
   template <class Visit>
@@ -91,11 +91,11 @@ class Clusters {
   std::vector<int> in_block_;  // candidates
   CellGrid grid_;              // of these
   BoundingVolumes cells_, clusters_;
-  std::vector<int> first_cell_{0};     // of each cell of the grid, or after it
-  std::vector<int> first_cluster_{0};  // of each cell that is not empty
+  std::vector<int> first_cell_{0};     // of each cell of the grid: the first nonempty cell from it on
+  std::vector<int> first_cluster_{0};  // of each nonempty cell
   std::vector<std::size_t> start_{0};  // of each cluster's members_
   std::vector<int> members_;           // candidates, by clusters
-  Columns3 place_, reference_;         // theirs
+  Columns3 place_, reference_;         // positions of these candidates
 };
 
 Clusters::Clusters(const CandidatePool& candidates, int block)
@@ -108,7 +108,7 @@ Clusters::Clusters(const CandidatePool& candidates, int block)
   for (BoundingVolumes* volumes : {&cells_, &clusters_}) volumes->close();
 }
 
-// The candidates of a cell. Its clusters are the octants about their center.
+// Adds the candidates of a cell. Its clusters are the octants around their center.
 void Clusters::add_cell(const CandidatePool& candidates, int cell) {
   const std::span<const int> of_cell = grid_.members(cell);
   Vector center = Vector::Zero();
@@ -132,7 +132,7 @@ void Clusters::add_cell(const CandidatePool& candidates, int cell) {
   first_cluster_.push_back(clusters_.count());
 }
 
-// Of members_[begin] … members_[end − 1].
+// The bounding volume of members_[begin] … members_[end − 1].
 BoundingVolume Clusters::volume(const CandidatePool& candidates, std::size_t begin, std::size_t end) const {
   BoundingVolume volume{Vector::Zero(), Vector::Zero(), 0, 0, 0, 0, Tensor::Identity()};
   const double share = 1 / static_cast<double>(end - begin);
@@ -178,8 +178,8 @@ void Clusters::visit_cells_near(const BoundingVolume& one, const Reach& reach, c
 
 template <class Visit>
 void Clusters::visit_members_near(const Candidate& point, int c, const Reach& reach, const Visit& visit) const {
-  // The square of where a pair would touch, both skin distances added: of r_c, and of a share of |ξ| in the form a |ξ|²
-  // + b, for |ξ| ≤ (|ξ|²/δ + δ)/2.
+  // The squared touching distance with both skin distances: by r_c, and by the fraction of |ξ| in the form a |ξ|² + b,
+  // an upper bound for |ξ| ≤ (|ξ|²/δ + δ)/2.
   const auto [radius, horizon] = reach;
   const double skins = point.skin + clusters_.skin(c) + reach.slack(), most = (radius + skins) * (radius + skins);
   const double a = reference_share * (reference_share + (horizon > 0 ? skins / horizon : 0));
@@ -198,7 +198,7 @@ void Clusters::visit_members_near(const Candidate& point, int c, const Reach& re
   }
 }
 
-// The pairs of owned candidates of a cluster with those of other clusters.
+// Adds the pairs of owned candidates of a cluster with those of other clusters.
 void add_pairs(const CandidatePool& candidates, const Criterion& may_touch, const Reach& reach,
                std::span<const int> members, const Clusters& others, const std::vector<int>& near, IndexPairs& pairs) {
   for (const int m : members) {

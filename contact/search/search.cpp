@@ -47,8 +47,8 @@ Box box_of(const Kinematics& kinematics, const BlockPair& blocks, int block) {
   return common_box(mine, kinematics.domain.communicator);
 }
 
-// The points, as indices of blocks.points, that may have a partner: those near the box of the other block. Others,
-// which are at a distance D from it, may go half of D − r_c, and no pair of them has come nearer than that.
+// The points, as indices of blocks.points, that may have a partner: those near the box of the other block. A point at
+// the distance D from that box may move by half of D − r_c before it can have a partner; sets its skin distance.
 std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& blocks, double radius,
                              SkinDistances& skins) {
   std::vector<int> near(blocks.points.size());
@@ -85,7 +85,7 @@ CandidatePool candidates_of(const Kinematics& kinematics, const BlockPair& block
   return candidates;
 }
 
-// Of each of some candidates, a list of candidates.
+// A list of candidates for each of some candidates.
 struct Lists {
   std::vector<std::size_t> start;
   std::vector<int> members;
@@ -93,7 +93,7 @@ struct Lists {
   auto of(std::size_t k) const { return std::span(members).subspan(start[k], start[k + 1] - start[k]); }
 };
 
-// Lists of `count` candidates that are filled in the order of for_each(visit), which calls visit(k, member of its
+// Lists for `count` candidates, filled in the order of for_each(visit), which calls visit(k, member of its
 // list).
 template <class ForEach>
 Lists lists_from(std::size_t count, const ForEach& for_each) {
@@ -106,7 +106,7 @@ Lists lists_from(std::size_t count, const ForEach& for_each) {
   return lists;
 }
 
-// Partners of the owned candidates, ordered by id: all partners are gone through in this order.
+// Partners of the owned candidates, ordered by id, because all partners are visited in this order.
 Lists lists_of(const CandidatePool& candidates, const IndexPairs& pairs) {
   const Lists owned = lists_from(candidates.members.size(), [&](const auto& visit) {
     for (const auto& [k, partner] : pairs) visit(partner, k);
@@ -165,8 +165,8 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
   return pairs;
 }
 
-// Calls visit(i, id) for owned points and those to which they were bonded, or would be but for a crack: the search by
-// clusters leaves them out.
+// Calls visit(i, id) for owned points and the points that broken bonds or a crack separate from them: the search by
+// clusters leaves these pairs out.
 template <class Visit>
 void over_parted(const Domain& domain, const BrokenCounts& counts, const Visit& visit) {
   for (std::size_t i = 0; i < domain.families.broken.size(); ++i) {
@@ -186,7 +186,7 @@ void add_parted_pairs(const Domain& domain, const BrokenCounts& counts, const Ca
   }
   over_parted(domain, counts, [&](int i, std::int64_t id) {
     const auto here = index.find(domain.id(i)), there = index.find(id);
-    if (here == index.end() || there == index.end()) return;  // far away, or of a third block
+    if (here == index.end() || there == index.end()) return;  // far away, or in a third block
     const Candidate &one = candidates.members[here->second], &other = candidates.members[there->second];
     const bool of_both = may_touch.blocks.self() || one.block != other.block;
     if (of_both && may_touch.within_reach(one, other)) pairs.emplace_back(here->second, there->second);

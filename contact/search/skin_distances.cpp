@@ -9,19 +9,19 @@ namespace strut::contact {
 
 namespace {
 
-// The fastest points, so many of all at the most, are faster than usual. Skin distances are so many times the
-// usual one: wider ones have more partners, and slow points may become faster.
+// The largest fraction of points that may be faster than the usual speed, and limits of a skin distance relative to the
+// usual one: a wider one has more partners, and slow points may become faster.
 constexpr double share_of_fast = 0.005, narrowest = 0.4, widest = 4;
 
-// Searches this many steps apart cost little; no skin distance is made wider than that takes.
+// Searches this many steps apart cost little; no skin distance is made wider than that requires.
 constexpr double steps_between = 32;
 
-// A frame is of those who have partners where these are so many of all, not a spur that flies off; otherwise one in
-// `sampling` of all.
+// A frame consists of the points with partners if these are at least this fraction of all, so that it is not a fragment
+// that flies off; else of one in `sampling` of all points.
 constexpr double fewest = 0.01;
 constexpr std::size_t sampling = 16;
 
-// Collective. Of vectors that `of` gives for indices of blocks.points.
+// Collective. Mean of the vectors of(k) over the frame.
 template <class Of>
 Vector mean(const Communicator& communicator, const Frame& frame, const Of& of) {
   double sums[4] = {};
@@ -34,15 +34,15 @@ Vector mean(const Communicator& communicator, const Frame& frame, const Of& of) 
   return Vector(sums[0], sums[1], sums[2]) / std::max(1.0, sums[3]);
 }
 
-// Collective. A speed that no more than share_of_fast of the points exceed, in steps of a quarter of a halving from the
-// largest on.
+// Collective. A speed that at most share_of_fast of the points exceed, found in steps of a factor 2^(1/4) down from the
+// largest.
 double usual_speed(const std::vector<double>& speeds, const Communicator& communicator) {
   double fastest[] = {0};
   for (const double v : speeds) fastest[0] = std::max(fastest[0], v);
   communicator.max(fastest);
-  std::array<double, 64> counts{};  // by the quarters of time-step levels that the speed is below the largest
+  std::array<double, 64> counts{};  // by 4 log₂(largest/speed)
   for (const double v : speeds) {
-    const double quarters = v > 0 ? 4 * std::log2(fastest[0] / v) : counts.size();  // of speeds without end: NaN
+    const double quarters = v > 0 ? 4 * std::log2(fastest[0] / v) : counts.size();  // NaN for infinite speeds
     ++counts[quarters > 0 ? static_cast<std::size_t>(std::min(quarters, counts.size() - 1.0)) : 0];
   }
   communicator.sum(counts);
@@ -87,7 +87,7 @@ SkinDistances skin_distances_by_speed(const Kinematics& kinematics, const BlockP
   SkinDistances skins;
   double largest[] = {usual};
   for (const double v : speeds) {
-    const double part = dt > 0 ? std::min(std::max(narrowest, v / speed), widest) : 1;  // of NaN the narrowest
+    const double part = dt > 0 ? std::min(std::max(narrowest, v / speed), widest) : 1;  // the narrowest for NaN
     skins.of.push_back(static_cast<float>(part * usual));
     largest[0] = std::max<double>(largest[0], skins.of.back());
   }

@@ -52,7 +52,7 @@ Checkpoint::Checkpoint(const deck::Deck& deck, const Communicator& communicator,
   if (!settings_.enabled) return;
   run_on_root(communicator_, [this] {
     lock_.emplace(lock_of(settings_.file));
-    std::filesystem::remove(part_of(settings_.file));  // of a run that was killed as it wrote
+    std::filesystem::remove(part_of(settings_.file));  // left by a run that was killed while it wrote
   });
 }
 
@@ -65,7 +65,7 @@ void Checkpoint::close() {
   if (!due_at_the_end()) remove();
 }
 
-// The state as it is says what is asked of the file.
+// The present state defines what must be in the file.
 void Checkpoint::load() {
   Snapshot snapshot;
   Archive asks = Archive::saving_to(snapshot);

@@ -16,32 +16,32 @@ namespace strut {
 
 bool checkpoint_exists(const deck::Deck& deck, const Communicator& communicator);  // collective: a run has left one
 
-// Collective, of a checkpoint that exists: says how the deck differs from the one it was written with. Throws Error on
-// all ranks for changes that a run cannot go on with, each by its key, and for a final time that has passed.
+// Collective, if a checkpoint exists: prints how the deck differs from that of the checkpoint. Throws Error on all
+// ranks for changes with which a run cannot continue, each with its key, and for a final time that has passed.
 void check_changes(const deck::Deck& deck, const Communicator& communicator);
 
 class Checkpoint {
  public:
-  // Passes an archive, which saves or restores, over all that a checkpoint contains.
+  // Saves or restores all that a checkpoint contains.
   using Serialize = std::function<void(Archive&)>;
 
-  // Collective. Throws Error on all ranks: another run that has not ended writes checkpoints under the same name.
+  // Collective. Throws Error on all ranks if another run in progress writes checkpoints with the same name.
   Checkpoint(const deck::Deck& deck, const Communicator& communicator, Serialize serialize);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  // Collective. Throws Error on all ranks: the file is damaged, or of another model.
+  // Collective. Throws Error on all ranks if the file is damaged, or belongs to another model.
   void load();
-  void remove();  // collective: the checkpoint of an earlier run; throws Error where the file is no checkpoint
-  void close();   // collective; at the end of a run that is over: removes the checkpoint unless the deck asks for it
+  void remove();  // collective: removes the checkpoint of an earlier run; throws Error if the file is none
+  void close();   // collective; at the end of a completed run: removes the checkpoint unless the deck asks for it
 
   bool due(int step, double time) const;  // by the steps or the time of the simulation
   bool due_by_the_clock() const;          // on this rank
   bool due_at_the_end() const { return settings_.enabled && settings_.asked_for; }
-  void write(int step, double time);  // collective; throws Error when the disk is full
+  void write(int step, double time);  // collective; throws Error if the disk is full
 
-  // How to resume after an error, for its message.
+  // How to resume after an error, for the error message.
   std::string hint() const;
 
  private:
@@ -51,10 +51,10 @@ class Checkpoint {
   Serialize serialize_;
   Schedule schedule_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  int last_step_ = 0;  // that was written, or loaded
+  int last_step_ = 0;  // last step written or loaded
   double last_time_ = 0;
   bool written_ = false;
-  std::optional<io::FileLock> lock_;  // on rank 0, of a file of its own: each checkpoint replaces the last one
+  std::optional<io::FileLock> lock_;  // on rank 0, for a separate file, because each checkpoint replaces the last one
 };
 
 }  // namespace strut

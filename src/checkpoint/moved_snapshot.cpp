@@ -10,7 +10,7 @@ namespace strut {
 
 namespace {
 
-// Of the points of a group: a record is the id, then all columns.
+// Width of a record for the points of a group: the id, then all columns.
 int record_width(const Snapshot::Group& group) {
   int width = 1;
   for (const Snapshot::Column& column : group.columns) width += column.width;
@@ -42,7 +42,7 @@ Outgoing leaving(const Snapshot::Group& group, const RanksOfPoints& ranks) {
   return outgoing;
 }
 
-// The place of each record that has come, by its id.
+// The position of each received record, by id.
 std::vector<std::pair<std::int64_t, std::size_t>> places_by_id(const std::vector<double>& records, int width) {
   std::vector<std::pair<std::int64_t, std::size_t>> places;
   for (std::size_t at = 0; at < records.size(); at += width) {
@@ -77,7 +77,7 @@ void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, cons
       throw std::logic_error("another partition keeps other things of points: " + to.groups[g].name);
     }
     const Outgoing outgoing = leaving(from.groups[g], ranks);
-    from.groups[g] = {};  // the largest part of a run, thrice in memory as it is
+    from.groups[g] = {};  // the largest part of a run, three copies already
     take(sent_to_ranks(outgoing.ranks, outgoing.records, width, communicator), to.groups[g]);
   }
 }

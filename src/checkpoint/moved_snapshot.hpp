@@ -1,4 +1,4 @@
-// What a run holds, taken from one partition to another in memory.
+// Moves the state of a run from one partition to another in memory.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace strut {
 
 class Communicator;
 
-// Where points are to be: their ids and ranks, of the points of this rank, by ids.
+// New ranks of the points: id and rank of each point of this rank, sorted by id.
 using RanksOfPoints = std::vector<std::pair<std::int64_t, int>>;
 
-// Collective. Fills `to`, a snapshot of the same run where its points are now, with the values of `from`, where they
-// were. Of shares each rank keeps its own.
+// Collective. Fills `to`, a snapshot of the same run on the new partition, with the values of `from`, on the old one.
+// Each rank keeps its own shares (per-rank sums).
 void move_snapshot(Snapshot from, const RanksOfPoints& ranks, Snapshot& to, const Communicator& communicator);
 
 }  // namespace strut

@@ -6,7 +6,7 @@ namespace strut {
 
 namespace {
 
-// N/m³. What a condition takes of the inertia of a point for another body's bears its own part of the load.
+// Load at a point, N/m³. A condition that assigns part of a point's inertia to another body takes that part of the load.
 double load_at(const Function& value, const Body& body, int i, double t) {
   return body.inertia_share(i) * value_at_point(value, body, i, t);
 }

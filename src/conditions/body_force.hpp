@@ -1,4 +1,4 @@
-// A load on the volume of the body, such as weight.
+// A load per volume of the body, such as weight.
 #pragma once
 
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace strut {
 
-// Along some axes of coordinates, the same along each.
+// Acts along some coordinate axes, with the same value along each.
 struct BodyForce {
   std::vector<int> points = {};
   std::vector<int> components = {0};

@@ -1,4 +1,4 @@
-// The conditions that there are.
+// The variant of all conditions.
 #pragma once
 
 #include <type_traits>
@@ -15,7 +15,7 @@ namespace strut {
 
 using Condition = std::variant<BodyForce, NonReflectingEnd, PrescribedMotion, SymmetryPlane, RigidTool>;
 
-// Each alternative by itself, so that the compiler says which one lacks what.
+// Checks each alternative by itself, so that the compiler names the one that lacks something.
 template <class Type>
 struct Complete : std::true_type {
   static_assert(ConditionType<Type>, "this type does not state all that a condition must: condition_type.hpp");

@@ -6,11 +6,11 @@ namespace strut {
 
 namespace {
 
-constexpr double nearest_neighbors = 1.5;  // spacings
+constexpr double nearest_neighbors = 1.5;  // spacings: largest initial distance of the two points
 constexpr double opposite = -0.5;          // n·n of normals more than 120 degrees apart
-constexpr double least_depth = 1e-3;       // of a spacing, in the tool
+constexpr double least_depth = 1e-3;       // of a spacing: least depth in the tool
 
-// The least gap on the way from a to b, along which it is convex, by sections into thirds.
+// The least gap on the segment from a to b, along which the gap is convex, by ternary search.
 template <class S>
 double least_gap(const S& shape, Vector a, Vector b) {
   for (int k = 0; k < 30; ++k) {

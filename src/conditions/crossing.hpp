@@ -1,4 +1,4 @@
-// Tools that stand between points which are bonded to each other.
+// Finds tools between points that are bonded to each other.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace strut {
 
-// Two neighbors of a body, the first one of this rank (local indices; −1 where another rank has found them).
+// Two bonded points, the first one owned by this rank (local indices; −1 if another rank found them).
 struct Crossing {
   int point = -1, partner = -1;
 };
 
-// Collective. Points of a tool that are bonded, were at most 1.5 spacings from each other at first, and now see
-// opposite sides of the tool with some of it between them: a tool stops points only, and a thin one passes between
-// them. `places`: of owned points and ghosts at time t (s). Corners of a tool that stand between two points do not
-// count, for the points see sides that are not opposite.
+// Collective. Finds points of a tool that are bonded, were at most 1.5 spacings apart initially, and now face opposite
+// sides of the tool with some of it between them: a tool stops points only, so a thin one passes between them.
+// `places`: positions of owned points and ghosts at time t (s). Corners of a tool between two points do not count,
+// because the points face sides that are not opposite.
 std::optional<Crossing> find_crossing(const RigidTool& tool, double t, const Domain& domain,
                                       const std::vector<Vector>& places);
 
-// Collective. Where owned points and ghosts are now.
+// Collective. The present positions of owned points and ghosts.
 std::vector<Vector> present_places(const Domain& domain);
 
 }  // namespace strut

@@ -23,7 +23,7 @@ void FreeMotion::advance(double t, double dt, const Body& body) {
     if (force[c]) load[c] = (*force[c])(0, 0, 0, t);
   }
   if (begun) offset = offset_at(t);
-  begun = true;  // by half an impulse: the initial velocity is that of the initial time
+  begun = true;  // half an impulse first: the initial velocity is that of the initial time
   before = velocity, time = t;
   mid_steps.before = step / (step + dt);
   force_impulse = 0.5 * (step + dt) * load;
@@ -35,7 +35,7 @@ void FreeMotion::advance(double t, double dt, const Body& body) {
 
 void FreeMotion::push_back(const Vector& impulse, const Body& body, ImpulseWork& work) {
   velocity = before + (force_impulse - owed_impulse - impulse) / mass;
-  if (body.domain.communicator.rank() != 0) return;  // once
+  if (body.domain.communicator.rank() != 0) return;  // only once
   work.before.tools -= 0.5 * (impulse + owed_impulse).dot(before);
   work.after.tools -= 0.5 * (impulse + owed_impulse).dot(velocity);
   work.before.external += 0.5 * force_impulse.dot(before);

@@ -1,14 +1,14 @@
-// The work of what acts from outside, as the energy ledger keeps it.
+// The work of external forces, by entries of the energy ledger.
 #pragma once
 
 #include "conditions/mid_steps.hpp"
 
 namespace strut {
 
-// J done on this rank's points.
+// Work on this rank's points, J.
 struct Work {
   double external = 0;  // by loads and prescribed motion
-  double tools = 0;     // by rigid tools, their friction included (negative: what a plastic impact takes)
+  double tools = 0;     // by rigid tools, with their friction (negative: a plastic impact takes energy from them)
   double contact = 0;   // by friction between bodies
 
   Work operator*(double factor) const { return {factor * external, factor * tools, factor * contact}; }
@@ -17,13 +17,13 @@ struct Work {
   }
 };
 
-// The work of the impulses p at one time, p · ½(v⁻ + v⁺): exactly what the kinetic energy of central differences gains.
-// One half, ½ p · v⁻, belongs to the interval before that time, the other, ½ p · v⁺, to the one after.
+// The work of the impulses p at one time, p · ½(v⁻ + v⁺), which is exactly the change of the kinetic energy of central
+// differences. The half ½ p · v⁻ belongs to the interval before that time, the half ½ p · v⁺ to the one after.
 struct ImpulseWork {
   Work before, after;
 
-  // The same between steps of two lengths: each has its part of the impulse. What this leaves of the work belongs to
-  // the side of the shorter step, as the kinetic energy is that of the longer one; where a run begins, all is after.
+  // The same between steps of different lengths: each gets its part of the impulse. The rest of the work belongs to the
+  // side of the shorter step, because the kinetic energy is that of the longer one; at the start of a run all is after.
   ImpulseWork split(const MidSteps& steps) const {
     const Work all = before + after;
     if (steps.before > 0 && steps.before < 0.5) {

@@ -1,5 +1,5 @@
-// The velocity that points start with. It acts once, at set-up: a deck states it among the conditions, but it is none
-// in steps.
+// The initial velocity of points. It acts once, at set-up: a deck lists it among the conditions, but it does nothing in
+// steps.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace strut {
 
-// Some components, all of the same value.
+// Some components, all with the same value.
 struct InitialVelocity {
   std::vector<int> components = {0};
   Function value = Function();  // of the reference position and time: m/s

@@ -10,13 +10,13 @@ namespace strut {
 
 namespace {
 
-// The velocity after forces that would change `before` by `change`, with a drag on the mean of both: stable at any
+// The velocity after forces that would change `before` by `change`, with a drag on the mean of both: stable for any
 // rate.
 double dragged(double before, double change, double rate, double dt) {
   return (before * (1 - 0.5 * rate * dt) + change) / (1 + 0.5 * rate * dt);
 }
 
-// Of the volume that normals span: less is none, for they are in one plane, or two of them one.
+// Least volume spanned by the normals: with less they are in one plane, or two of them are equal.
 constexpr double least_span = 0.1;
 
 double span(const std::vector<Vector>& normals) {
@@ -39,8 +39,8 @@ NonReflectingEnd NonReflectingEnd::on(std::vector<int> points, int at, const Bod
   return end;
 }
 
-// Where ends meet, one acts after the other on what the ones before leave: the drag of both together but for the
-// product of their rates over a step, and no less stable.
+// Where ends meet, they act one after the other, which is the drag of both together except for the product of their
+// rates over a step, and as stable.
 void NonReflectingEnd::change_velocities(VelocityUpdate& update) const {
   for (const auto& [i, along, across] : drags) {
     const Vector before = update.body.previous_velocity[i], change = update.body.velocity[i] - before;
@@ -60,7 +60,7 @@ std::optional<NonReflectingEnd> NonReflectingEnd::in_substeps(const MovingPoints
   return part;
 }
 
-// The share of the full angle: of a wedge by the angle between its faces, of a trihedral corner by Girard's theorem.
+// The fraction of the full angle: of a wedge by the angle between its faces, of a trihedral corner by Girard's theorem.
 double part_within(const std::vector<Vector>& normals) {
   const auto between = [&](std::size_t a, std::size_t b) {
     return std::acos(std::clamp(normals[a].dot(normals[b]), -1.0, 1.0));

@@ -1,7 +1,7 @@
-// An end that waves leave as if the body went on behind it: the viscous traction −ρ c_p v_n − ρ c_s v_t (Lysmer &
-// Kuhlemeyer 1969) on the layer of points that has the end's surface. The traction acts in the middle of the layer:
-// what is beyond it, half of a layer of whole cells, is taken to belong to the other side, and its inertia is the other
-// side's (docs/theory.md, Non-reflecting ends).
+// An end that absorbs waves as if the body continued behind it: the viscous traction −ρ c_p v_n − ρ c_s v_t (Lysmer &
+// Kuhlemeyer 1969) on the layer of points at the end's surface. The traction acts in the middle of the layer; the part
+// beyond it, half a layer of whole cells, and its inertia belong to the other side (docs/theory.md, Non-reflecting
+// ends).
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace strut {
 struct NonReflectingEnd {
   struct Drag {
     int point;
-    double along, across;  // traction over speed and mass of half a layer: 2 c_p/s and 2 c_s/s, s the spacing; 1/s
+    double along, across;  // traction over speed and mass of half a layer, 1/s: 2 c_p/s and 2 c_s/s with the spacing s
   };
   Vector normal = Vector::UnitX();  // of unit length
   std::vector<Drag> drags = {};
@@ -29,8 +29,8 @@ struct NonReflectingEnd {
       "motion, a load, a plane or a tool";
 
   std::vector<Function> values_at_points() const { return {}; }
-  // The drags are by the moduli of the undeformed blocks. What is beyond the ends still has to be taken off the inertia
-  // of the points: part_within, of all ends of a point together.
+  // The drags use the moduli of the undeformed blocks. The inertia of the points must still be reduced by the part
+  // beyond the ends: part_within, for all ends of a point together.
   NonReflectingEnd on(std::vector<int> points, int place, const Body&) const;
 
   void change_velocities(VelocityUpdate& update) const;
@@ -38,9 +38,9 @@ struct NonReflectingEnd {
   static constexpr bool acts_at_start = false;
 };
 
-// The part of a whole cell that is within ends through its middle with these outward normals (of unit length): half of
-// it within one, a quarter at an edge of a box, an eighth at a corner; 0 where they are more than three, in
-// one plane, or two of them one.
+// The part of a whole cell inside ends through its center with these outward normals (of unit length): half inside one,
+// a quarter at an edge of a box, an eighth at a corner; 0 if there are more than three, if they are in one plane, or if
+// two are equal.
 double part_within(const std::vector<Vector>& normals);
 
 }  // namespace strut

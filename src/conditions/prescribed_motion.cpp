@@ -7,21 +7,21 @@ namespace strut {
 
 namespace {
 
-// The component c of the velocity that carries point i along the motion from t to t + dt.
+// Component c of the velocity that moves point i along the motion from t to t + dt.
 double imposed_velocity(const PrescribedMotion& motion, int c, const Body& body, int i, double t, double dt) {
   if (motion.is_velocity) return value_at_point(motion.value, body, i, t + 0.5 * dt);
   const double target = body.domain.reference(i)[c] + value_at_point(motion.value, body, i, t + dt);
   return (target - body.domain.sites[i].current[c]) / dt;
 }
 
-// Where the motion takes the component c of the place of point i, m.
+// Component c of the position of point i at the end of the motion from t to t + dt, m.
 double target_of(const PrescribedMotion& motion, int c, const Body& body, int i, double t, double dt) {
   const auto value = [&](double time) { return value_at_point(motion.value, body, i, time); };
   if (motion.is_velocity) return body.current(i)[c] + dt * value(t + 0.5 * dt);
   return body.domain.reference(i)[c] + value(t + dt);
 }
 
-// Of all points one component after the other: to the last bit what one condition for each does.
+// All points for one component after the other, which equals one condition per component to the last bit.
 void for_each_component(const PrescribedMotion& motion, const auto& act) {
   for (const int c : motion.components) {
     for (const int i : motion.points) act(c, i);

@@ -1,4 +1,4 @@
-// Points that move as given, whatever force that takes.
+// Points with a prescribed motion, whatever force it takes.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace strut {
 
-// Some components of the motion of some points, each by the same value.
+// Some components of the motion of some points, each with the same value.
 struct PrescribedMotion {
   std::vector<int> points = {};
   std::vector<int> components = {0};

@@ -1,4 +1,4 @@
-// What a deck can say of a condition: which it is, with all that it has but its points.
+// A condition as a deck describes it: its type with all data except its points.
 #pragma once
 
 #include <variant>
@@ -9,8 +9,8 @@
 
 namespace strut {
 
-// What acts once, at set-up.
-//   set_initial_state  of these points, at time t
+// Conditions that act once, at set-up.
+//   set_initial_state  sets the state of these points at time t
 template <class T>
 concept ActsOnce = !ConditionType<T> && ActsInEquilibria<T> &&
                    requires(const T& prototype, const std::vector<int>& points, double t, Body& body) {

@@ -1,5 +1,5 @@
-// The forces of conditions on the points of the body, for whoever asks: gathered by a solver of any kind, read by the
-// history.
+// The reaction forces of conditions on the points of the body: solvers of any kind add them up, the history reads
+// them.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,25 @@
 
 namespace strut {
 
-// The reaction place of conditions that have no reaction.
+// The reaction index of conditions without a reaction.
 constexpr int no_reaction = -1;
 
-// Of all conditions at one time. N, over all ranks, by the condition's place in the deck; zero for those that have no
-// reaction. Empty where nobody asked for reactions.
+// Reactions of all conditions at one time, N, summed over all ranks, by the condition's index in the deck; zero for
+// those without a reaction. Empty if no reactions were asked for.
 struct Reactions {
   std::vector<Vector> forces;
 };
 
-// What acts at a time of explicit steps, on this rank: forces do for so long before it and after it, s; the impulses of
-// conditions, N s, by the condition's place in the deck, those since the time before included. Empty where nobody
-// asked.
+// Impulses at a time of explicit steps, on this rank: `before`, `after`: times for which forces act before and after
+// it, s; impulses of conditions, N s, by the condition's index in the deck, including those since the time before.
+// Empty if not asked for.
 struct StepImpulses {
   double before = 0, after = 0;
   std::vector<Vector> conditions_before, conditions_after;
 };
 
-// The impulses of conditions on the points of this rank, N s, by the condition's place in the deck: over the time that
-// they stand for, these are reactions. Made for no conditions, it gathers nothing.
+// The impulses of conditions on the points of this rank, N s, by the condition's index in the deck; divided by their
+// time interval they are reactions. With no conditions it adds up nothing.
 class ReactionImpulses {
  public:
   explicit ReactionImpulses(int conditions = 0) : sums_(conditions, Vector::Zero()) {}

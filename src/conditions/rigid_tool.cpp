@@ -12,7 +12,7 @@ namespace strut {
 
 namespace {
 
-// Where a tool is, and how fast over the steps of its points, which differ by their time-step level.
+// Position of a tool, and its velocity over the steps of its points, which differ by their time-step level.
 class ToolMotion {
  public:
   ToolMotion(const RigidTool& tool, double t, double whole_step)
@@ -31,15 +31,15 @@ class ToolMotion {
   const RigidTool& tool_;
   double t_, whole_step_;
   Vector offset_;
-  std::vector<Vector> velocities_;  // by time-step levels
+  std::vector<Vector> velocities_;  // by time-step level
 };
 
-// A place on an edge of a box is on several faces, to round-off. It is held by the one that it comes to most directly:
-// a punch whose edges are those of the body takes along what they coincide with, and no round-off of places decides.
+// A position on an edge of a box is on several faces, to round-off. The face that it approaches most directly holds it:
+// a punch whose edges coincide with the body's carries them along, whatever the round-off of positions.
 template <class S>
 void choose_face(const S&, const Vector&, const Vector&, Surface&) {}
 void choose_face(const Box& box, const Vector& place, const Vector& velocity, Surface& at) {
-  const Vector outside = (box.lower - place).cwiseMax(place - box.upper);  // of the faces across each axis
+  const Vector outside = (box.lower - place).cwiseMax(place - box.upper);  // distance from the faces across each axis
   const double round_off = 1e-9 * (box.upper - box.lower).minCoeff(), nearest = outside.maxCoeff();
   if (nearest > round_off) return;
   double slowest = std::numeric_limits<double>::infinity();
@@ -51,10 +51,10 @@ void choose_face(const Box& box, const Vector& place, const Vector& velocity, Su
   }
 }
 
-// The change of velocity that keeps a point which has this one, relative to the tool, out of it over dt.
+// The change of velocity that keeps a point with this velocity relative to the tool outside over dt (s).
 Vector correction(const Surface& at, double friction, const Vector& velocity, double dt) {
   const double speed = at.normal.dot(velocity);
-  const double allowed = -at.gap / dt;  // lands on the surface; one found inside comes back
+  const double allowed = -at.gap / dt;  // the point lands on the surface; a point inside comes back
   const Vector push = (allowed - speed) * at.normal;
   if (friction == 0) return push;
   const Vector sliding = velocity - speed * at.normal;
@@ -82,7 +82,7 @@ void for_each_change(const RigidTool& tool, const VelocityUpdate& update, const 
   std::visit(keep_out, tool.shape);
 }
 
-// What the points of all ranks would get from the tool, N s, and their mass, kg.
+// Impulse that the tool would give to the points of all ranks, N s, and their mass, kg.
 struct Push {
   Vector impulse = Vector::Zero();
   double mass = 0;
@@ -99,7 +99,7 @@ Push trial_push(const RigidTool& tool, const VelocityUpdate& update) {
 }
 
 constexpr int most_trials = 20;
-constexpr double accuracy = 1e-12;  // of the tool's velocity: what is left changes places by less than round-off
+constexpr double accuracy = 1e-12;  // of the tool's velocity: the rest changes positions by less than round-off
 
 }  // namespace
 
@@ -132,8 +132,8 @@ void RigidTool::set_reaches(double t, const Body& body) {
   reaches = std::move(all);
 }
 
-// The velocity V with which it goes on and the impulse J(V) that it gives to the points depend on each other: V = V* −
-// J(V)/M. By Newton's method, with the mass of the points that it pushes as the slope of J.
+// The velocity V of the tool and the impulse J(V) that it gives to the points depend on each other: V = V* − J(V)/M.
+// Newton's method, with the mass of the pushed points as the slope of J.
 void RigidTool::fly(VelocityUpdate& update) {
   free->advance(update.t, update.steps.whole, update.body);
   const Vector without = free->velocity;

@@ -1,4 +1,4 @@
-// The cut through a body of which only one half is computed.
+// A symmetry plane, of which only one side is computed.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace strut {
 
-// Bodies that end at the plane go on as their mirror images (topology/mirror.hpp); their points on it stay there, which
-// only round-off and loads would change. Points of others keep their distance to it.
+// Bodies that end at the plane continue as their mirror images (topology/mirror.hpp). Their points on the plane stay
+// there, because only round-off and loads would move them off. Points of other bodies keep their distance to it.
 struct SymmetryPlane {
   std::vector<int> points = {};
   Vector normal = Vector::UnitX();  // of unit length
   int reaction_place = no_reaction;
-  // Along the normal in the directions that other conditions leave free: what takes 1 m/s along it from a point.
-  // Without: the normal.
+  // Velocity change, in the directions that other conditions leave free, that takes 1 m/s along the normal from a
+  // point. Without it: the normal.
   std::optional<Vector> push = {};
   Vector point = Vector::Zero();  // of the plane, m
 

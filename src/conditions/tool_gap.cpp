@@ -21,7 +21,7 @@ Shape moved(const Shape& shape, const Vector& by) {
   return there;
 }
 
-// The distance from a convex shape is a convex function along the axis: the smallest is found by sections.
+// The distance from a convex shape is a convex function along the axis: ternary search finds its minimum.
 double gap(const Cylinder& roll, const Shape& other) {
   constexpr double far = 1e4;  // m, longer than any tool
   const auto from = [&](double s) { return surface(other, Vector(roll.point + s * roll.axis)).gap; };
@@ -48,7 +48,7 @@ double gap(const Box& box, const HalfSpace& half) {
   return half.normal.dot(nearest - half.point);
 }
 
-// The gap between faces across one axis: edges that pass each other aslant are farther apart.
+// The gap between faces across one axis. It underestimates the distance of edges that pass each other diagonally.
 double gap(const Box& box, const Box& other) {
   return (box.lower - other.upper).cwiseMax(other.lower - box.upper).maxCoeff();
 }

@@ -1,14 +1,14 @@
-// How far two rigid tools are from each other.
+// The gap between two rigid tools.
 #pragma once
 
 #include "conditions/rigid_tool.hpp"
 
 namespace strut {
 
-// At time t (s), m; nothing below where they overlap, as tools without ends do that are not parallel.
+// Gap at time t (s), m; not positive if they overlap; −∞ for infinite tools that are not parallel.
 double gap_between(const RigidTool& one, const RigidTool& other, double t);
 
-// Whether forces drive at least one of two tools: the deck then does not say that they shall overlap.
+// True if forces drive at least one of two tools, so that the deck does not intend them to overlap.
 inline bool may_meet(const RigidTool& one, const RigidTool& other) { return one.free || other.free; }
 
 }  // namespace strut

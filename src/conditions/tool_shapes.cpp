@@ -7,7 +7,7 @@ namespace strut {
 
 namespace {
 
-// The axis of coordinates that is most across `axis`, the first of equals, made so entirely.
+// The coordinate axis most orthogonal to `axis`, the first of equals, made exactly orthogonal.
 Vector across(const Vector& axis) {
   int most = 0;
   for (int c = 1; c < 3; ++c) {
@@ -17,7 +17,7 @@ Vector across(const Vector& axis) {
   return (unit - axis.dot(unit) * axis).normalized();
 }
 
-// From inside, or on the surface: the nearest face.
+// The surface from a position inside or on it: the nearest face.
 Surface nearest_face(const Box& box, const Vector& place) {
   Surface nearest{-std::numeric_limits<double>::infinity(), {}, Tensor::Zero()};
   for (int c = 0; c < 3; ++c) {
@@ -33,7 +33,7 @@ Surface nearest_face(const Box& box, const Vector& place) {
 
 }  // namespace
 
-// Across the axis the curvature is one over the distance from it, along the axis none.
+// The curvature across the axis is one over the distance from it; along the axis it is zero.
 Surface surface(const Cylinder& cylinder, const Vector& place) {
   const Vector& a = cylinder.axis;
   const Vector from_point = place - cylinder.point;
@@ -45,8 +45,8 @@ Surface surface(const Cylinder& cylinder, const Vector& place) {
   return {distance - cylinder.radius, n, turning / distance};
 }
 
-// From outside, the normal turns about the nearest point in those directions in which the place is beyond the box: in
-// none of a face, in the plane across an edge, in all about a corner.
+// From outside, the normal rotates around the nearest point in the directions in which the position is beyond the box:
+// none at a face, the plane across an edge, all at a corner.
 Surface surface(const Box& box, const Vector& place) {
   const Vector beyond = place - place.cwiseMax(box.lower).cwiseMin(box.upper);
   const double distance = beyond.norm();

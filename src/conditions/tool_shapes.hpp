@@ -1,4 +1,4 @@
-// The shapes of rigid tools, and how far away from their surfaces a place is.
+// The shapes of rigid tools, and the distance of a position from their surfaces.
 #pragma once
 
 #include <variant>
@@ -7,39 +7,39 @@
 
 namespace strut {
 
-// All that is behind a plane.
+// The half-space behind a plane.
 struct HalfSpace {
   Vector point;   // m
   Vector normal;  // of unit length, out of the tool
 };
 
-// Without ends.
+// A cylinder without ends.
 struct Cylinder {
   Vector point;   // on the axis, m
   Vector axis;    // of unit length
   double radius;  // m
 };
 
-// A solid block with faces across the axes of coordinates and sharp edges.
+// A solid block with faces across the coordinate axes and sharp edges.
 struct Box {
   Vector lower, upper;  // corners, m; lower < upper in each component
 };
 
 using Shape = std::variant<HalfSpace, Cylinder, Box>;
 
-// What a place sees of a shape: the signed distance and its derivatives with respect to the place.
+// The signed distance of a position from a shape, and its derivatives by the position.
 struct Surface {
   double gap;        // to the nearest point of the surface, m; negative inside
   Vector normal;     // ∂gap/∂x: of unit length, out of the tool
   Tensor curvature;  // ∂normal/∂x, 1/m; zero for plane faces
 };
 
-// Where nearest points are several, one is chosen, the same always: on the axis of a cylinder the normal is the axis of
-// coordinates that is most across it, made so entirely, and the curvature, infinite there, zero; in a box of equally
-// near faces the first of low x, high x, low y, high y, low z, high z.
+// If there are several nearest points, one is chosen, always the same: on the axis of a cylinder the normal is the
+// coordinate axis most orthogonal to it, made exactly orthogonal, and the infinite curvature is set to zero; for
+// equally near faces of a box, the first of low x, high x, low y, high y, low z, high z.
 //
 // All three shapes are convex, and so is the distance from a convex body (Boyd & Vandenberghe 2004, 3.2.5): gap +
-// normal · step is never more than the gap after the step. Who keeps the former from being negative is outside.
+// normal · step is never more than the gap after the step. A step that keeps it nonnegative stays outside.
 inline Surface surface(const HalfSpace& half, const Vector& place) {
   return {half.normal.dot(place - half.point), half.normal, Tensor::Zero()};
 }

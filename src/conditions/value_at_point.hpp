@@ -6,7 +6,7 @@
 
 namespace strut {
 
-// At its reference position, at time t (s).
+// The value at its reference position and time t (s).
 inline double value_at_point(const Function& value, const Body& body, int i, double t) {
   const Vector X = body.domain.reference(i);
   return value(X[0], X[1], X[2], t);

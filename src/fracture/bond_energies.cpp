@@ -20,7 +20,7 @@ double sum_of_lengths(const Body& body, int i) {
   return sum;
 }
 
-// Of each block: whether one of its body has a critical bond energy. The same on all ranks.
+// True for each block of a body in which a block has a critical bond energy. The same on all ranks.
 std::vector<char> concerned_blocks(const Body& body) {
   std::vector<char> blocks;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -52,7 +52,7 @@ BondEnergies::BondEnergies(const Body& body) : concerned_(concerned_blocks(body)
     for (std::size_t k = 0; k < block.points.size(); ++k) {
       const int i = block.points[k];
       const double m = block.ordinary[k].weighted_volume;
-      if (!(m > 0)) continue;  // it has no bonds
+      if (!(m > 0)) continue;  // the point has no bonds
       const ScalarState of_dilatation = scalar_state(moduli, 3 * sum_of_lengths(body, i) / m, m);
       points_[i] = {.b = of_dilatation.b, .growth = std::abs(of_dilatation.a)};
       if (damage && damage->critical_bond_energy) points_[i].limit = *damage->critical_bond_energy;

@@ -1,13 +1,13 @@
-// Bonds that break by the energy that they hold (Foster, Silling & Chen 2011), in ordinary blocks.
+// Bonds of ordinary blocks that break by the energy that they store (Foster, Silling & Chen 2011).
 //
-// The energy of an ordinary point is of second degree in the extensions e of its bonds, so it is half of the sum of
-// what they carry times e. Of a bond, for the volumes of both ends:
+// The energy of an ordinary point is quadratic in the extensions e of its bonds, so it is half of the sum of bond force
+// times e. The energy density of a bond, per product of both ends' volumes, is
 //   w = ½ ω [ (a_i + a_j) |ξ| + (b_i + b_j) e ] e,  J/m⁶,
-// and Σ V_i V_j w over all bonds is all that the points store. Where bonds are stretched in proportion, w is the work
-// that the bond has taken. A bond of points by correspondence has no such energy: its force is not along it, so that
-// its work depends on how the body turns.
+// and Σ V_i V_j w over all bonds is the energy of all points. Under proportional stretch, w is the work done on the
+// bond. A bond of points by correspondence has no such energy: its force is not along the bond, so that its work
+// depends on the rotation of the body.
 //
-// It is that of the end of the last step, since a_j of a ghost is known from then only.
+// w is that of the end of the last step, because a_j of a ghost is known only then.
 #pragma once
 
 #include <array>
@@ -20,21 +20,21 @@ namespace strut {
 
 class BondEnergies {
  public:
-  BondEnergies() = default;  // none
-  // Collective. Of a body whose families are whole.
+  BondEnergies() = default;  // without critical bond energies
+  // Collective. The families of the body must be complete.
   explicit BondEnergies(const Body& body);
 
   bool any() const { return !points_.empty(); }
   bool any_of(std::size_t block) const { return any() && concerned_[block]; }
 
-  // At the start of a step, takes the force states that the last sum of forces has left. Returns, of owned points and
-  // ghosts, which have changed by more than two points that moved apart by `travel` (m) since then explain: their bonds
-  // have broken. Empty where there is none.
+  // At the start of a step, stores the force states of the last sum of forces. Returns a flag for each owned point and
+  // ghost whose a changed by more than a relative displacement of two points by `travel` (m) explains: bonds of it have
+  // broken. Empty if there is none.
   std::vector<char> take_states(const Body& body, double travel);
 
-  // Calls visit(n, w/w_c, or 0 where the bond holds whatever its w, room) over the n neighbors of a cluster: how far
-  // (m) any two points have to move apart before w can be w_c; w_c is the lesser one of the two ends. A bond that is
-  // not stretched has w = 0. `places`: of owned points and ghosts at the time of the states, m.
+  // Calls visit(n, load, slack) for each of the n neighbors of a cluster: load = w/w_c, or 0 if the bond holds for any
+  // w; slack = the relative displacement (m) of two points below which w cannot reach w_c, the lesser of the two ends'.
+  // A bond in compression has w = 0. `places`: positions of owned points and ghosts at the time of the states, m.
   template <class Visit>
   void over(const Body& body, const Cluster& cluster, const std::vector<Vector>& places, const Visit& visit) const;
 
@@ -44,7 +44,7 @@ class BondEnergies {
   using Lanes = bonds::Lanes;
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  // What bonds ask of an end: w_c; a; b; by how much |a| grows at most where points move apart by 1 m.
+  // Data of a bond's end: w_c; a; b; the largest growth of |a| if points move apart by 1 m.
   struct Point {
     double limit = never, a = 0, b = 0, growth = 0;
   };
@@ -54,15 +54,15 @@ class BondEnergies {
   static Held held(const std::array<Lanes, 4>& own, const Point& there, const Lanes& omega, const Lanes& rest,
                    const Lanes& extension);
 
-  std::vector<Point> points_;    // owned ones and ghosts; empty where no block has a critical bond energy
-  std::vector<char> concerned_;  // blocks of which a bond may break so
+  std::vector<Point> points_;    // owned points and ghosts; empty if no block has a critical bond energy
+  std::vector<char> concerned_;  // blocks of which a bond may break by its energy
 };
 
-// As a bond breaks, the body loses the energy 2 w − ½ ω (b_i + b_j) e², as the bond's part of θ goes, too. Where this
-// is negative, as it is under pressure, the bond holds. (How much the break changes θ of both ends is left out.)
+// When a bond breaks, the body loses the energy 2 w − ½ ω (b_i + b_j) e², because the bond's part of θ vanishes, too.
+// If this is negative, as under pressure, the bond holds. (The change of θ at both ends by the break is neglected.)
 //
-// With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, w reaches w_c no sooner than at the root d of a quadratic
-// equation.
+// With |a| ≤ |a₀| + growth·d and e ≤ max(e₀, 0) + d, the relative displacement d at which w can first reach w_c is the
+// root of a quadratic equation.
 inline BondEnergies::Held BondEnergies::held(const std::array<Lanes, 4>& own, const Point& there, const Lanes& omega,
                                              const Lanes& rest, const Lanes& extension) {
   const Lanes limit = own[0].min(there.limit), a = own[1] + there.a, b = own[2] + there.b;

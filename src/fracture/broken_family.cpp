@@ -14,7 +14,7 @@ namespace strut {
 
 namespace {
 
-// The plastic part of its state stays.
+// Resets the point; its plastic state variables stay.
 void release(MaterialPoint& point) {
   point.deformation_gradient = Tensor::Identity();
   point.rotation = Rotation();
@@ -34,7 +34,7 @@ bool refit_shape(Body& body, MaterialBlock& block, int k, double most) {
   return holds;
 }
 
-// F of the places at the start of a step, by the family that is left.
+// F from the positions at the start of a step, over the family that is left.
 Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
   Tensor N = Tensor::Zero();
   bonds::with_influence(body.influence, [&](auto weight) {
@@ -46,7 +46,7 @@ Tensor gradient_at_start(const Body& body, int i, const StepEnd& start) {
   return N * to_tensor(body.shape_inverse[i]);
 }
 
-// For λ between 0 and 1, of what the energy falls by at first, and Δε:C:Δε.
+// Returns the λ between 0 and 1 of least energy. `falls`: initial slope of the decrease; jump: Δε, curvature Δε:C:Δε.
 double part_to_least(const materials::Moduli& moduli, double falls, const Tensor& jump) {
   const double trace = jump.trace();
   const double curvature = (moduli.bulk - 2 * moduli.shear / 3) * trace * trace + 2 * moduli.shear * jump.squaredNorm();
@@ -55,8 +55,8 @@ double part_to_least(const materials::Moduli& moduli, double falls, const Tensor
 
 Tensor symmetric(const Tensor& t) { return 0.5 * (t + t.transpose()); }
 
-// Takes the stress of a law point along from one stretch to another, and leaves it there as the stretch jumps to a
-// third. No viscosity acts, as no point moves.
+// Advances the stress of an integration point from one stretch to another, and keeps it while the stretch jumps to a
+// third. No viscosity acts, because no point moves.
 void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& from, const Tensor& to,
             const Tensor& jumped, double dt) {
   const auto step = [&]<class L>(const L& law) {
@@ -73,16 +73,16 @@ void follow(MaterialBlock& block, std::size_t place, MaterialPoint& point, const
   std::visit(step, block.material.law);
 }
 
-// So that the step goes on from the stretch that the bonds left have at its start, and from their rotation, with which
-// stress turns; it has followed its part of the jump. False where that is another volume than before: such bonds do not
-// hold a gradient.
+// Makes the step start from the stretch and rotation that the intact bonds have at its start; the stress follows
+// its part of the jump. Returns false if the volume changes too much: then the intact bonds do not determine a
+// gradient.
 bool set_start(MaterialBlock& block, std::size_t place, MaterialPoint& point, const Tensor& refitted, double dt) {
-  constexpr double most = 2;  // times as large or small
+  constexpr double most = 2;  // factor by which the volume may grow or shrink
   const double before = point.deformation_gradient.determinant(), after = refitted.determinant();
   if (!(after > before / most && after < before * most)) return false;
   const Tensor R = polar_rotation(refitted), stretch = symmetric(R.transpose() * refitted),
                old = symmetric(point.rotation.tensor().transpose() * point.deformation_gradient), jump = stretch - old;
-  const Tensor strain = symmetric(2 * jump * (old + stretch).inverse());  // as stress_update.hpp has it
+  const Tensor strain = symmetric(2 * jump * (old + stretch).inverse());  // as in stress_update.hpp
   const double falls = -before * to_tensor(point.stress).cwiseProduct(strain).sum();
   follow(block, place, point, old, old + part_to_least(block.moduli(place), falls, strain) * jump, stretch, dt);
   point.deformation_gradient = refitted;

@@ -1,4 +1,4 @@
-// A point that has lost bonds.
+// A point whose bonds have broken.
 #pragma once
 
 #include "fracture/point_account.hpp"
@@ -6,18 +6,18 @@
 
 namespace strut {
 
-// Computes anew what block.points[k] knows of its family: shape tensor and first moment, or the fit of its cell; of an
-// ordinary point nothing. False where the bonds that are left cannot hold a deformation gradient, or only a steeper one
-// than `most`: it is to be released.
+// Recomputes the family sums of block.points[k]: shape tensor and first moment, or the fit of its cell; nothing for an
+// ordinary point. Returns false if the intact bonds do not determine a deformation gradient or only one steeper than
+// `most` (1/m²): the point must be released.
 bool refit(Body& body, MaterialBlock& block, int k, double most);
 
-// The same as bonds break in a step; false also where the volume would jump by a factor of 2. The bonds that are left
-// have another stretch than all. Stress follows this jump as long as its energy falls in that direction; the rest of
-// the jump leaves it alone: a break releases energy, and where it leaves bonds in compression only, it must not make
-// any.
+// The same while bonds break in a step; also false if the volume would jump by a factor of 2. The stretch of the
+// intact bonds differs from that of all bonds. Stress follows this jump as long as its energy decreases in that
+// direction, and is kept over the rest: a break releases energy, and must not create any where only compressed bonds
+// are left.
 bool refit_in_step(Body& body, MaterialBlock& block, int k, double most, const StepEnd& start);
 
-// It carries no stress from now on, and goes on as a mass.
+// The point carries no stress from now on, and keeps its mass.
 void release(Body& body, MaterialBlock& block, int k);
 
 }  // namespace strut

@@ -8,10 +8,10 @@ namespace strut {
 
 namespace {
 
-// A bond across the plane, at an opening of 1 m. Points of a layer are alike, and those of both halves.
+// A bond across the plane, at an opening of 1 m. All points of a layer have equal values, and the halves are symmetric.
 struct CrossingBond {
   double weight, length, extension;  // ω V, m³; m; m
-  int layer, far_layer;              // of its ends, from the plane
+  int layer, far_layer;              // of its ends, counted from the plane
 };
 
 class SeparatedHalves {
@@ -19,10 +19,10 @@ class SeparatedHalves {
   explicit SeparatedHalves(const PulledLattice& lattice);
 
   bool hold() const { return !bonds_.empty(); }
-  // w of the bond that has most, and the energy of the layers of one half, J/m³; of an opening of 1 m.
+  // The largest w of any bond; the energy of the layers of one half, J/m³; both at an opening of 1 m.
   double most() const;
   double energy() const;
-  // Those of which w, at an opening of 1 m, is no less than this.
+  // Removes the bonds whose w, at an opening of 1 m, is at least this.
   void cut(double least);
 
  private:
@@ -91,11 +91,11 @@ void SeparatedHalves::cut(double least) {
 }  // namespace
 
 double separation_by_bond_energy(const PulledLattice& lattice) {
-  constexpr double alike = 1 - 1e-9;  // bonds that are alike but for round-off break together
+  constexpr double alike = 1 - 1e-9;  // bonds that are equal up to round-off break together
   SeparatedHalves halves(lattice);
   double released = 0, opening2 = 0;
   while (halves.hold()) {
-    // Where bonds have broken others may hold more than before: they break at the same opening.
+    // After a break other bonds may store more than before: they break at the same opening.
     opening2 = std::max(opening2, 1 / halves.most());
     const double before = halves.energy();
     halves.cut(alike / opening2);

@@ -29,21 +29,21 @@ std::vector<LatticeBond> family_of(const PulledLattice& lattice) {
 
 namespace {
 
-// C, Pa/m⁵.
+// C of the springs, Pa/m⁵.
 double spring_stiffness(const PulledLattice& lattice, const std::vector<LatticeBond>& family) {
   double trace = 0;
   for (const LatticeBond& bond : family) trace += bond.weight * bond.xi.squaredNorm();
   return lattice.coefficient * lattice.moduli.longitudinal() / (trace / 3);
 }
 
-// The energy of a point so many layers above the plane, J/m³, at an opening, but for springs on both ends' gradients.
-// Bonds across the plane that break at `broken` or less are gone.
+// The energy of a point `layer` layers above the plane, J/m³, at an opening (m), without springs on both ends'
+// gradients. Bonds across the plane with an opening of at most `broken` have broken.
 class SeparatedPoint {
  public:
   SeparatedPoint(const PulledLattice& lattice, const std::vector<LatticeBond>& family, int layer)
       : lattice_(lattice), family_(family), layer_(layer) {}
 
-  // Of the gradient of displacements: H = N K⁻¹, N, and Σ ω V |η|² of the displacements.
+  // The gradient of displacements, H = N K⁻¹; N; and Σ ω V |η|² of the displacements.
   struct Fit {
     Tensor gradient, moment;
     double squares;
@@ -90,7 +90,7 @@ double SeparatedPoint::correspondence(double opening, double broken) const {
 SeparatedPoint::Fit SeparatedPoint::fit(double opening, double broken) const {
   Tensor K = Tensor::Zero();
   Fit fit{Tensor::Zero(), Tensor::Zero(), 0};
-  const Vector apart(0, 0, -opening);  // of a far end below the plane
+  const Vector apart(0, 0, -opening);  // displacement of a far end below the plane
   for (const LatticeBond& bond : family_) {
     if (crosses(bond) && bond.opening <= broken) continue;
     K += bond.weight * bond.xi * bond.xi.transpose();
@@ -102,11 +102,11 @@ SeparatedPoint::Fit SeparatedPoint::fit(double opening, double broken) const {
   return fit;
 }
 
-// Of the springs on both ends' gradients, of the layers of one half, J/m³: ½ C Σ ω V |η − ½ (H_i + H_j) ξ|² a point.
-// The halves mirror each other, and H has only the component along the normal.
+// Energy of the springs on both ends' gradients over the layers of one half, J/m³: ½ C Σ ω V |η − ½ (H_i + H_j) ξ|² per
+// point. The halves are mirror images, and H has only the component along the normal.
 double energy_of_mean_springs(const PulledLattice& lattice, const std::vector<LatticeBond>& family, int layers,
                               double opening, double broken) {
-  std::vector<double> stretch(2 * layers, 0);  // that of layers farther away sees no bond across the plane
+  std::vector<double> stretch(2 * layers, 0);  // layers farther away have no bond across the plane
   for (int layer = 0; layer < layers; ++layer) {
     stretch[layer] = SeparatedPoint(lattice, family, layer).fit(opening, broken).gradient(2, 2);
   }
@@ -156,12 +156,12 @@ double energy_of_separation(const PulledLattice& lattice) {
                 energy_of_half(lattice, family, layers, opening, after);
     before = after;
   }
-  return 2 * lattice.spacing * released;  // of both halves
+  return 2 * lattice.spacing * released;  // both halves
 }
 
 namespace {
 
-// The longest bond of a block, of all ranks, m: by quadratic correspondence families may be those that touch, whatever
+// The longest bond of a block on all ranks, m. By quadratic correspondence a family may be the touching cells, whatever
 // the horizon.
 double longest_bond(const Body& body, const MaterialBlock& block) {
   double longest = 0;
@@ -192,7 +192,7 @@ void set_critical_values(Body& body) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     auto& damage = body.blocks[b].material.damage;
     if (!damage || !(damage->fracture_energy > 0)) continue;
-    if (!(body.domain.blocks[b].spacing > 0)) continue;  // has no points
+    if (!(body.domain.blocks[b].spacing > 0)) continue;  // no points
     const PulledLattice lattice = lattice_of(body, b);
     const bool by_energy = damage->critical_bond_energy.has_value();
     const double energy = by_energy ? separation_by_bond_energy(lattice) : energy_of_separation(lattice);
@@ -211,7 +211,7 @@ void set_critical_values(Body& body) {
 }
 
 void set_crack_lengths(Body& body) {
-  constexpr double cells_reach = 1.75;  // spacings: those that touch, whatever the horizon
+  constexpr double cells_reach = 1.75;  // spacings; reach of families of touching cells
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const BlockHorizons& of_block = body.domain.blocks[b];
     const double reach = body.blocks[b].is_quadratic() ? cells_reach * of_block.spacing : of_block.largest;

@@ -1,4 +1,4 @@
-// What of a damage model depends on the spacing, so that a crack dissipates a given fracture energy.
+// The critical stretch or bond energy for which a crack dissipates the given fracture energy, at a given spacing.
 #pragma once
 
 #include <vector>
@@ -7,46 +7,46 @@
 
 namespace strut {
 
-// A lattice as it is about to be pulled apart.
+// A lattice whose halves are to be pulled apart.
 struct PulledLattice {
   double spacing, horizon;  // m
   Influence influence;
   Formulation formulation;
   materials::Moduli moduli;
-  ResidualKind springs = ResidualKind::none;  // of what residual
-  double coefficient = 0;                     // c of these
+  ResidualKind springs = ResidualKind::none;  // residual that the springs act on
+  double coefficient = 0;                     // c of the springs
 };
 
 struct LatticeBond {
   Vector xi;
   double weight;     // ω V
-  double opening;    // at which it breaks if it crosses the plane, its critical stretch being 1
-  int layers_below;  // its far end is so many layers below
+  double opening;    // at which it breaks if it crosses the plane and its critical stretch is 1
+  int layers_below;  // number of layers that its far end is below
 };
 
-// The family of a point inside of the lattice. A bond is longer by Δ |ξ_z|/|ξ| once the halves are Δ apart.
+// The family of an interior point. An opening Δ between the halves lengthens a bond across the plane by Δ |ξ_z|/|ξ|.
 std::vector<LatticeBond> family_of(const PulledLattice& lattice);
 
-// What is dissipated for each m² of the plane between two halves of a lattice, J/m², as they move apart along its
-// normal without deformation, by bonds whose critical stretch is 1 and in small strains: of s_c it is s_c² times as
-// much. Each break dissipates by how much the energy of the points on both sides falls.
+// Energy dissipated per area of the plane between two halves of a lattice, J/m², that move apart along its normal
+// without deformation, by bonds whose critical stretch is 1, in small strains; for s_c multiply by s_c². Each break
+// dissipates the decrease of the energy of the points on both sides.
 double energy_of_separation(const PulledLattice& lattice);
 
-// The same by quadratic correspondence.
+// The same for quadratic correspondence.
 double separation_of_cells(const PulledLattice& lattice);
 
-// The same of an ordinary lattice by bonds whose critical energy w_c is 1 J/m⁶, J/m² for each J/m⁶: of w_c it is w_c
-// times as much.
+// The same for an ordinary lattice by bonds whose critical energy w_c is 1 J/m⁶, J/m² per J/m⁶; for another w_c
+// multiply by it.
 double separation_by_bond_energy(const PulledLattice& lattice);
 
-// Sets the critical stretch or bond energy of the blocks whose fracture energy is given, by the lattice of their
+// Sets the critical stretch or bond energy of the blocks whose fracture energy is given, from a lattice of their
 // spacing and horizon.
 void set_critical_values(Body& body);
 
-// Sets over which length a crack smears its opening, of the blocks whose points may fail: twice the reach of their
-// families, as all points within it on both sides of a jump of places see it in their deformation gradients. The
-// block's largest horizon, or 1.75 spacings by quadratic correspondence: a graded block takes less energy where it is
-// finer.
+// Sets the length over which a crack smears its opening, for blocks whose points may fail: twice the reach of their
+// families, because all points within it on both sides of a displacement jump have it in their deformation gradients.
+// The reach is the block's largest horizon, or 1.75 spacings by quadratic correspondence, so a graded block takes less
+// energy where it is finer.
 void set_crack_lengths(Body& body);
 
 }  // namespace strut

@@ -26,16 +26,16 @@ using small::Lanes;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// A look at several bonds and the decision on each may round differently: below this part of the limit none is cut.
+// The check of a cluster and the decision on a bond may round differently: below this margin no bond breaks.
 constexpr double round_off = 1e-9;
 
-// The points of a block whose stress is updated with a part: on lattices all with the second (over_blocks).
+// Range of a block's points whose stress is updated with a part; on lattices all with the boundary part (over_blocks).
 std::pair<int, int> updated_with(const MaterialBlock& block, Part part) {
   if (block.lattice < 0) return range(block, part);
   return {0, part == Part::interior ? 0 : static_cast<int>(block.points.size())};
 }
 
-// Their clusters: the first, and one past the last. On a lattice there may be clusters of other blocks between them.
+// Range of their clusters: the first, and one past the last. On a lattice it may contain clusters of other blocks.
 std::pair<int, int> clusters_of(const Body& body, const MaterialBlock& block, Part part) {
   const auto [begin, end] = updated_with(block, part);
   if (begin == end) return {0, 0};
@@ -47,7 +47,7 @@ bool is_of(const Body& body, const MaterialBlock& block, int cluster) {
   return block.lattice < 0 || &body.block_of(body.domain.families.lists[cluster].points[0]) == &block;
 }
 
-// Calls work(block, first cluster, one past the last) for the blocks that are strained and may break.
+// Calls work(block, first cluster, one past the last) for the deforming blocks whose bonds may break.
 template <class AnyBody, class Work>
 void over_breakable(AnyBody& body, Part part, const Work& work) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -57,7 +57,7 @@ void over_breakable(AnyBody& body, Part part, const Work& work) {
   }
 }
 
-// The part of the springs of block.points[k] that goes on with its stress.
+// The fraction of the springs of block.points[k] that remains with its stress.
 double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   if (body.force_states.tensors[block.points[k]].failed() > 0) return 0;
   const auto part = [&block, k]<class L>(const L& law) {
@@ -67,7 +67,7 @@ double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
   return std::visit(part, block.material.law);
 }
 
-// What is missing in the balance of a point.
+// The energy missing in the balance of a point, J.
 double released(const PointAccount& before, const PointAccount& after) {
   return 0.5 * (before.work + after.work) - (after.energy - before.energy);
 }
@@ -79,9 +79,9 @@ bool fails(const MaterialBlock& block) {
 
 }  // namespace
 
-// Calls visit(n, (|η|/((1 + s)|ξ|))²) over the n neighbors of a cluster, with the lesser s of the two ends; 0 in the
-// lanes of those who are not bonded to it. Two callers may get other last digits (round_off): bonds_to_cut alone
-// decides, the same on all ranks.
+// Calls visit(n, (|η|/((1 + s)|ξ|))²) for each of the n neighbors of a cluster, with the lesser s of the two ends; 0 in
+// lanes that are not bonded to it. Two callers may get different last digits (round_off): only bonds_to_cut decides,
+// identically on all ranks.
 struct Fracture::Stretches {
   const Site* sites;
   const double* limits;
@@ -129,7 +129,7 @@ Fracture::Fracture(Body& body) : travel_(body.domain) {
   set_limits(body, 0);
 }
 
-// The clusters of these points, and those who have them in their families, are to be looked at.
+// Marks the clusters of these points, and those that have them in their families, for the next check.
 void Fracture::look_around(const Body& body, const std::vector<char>& points) {
   if (points.empty()) return;
   const auto is = [&points](int i) { return points[i] != 0; };
@@ -146,7 +146,7 @@ void Fracture::start_step(const Body& body, std::span<const Vector> velocities, 
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];
     if (!body.may_break(b) || !block.in_rigid_motion)
-      continue;  // points on the lattice of another body are in no cluster
+      continue;  // points on the lattice of another body have no cluster
     for (const Part part : {Part::interior, Part::boundary}) {
       const auto [first, last] = clusters_of(body, block, part);
       for (int c = first; c < last; ++c) due[c] = is_of(body, block, c) ? never : due[c];
@@ -176,7 +176,7 @@ bool Fracture::holds_energy(const Body& body, const MaterialBlock& block) const 
   return energies_.any_of(static_cast<std::size_t>(&block - body.blocks.data()));
 }
 
-// Whether a bond of a cluster is at its limit, to round-off; and until when none is.
+// True if a bond of a cluster is at its limit, to round-off; else sets the travel at which the cluster is checked next.
 bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int cluster) {
   const Cluster points = body.domain.families.lists[cluster];
   Lanes worst = Lanes::Zero(), load = Lanes::Zero(), room = Lanes::Constant(never);
@@ -189,7 +189,7 @@ bool Fracture::is_at_limit(const Body& body, const MaterialBlock& block, int clu
   }
   const double most = worst.maxCoeff();
   const double by_stretch = shortest_[cluster] * std::max(0.0, 1 - std::sqrt(most));
-  const double by_energy = room.minCoeff() - travel_.last();  // from the start of the step on
+  const double by_energy = room.minCoeff() - travel_.last();  // measured from the start of the step
   due_[cluster] = travel_.of(cluster) + std::max(0.0, std::min(by_stretch, by_energy));
   return std::max(most, load.maxCoeff()) > 1 - round_off;
 }
@@ -219,13 +219,13 @@ void Fracture::break_bonds(Body& body, Part part, double time, double dt) {
   });
 }
 
-// Of each neighbor of a cluster, the members whose bonds to it break; returns who of them has any such bond.
+// Sets for each neighbor of a cluster the members whose bonds to it break; returns a bit for each member concerned.
 unsigned Fracture::bonds_to_cut(const Body& body, const MaterialBlock& block, const Cluster& cluster,
                                 std::vector<std::uint8_t>& gone) const {
   const unsigned there = (1u << cluster.points.size()) - 1;
   unsigned members = 0;
   gone.assign(cluster.near.size(), 0);
-  // load: in parts of what breaks the bond
+  // load: fraction of the value at which the bond breaks
   const auto take = [&](std::size_t n, const Lanes& load) {
     gone[n] |= static_cast<std::uint8_t>(small::lanes_below_zero(Lanes(1 - load)) & there);
     members |= gone[n];
@@ -239,7 +239,7 @@ unsigned Fracture::bonds_to_cut(const Body& body, const MaterialBlock& block, co
 
 namespace {
 
-// Of some members of a cluster.
+// The families of some members of a cluster.
 std::vector<std::vector<int>> families_of(const Cluster& cluster, unsigned members) {
   std::vector<std::vector<int>> families(cluster.points.size());
   for (std::size_t n = 0; n < cluster.near.size(); ++n) {
@@ -288,7 +288,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double 
   }
 }
 
-// What the springs of a point that softens or fails no longer hold.
+// Counts the energy that the springs of a point lose because it softens or fails.
 void Fracture::soften_springs(Body& body, Part part) {
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     const MaterialBlock& block = body.blocks[b];

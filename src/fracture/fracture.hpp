@@ -1,15 +1,15 @@
-// Bonds that break, and what they dissipate.
+// Breaks bonds, and counts the energy that this dissipates.
 //
 // A bond breaks for both of its ends in the same step: the criterion is symmetric to the last bit, so the ranks of both
-// ends decide alike without a message. It is looked at where the motion since the last look may have sufficed: of each
-// cluster of points it is known by how much the bond nearest to its limit would have to grow, and two points move apart
-// by no more than the velocities around them allow (Travel). Where no bond may break anywhere, nothing else is done in
-// a step. What bonds hold changes with the breaks of others, too: where such a point is met, it is looked at.
+// ends decide identically without a message. Each cluster stores the elongation that its bond nearest to the limit
+// still needs, and is checked again only when its points may have moved apart by that much (Travel). While no bond can
+// break, a step does nothing else. Breaks of other bonds also change the energy of bonds: clusters of such points are
+// checked.
 //
-// The energy dissipated by a break is what is missing in the balance of the points whose bonds broke: with the work w
-// of a point's force states along the step's motion of its family, before the break and after it,
+// The energy dissipated by a break is the residual in the energy balance of the points whose bonds broke. With the work
+// w of a point's force states along the step's motion of its family, before the break, and w' after it,
 //   D = ½ (w + w') − (E' − E).
-// The kinetic energy of central differences changes by −½ Σ (w + w') over all points, so this is exact.
+// The kinetic energy of central differences changes by −½ Σ (w + w') over all points, so the balance is exact.
 #pragma once
 
 #include <array>
@@ -28,17 +28,17 @@ namespace strut {
 
 class Fracture : public BondBreaking {
  public:
-  // Collective. Of a body whose families are whole: its fields of damage begin, its blocks get their critical values.
+  // Collective. The families must be complete. Allocates the damage fields and sets the critical values of the blocks.
   explicit Fracture(Body& body);
 
-  // Collective. Before owned points move over a step of dt (s) with these velocities (m/s). Without this no bond breaks
-  // in the stress update that follows.
+  // Collective. Call it before owned points move over a step of dt (s) with these velocities (m/s). Otherwise no bond
+  // breaks in the stress update that follows.
   void start_step(const Body& body, std::span<const Vector> velocities, double dt);
-  // In the stress update at the end of a step, for the points that need no ghost, and, once ghosts are current, for the
-  // others: breaks bonds before their stress is updated, and counts afterwards what that has dissipated.
+  // Called in the stress update at the end of a step, first for the points that need no ghost and, once ghosts are
+  // current, for the others: break_bonds before their stress is updated, count_dissipation after it.
   void break_bonds(Body& body, Part part, double time, double dt) override;
   void count_dissipation(Body& body, Part part) override;
-  // Once the sum of forces has exchanged what they read: the same of points with springs on both ends' gradients.
+  // Called when the sum of forces has exchanged its states: the same for springs on both ends' gradients.
   void count_springs(Body& body) override;
   void finish_step() override { is_looked_at_ = false; }
 
@@ -47,13 +47,13 @@ class Fracture : public BondBreaking {
   void serialize(Archive& archive, Body& body);  // collective
 
  private:
-  // A cluster with points whose bonds break in this step, as they were before.
+  // A cluster with points whose bonds break in this step, with its values before the break.
   struct Affected {
     std::size_t block;
-    int cluster, first;  // first: the place of its first point in the block's
-    unsigned members;    // a bit for each of these points
+    int cluster, first;  // first: index of its first point in the block
+    unsigned members;    // a bit for each point whose bonds break
     std::array<PointAccount, Cluster::width> before;
-    std::vector<std::vector<int>> families;  // of the members, where they have springs on both ends' gradients
+    std::vector<std::vector<int>> families;  // of the members, if they have springs on both ends' gradients
   };
   struct Stretches;
 
@@ -74,27 +74,27 @@ class Fracture : public BondBreaking {
   void count(Body& body, const Affected& one);
   void restore(Body& body, const std::vector<double>& bits, int words);
 
-  std::vector<char> may_fail_;                  // of blocks: their points may fail, and lose their bonds then
+  std::vector<char> may_fail_;                  // of blocks: their points may fail, and then lose their bonds
   std::vector<int> block_of_;                   // of owned points and ghosts
   std::vector<double> limits_;                  // (1 + s_c)² of owned points and ghosts; infinite without
-  bool by_time_ = false;                        // they change
-  BondEnergies energies_;                       // what bonds hold, where that has a limit
+  bool by_time_ = false;                        // the limits change with time
+  BondEnergies energies_;                       // of bonds in blocks with a critical bond energy
   bool is_looked_at_ = false;                   // a bond may break in this step
-  std::vector<Vector> start_;                   // places at the start of such a step, of owned points and ghosts, m
-  std::vector<GradientState> start_gradients_;  // the same of what springs read
-  std::vector<double> shortest_;                // |ξ| of clusters, m
-  std::vector<double> due_;                     // the travel at which one of their bonds may have come to break, m
+  std::vector<Vector> start_;                   // positions of owned points and ghosts at the start of such a step, m
+  std::vector<GradientState> start_gradients_;  // gradient states at the start of such a step
+  std::vector<double> shortest_;                // shortest |ξ| of each cluster, m
+  std::vector<double> due_;                     // travel at which a cluster must be checked next, m
   Travel travel_;
-  std::vector<double> whole_volume_;    // Σ V_j over the family at first, of owned points, m³
-  std::vector<double> whole_springs_;   // C of owned points at first, Pa/m⁵
-  std::vector<double> most_steepness_;  // of owned points that carry stress, 1/m²
+  std::vector<double> whole_volume_;    // Σ V_j over the complete family of owned points, m³
+  std::vector<double> whole_springs_;   // C of owned points with complete families, Pa/m⁵
+  std::vector<double> most_steepness_;  // limit of the steepness of owned points that carry stress, 1/m²
   std::vector<Affected> affected_;
 };
 
-// Where bonds of the body may break.
+// The fracture of a body, if its bonds may break.
 std::optional<Fracture> fracture_of(Body& body);
 
-// Bonds of this rank's points that have broken so far, both ends counted.
+// Number of bonds of this rank's points that have broken so far; both ends count.
 std::int64_t broken_bonds(const Body& body);
 
 }  // namespace strut

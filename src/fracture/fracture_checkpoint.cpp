@@ -1,5 +1,5 @@
-// The state of broken bonds in checkpoints: a bit for each bond that there was, in the order of the ids of the far
-// ends, in words that a double holds.
+// The broken bonds in checkpoints: one bit per original bond of a point, in the order of the ids of the far ends,
+// packed into doubles.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int bits_a_word = 48;
 
-// Calls visit(place in the order of ids, id) over the family as it was.
+// Calls visit(index in the order of ids, id) over the original family.
 template <class Visit>
 void over_whole_family(const Domain& domain, int i, const Visit& visit) {
   std::vector<std::int64_t> ids;
@@ -51,14 +51,14 @@ void Fracture::serialize(Archive& archive, Body& body) {
     });
   }
   archive.field("broken_bonds", words, [&](std::size_t i, int c) -> double& { return bits[i * words + c]; });
-  // A break in the next step asks what they were at its start.
+  // A break in the next step needs the states at its start.
   const auto states = [&](const char* name, auto& of_points, bool exist) {
     using State = std::remove_cvref_t<decltype(of_points[0])>;
     if (!exist) return;
     archive.field(name, sizeof(State) / sizeof(double),
                   [&](std::size_t i, int c) -> double& { return reinterpret_cast<double*>(&of_points[i])[c]; });
   };
-  // By what blocks there are, also on a rank without points.
+  // Decided by the blocks of the scene, also on a rank without points.
   const auto any = [&](Formulation formulation) {
     return std::ranges::any_of(body.blocks, [&](const auto& b) { return b.material.formulation == formulation; });
   };
@@ -71,7 +71,7 @@ void Fracture::serialize(Archive& archive, Body& body) {
 
 namespace {
 
-// The next step asks who has failed, and what ordinary points carry, before force states are exchanged.
+// The next step needs the failed points and the force states of ordinary points before force states are exchanged.
 void exchange_states(Body& body) {
   ForceStates& states = body.force_states;
   const Domain& domain = body.domain;

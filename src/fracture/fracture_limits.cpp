@@ -1,4 +1,4 @@
-// At which stretch bonds break, and how steep a family may be that is left.
+// Limits: the stretch at which bonds break, and the steepness that a family with broken bonds may have.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,7 +38,7 @@ void Fracture::set_limits(const Body& body, double time) {
   }
 }
 
-// Points that have failed in the last step: all of their bonds are to break, and who has such bonds is to look.
+// Points that failed in the last step: all of their bonds break, and the clusters of both ends are checked.
 void Fracture::take_failed(const Body& body) {
   std::vector<char> is_new;  // empty while there is none, as in most steps
   for (std::size_t i = 0; i < limits_.size(); ++i) {
@@ -51,9 +51,9 @@ void Fracture::take_failed(const Body& body) {
   look_around(body, is_new);
 }
 
-// The limit of a point's steepness is `steepness_of_corners` times the least one of its block, which is that of a point
-// inside; both are compared in spacings and as of whole cells. So broken families do not make the critical time step
-// smaller than corners do. A point that is steeper from the start may be half as much again.
+// The limit of a point's steepness is `steepness_of_corners` times the least in its block, which is that of an interior
+// point; both are compared in spacings and for whole cells. So families with broken bonds do not reduce the critical
+// time step below that of corners. A point that is steeper from the start may grow by half.
 void Fracture::set_most_steepness(const Body& body) {
   constexpr double more_than_first = 1.5;
   const auto per_steepness = [&body](int i) {

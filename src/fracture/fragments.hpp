@@ -1,4 +1,4 @@
-// The connected pieces of a body: points that bonds lead to from each other.
+// Fragments: sets of points that are connected by intact bonds.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@ namespace strut {
 
 struct Fragment {
   std::int64_t id = 0;               // the least id of its points
-  std::int64_t points = 0;           // how many
+  std::int64_t points = 0;           // number of points
   double mass = 0;                   // kg
   Vector velocity = Vector::Zero();  // of its center of mass, m/s
 };
 
-// Collective. Of each owned point the id of its fragment.
+// Collective. The id of the fragment of each owned point.
 std::vector<std::int64_t> fragment_ids(const Body& body);
 
-// Collective. All of them on rank 0, the heaviest first; none on other ranks.
+// Collective. All fragments on rank 0, the heaviest first; none on other ranks.
 std::vector<Fragment> fragments(const Body& body);
 
 }  // namespace strut

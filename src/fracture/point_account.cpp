@@ -12,7 +12,7 @@ using bonds::Lanes, bonds::Vector3;
 
 // Sums over the families of a cluster's points.
 struct Sums {
-  Lanes squares = Lanes::Zero();  // what the energy of the bonds takes, m⁵
+  Lanes squares = Lanes::Zero();  // residual or extension squares for the energy of the bonds, m⁵
   Lanes work = Lanes::Zero();     // Σ ω V_j T·Δη, J/m³
 };
 
@@ -20,10 +20,10 @@ struct Bond {
   int j;
   Lanes weight;                   // ω V_j
   Vector3<Lanes> xi, eta, moved;  // moved: Δη over the step
-  Lanes absent;                   // 1 in the lanes of those who do not have j in their family
+  Lanes absent;                   // 1 in lanes that do not have j in their family
 };
 
-// Calls visit(bond) over the families of a cluster.
+// Calls visit(bond) for each bond of a cluster.
 template <class Visit>
 void over_bonds(const Cluster& cluster, const StepEnd& end, const Visit& visit) {
   const Site* sites = end.body.domain.sites.data();
@@ -95,7 +95,7 @@ Sums sums_of_quadratic(const Cluster& cluster, const StepEnd& end) {
   return sums;
 }
 
-// J/m³
+// The energy of a point, J/m³.
 double energy_of(const Body& body, const MaterialBlock& block, int k, double squares) {
   if (block.is_ordinary()) return ordinary_energy(block, block.ordinary[k], squares);
   const double springs = block.is_quadratic() ? 0 : block.own_springs_of(body.points[block.points[k]]);

@@ -1,4 +1,4 @@
-// What points hold of the energy, for the ledger of bonds that break.
+// Bond work balance: the energy of points and the work of their bonds, for the dissipation by broken bonds.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace strut {
 
-// Places of the points at one end of a step.
+// The positions of the points at one end of a step.
 struct StepEnd {
   const Body& body;
-  const std::vector<Vector>& start;  // places of owned points and ghosts at the start of the step, m
+  const std::vector<Vector>& start;  // positions of owned points and ghosts at the start of the step, m
   bool at_start;
   double dt = 0;  // length of the step, s
 
@@ -19,12 +19,12 @@ struct StepEnd {
 };
 
 struct PointAccount {
-  double energy = 0;  // elastic, dissipated, of springs on the point's own gradient, J
+  double energy = 0;  // elastic, dissipated, and of springs on the point's own gradient, J
   double work = 0;  // of the point's force states along the step's motion of its family, J: V Σ ω V_j T⟨ξ⟩·Δη
 };
 
-// Of a cluster's points, block.points[first] and those that follow, with the families, states and force states that
-// they have now.
+// The balances of a cluster's points, block.points[first] and those that follow, with their present families, states
+// and force states.
 std::array<PointAccount, Cluster::width> accounts_of(const MaterialBlock& block, int first, const Cluster& cluster,
                                                      const StepEnd& end);
 

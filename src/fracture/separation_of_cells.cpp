@@ -9,8 +9,8 @@ namespace strut {
 
 namespace {
 
-// A cell so many layers above the plane as the halves move apart: the strains that its stress has followed, which after
-// a break are not those of its fit (refit_in_step).
+// A cell `layer` layers above the plane as the halves move apart, with the strains that its stress has followed; after
+// a break these differ from those of its fit (refit_in_step).
 class SeparatedCell {
  public:
   SeparatedCell(const PulledLattice& lattice, std::vector<LatticeBond> family, int layer, double most)
@@ -18,7 +18,7 @@ class SeparatedCell {
     strains_.fill(Tensor::Zero());
   }
 
-  // To an opening (m), at which the bonds break that are to break at it or before: returns what that releases, J/m³.
+  // Opens to an opening (m), breaks the bonds with at most that opening, and returns the energy released, J/m³.
   double open(double opening);
 
  private:
@@ -31,10 +31,10 @@ class SeparatedCell {
   const PulledLattice& lattice_;
   std::vector<LatticeBond> family_;
   int layer_;
-  double most_;  // the steepness beyond which it carries no stress, 1/m²
+  double most_;  // steepness above which the cell carries no stress, 1/m²
   bool carries_stress_ = true;
   double opening_ = 0;
-  Places gradients_, strains_;  // of displacements, for an opening of 1 m; strains
+  Places gradients_, strains_;  // of displacements, at an opening of 1 m; strains
 };
 
 SeparatedCell::Places SeparatedCell::gradients() {
@@ -99,7 +99,7 @@ double separation_of_cells(const PulledLattice& lattice) {
     SeparatedCell cell(lattice, family, layer, most);
     for (const double opening : openings) released += cell.open(opening);
   }
-  return 2 * lattice.spacing * released;  // of both halves
+  return 2 * lattice.spacing * released;  // both halves
 }
 
 }  // namespace strut

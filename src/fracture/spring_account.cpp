@@ -8,7 +8,7 @@ namespace {
 
 using Numbers = bonds::Vector3<double>;
 
-// Of one point, as the sums over bonds take families.
+// The far ends of one point, as a family for the sums over bonds.
 struct OfFarEnds {
   using Scalar = double;
   int i;

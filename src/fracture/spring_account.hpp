@@ -1,10 +1,10 @@
-// The springs on the residual of both ends' gradients (mean gradient), for the ledger of bonds that break.
+// Bond work balance of the springs on the residual of both ends' gradients (mean gradient).
 //
-// As a point loses bonds its F jumps, and with it the residuals of all bonds that are left to it: their far ends need
-// not have lost any. Of a bond i–j with the force t on the residual z = η − ½ (F_i + F_j) ξ the power is
+// When bonds of a point break, its F jumps, and so do the residuals of all of its intact bonds, even if their far ends
+// lost none. The power of a bond i–j with the force t on the residual z = η − ½ (F_i + F_j) ξ is
 //   t·(Δη − ½ ΔF_i ξ − ½ ΔF_j ξ),
-// and its energy ½ z·t. Who has lost bonds counts half of it, to which his own ΔF_i belongs, and the half of a far end
-// that has lost none as well.
+// and its energy is ½ z·t. A point whose bonds broke counts its half of the bond, with its own ΔF_i, and also the half
+// of a far end whose bonds did not break.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ namespace strut {
 
 struct SpringAccount {
   const StepEnd& end;
-  const std::vector<GradientState>& now;     // of owned points and ghosts at this end of the step
-  const std::vector<GradientState>& start;   // at its start
-  const std::vector<GradientState>& finish;  // at its end
+  const std::vector<GradientState>& now;     // of owned points and ghosts, at the end of the step that is evaluated
+  const std::vector<GradientState>& start;   // at the start of the step
+  const std::vector<GradientState>& finish;  // at the end of the step
 
-  // Of owned point i, whose bonds break in this step, with this family: the energy, J, and the work along the step, J,
-  // but for −½ t·ΔF_i ξ, which its own force state holds.
+  // Energy and work along the step (J) of owned point i, whose bonds break in this step, with this family; without the
+  // work −½ t·ΔF_i ξ, which is part of the point's own force state.
   PointAccount of(int i, std::span<const int> family) const;
 };
 

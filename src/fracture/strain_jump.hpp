@@ -1,4 +1,4 @@
-// How stress follows the jump of the gradient at a point that loses bonds.
+// How the stress follows the jump of the gradient at a point whose bonds break.
 #pragma once
 
 #include "base/math/tensors.hpp"
@@ -6,12 +6,12 @@
 
 namespace strut {
 
-// Times that of a point inside of a block: what steepness broken families may have, as points at a corner do, where an
-// eighth of the family is left. A steeper point carries no stress.
+// Limit of the steepness of families with broken bonds, relative to an interior point: that of points at a corner,
+// which have an eighth of the family. A steeper point carries no stress.
 inline constexpr double steepness_of_corners = 8;
 
-// The part of a jump of the strain that stress follows, from a strain of linear elasticity: to the least of the energy,
-// W + λ σ:Δε + ½ λ² Δε:C:Δε, for λ from 0 to 1.
+// The fraction of a strain jump that the stress follows, for linear elasticity: the λ from 0 to 1 that minimizes the
+// energy W + λ σ:Δε + ½ λ² Δε:C:Δε.
 double part_that_releases(const materials::Moduli& moduli, const Tensor& strain, const Tensor& jump);
 
 }  // namespace strut

@@ -19,7 +19,7 @@ Travel::Travel(const Domain& domain) {
   for (int c = 0; c < lists.count(); ++c) {
     for (const int i : lists[c].points) region_of[i] = c / clusters_a_region;
   }
-  std::vector<int> seen(regions_.size(), -1);  // by which region last
+  std::vector<int> seen(regions_.size(), -1);  // the last region that saw each region
   for (int c = 0; c < lists.count(); ++c) {
     const int own = c / clusters_a_region;
     Region& region = regions_[own];
@@ -36,7 +36,7 @@ Travel::Travel(const Domain& domain) {
   }
 }
 
-// How far points may still move apart, m.
+// The relative displacement that is left before the next check of a region, m.
 double Travel::until_due(std::size_t region, std::span<const double> due) const {
   const auto begin = due.begin() + static_cast<std::ptrdiff_t>(region) * clusters_a_region;
   const auto left = std::min<std::ptrdiff_t>(clusters_a_region, due.end() - begin);
@@ -53,15 +53,15 @@ void Travel::set_boxes(const ClusterLists& lists, std::span<const Vector> veloci
 }
 
 bool Travel::advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due) {
-  constexpr double margin = 1 + 1e-6;  // for the round-off of places
+  constexpr double margin = 1 + 1e-6;  // for the round-off of positions
   set_boxes(body.domain.families.lists, velocities, due);
   Eigen::AlignedBox3d all;
   for (const Region& region : regions_) all.extend(region.box);
-  if (!body.domain.mirrors.empty() && !all.isEmpty()) {  // images go other ways, as fast
+  if (!body.domain.mirrors.empty() && !all.isEmpty()) {  // images move in other directions at the same speed
     const double speed = all.min().cwiseAbs().cwiseMax(all.max().cwiseAbs()).norm();
     all.extend(Vector::Constant(speed)), all.extend(Vector::Constant(-speed));
   }
-  double passed = -never, at_ghosts = -never;  // by how much one is due; without what is added where ghosts are
+  double passed = -never, at_ghosts = -never;  // excess over a due travel, m; where ghosts are: without this step
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     Region& region = regions_[r];
     if (region.box.isEmpty()) continue;

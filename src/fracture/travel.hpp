@@ -1,8 +1,8 @@
-// By how much two points that are bonded have moved apart at most.
+// An upper bound for the relative displacement of any two bonded points.
 //
-// Clusters that follow upon each other are a region. No two points of it and of its families move apart faster than by
-// the diagonal of the box of their velocities; where ghosts are among them, whose velocities are not known, by that of
-// all points.
+// Consecutive clusters form a region. Points of a region and of its families move apart no faster than the diagonal
+// of the box of their velocities. If ghosts are among them, whose velocities are unknown, the box of all points is
+// used.
 #pragma once
 
 #include <span>
@@ -16,11 +16,11 @@ class Travel {
  public:
   explicit Travel(const Domain& domain);
 
-  // Collective. Over a step of dt (s) with these velocities of owned points (m/s). `due`: of each cluster, the travel
-  // at which it is to be looked at, m; infinite of those who do not matter. Returns whether any is due, on any rank.
+  // Collective. Adds a step of dt (s) with these velocities of owned points (m/s). `due`: travel at which each cluster
+  // must be checked, m; infinite if it need not be. Returns true if any is due, on any rank.
   bool advance(const Body& body, std::span<const Vector> velocities, double dt, std::span<const double> due);
 
-  double of(int cluster) const { return regions_[cluster / clusters_a_region].travel; }  // so far, m
+  double of(int cluster) const { return regions_[cluster / clusters_a_region].travel; }  // since the start, m
   double last() const { return last_; }  // of any two points in the last step, m
   double bytes() const;
 
@@ -28,7 +28,7 @@ class Travel {
   static constexpr int clusters_a_region = 8;
 
   struct Region {
-    std::vector<int> near;  // regions with points that are in families of this one, itself included
+    std::vector<int> near;  // regions with points in the families of this one, itself included
     bool meets_ghosts = false;
     double travel = 0;        // m
     Eigen::AlignedBox3d box;  // of velocities, m/s

@@ -14,7 +14,7 @@ void Ledger::balance(double held, double put_in, double& largest_so_far) {
 }
 
 double energy_of_round_off(const Body& body) {
-  constexpr double strain = 1e-12, of_quadratic = 1e-11;  // whose terms that cancel are larger
+  constexpr double strain = 1e-12, of_quadratic = 1e-11;  // its canceling terms are larger
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
     const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, block.material.law);

@@ -1,4 +1,4 @@
-// The ledger of a run at one time.
+// The ledger: the energy balance of a run at one time.
 #pragma once
 
 #include "base/math/tensors.hpp"
@@ -11,22 +11,22 @@ struct Ledger {
   double time = 0, dt = 0;                                             // s
   double kinetic = 0, elastic = 0, dissipated = 0, stabilization = 0;  // J
   double fracture = 0;                                                 // J, dissipated by bonds that broke
-  double heat = 0;          // J, ρ c_p (T − T₀) of metals: no further term of the balance
+  double heat = 0;          // J, ρ c_p (T − T₀) of metals; for information, not a term of the balance
   double external = 0;      // J, work of loads and prescribed motion on the points so far
   double tool_kinetic = 0;  // J, of rigid tools with a mass
-  double tools = 0;         // J, work of rigid tools on the points so far: what walls take is negative
-  // J, work of contact between bodies on the points so far: what penalties store and friction takes is negative.
+  double tools = 0;         // J, work of rigid tools on the points so far; energy that walls take is negative
+  // J, work of contact between bodies on the points so far; energy that penalties store and friction takes is negative.
   double contact = 0;
-  double gained = 0;                 // J, stored + dissipated − put in: out of nothing; lost where negative
-  double largest = 0;                // J, the largest sum of energies so far, no less than round-off makes
-  double balance_error = 0;          // |gained| over that
+  double gained = 0;                 // J, stored + dissipated − external work: numerical gain; a loss if negative
+  double largest = 0;                // J, the largest sum of energies so far, at least the energy that round-off makes
+  double balance_error = 0;          // |gained|/largest
   Vector momentum = Vector::Zero();  // kg m/s
 
-  // `largest_so_far`: of the ledgers before this one, energy_of_round_off() before the first.
+  // `largest_so_far`: of the ledgers before this one; energy_of_round_off() before the first.
   void balance(double held, double put_in, double& largest_so_far);
 };
 
-// Collective. What less energy than this is may be round-off: that of a strain of 1e-12, J. Round-off of places makes
+// Collective. Energy below which all may be round-off: that of a strain of 1e-12, J. Round-off of positions makes
 // strains of some 1e-16 times their distance from the origin in spacings.
 double energy_of_round_off(const Body& body);
 

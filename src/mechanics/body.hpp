@@ -1,4 +1,4 @@
-// All that mechanics knows of the points of one rank: the dictionary of fields.
+// Every field that mechanics keeps for the points of one rank.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace strut {
 class LatticeSums;
 class QuadraticFits;
 
-// 2ⁿ of a small n. A call of std::ldexp for each point would be a hundredth of a step.
+// 2ⁿ for a small n. A call of std::ldexp for each point would take a hundredth of the time of a step.
 inline double power_of_two(int n) { return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + n) << 52); }
 
 // The fields of the owned points of a body.
@@ -41,7 +41,7 @@ struct PointFields {
       {.name = "velocity", .unit = "m/s", .meaning = "at the mid-step after the time", .kept = true});
   PointField<Vector> previous_velocity = fields.of_points<Vector>(
       {.name = "previous_velocity", .unit = "m/s", .meaning = "at the mid-step before the time", .kept = true});
-  // A sum that the phases of a step build up: what the points' own states give begins it, bonds, contact and loads add.
+  // Sum over the phases of a step: each point's own state sets it, then bonds, contact and loads add to it.
   PointField<Vector> force_density = fields.of_points<Vector>(
       {.name = "force_density",
        .unit = "N/m³",
@@ -52,14 +52,14 @@ struct PointFields {
        .nodal = true});
   PointField<double> residual = fields.of_points<double>(  // current after a step with diagnostics
       {.name = "residual", .unit = "m⁵", .meaning = "Σ ω V |η − F ξ|², by correspondence", .kept = true});
-  PointField<double> bond_work = fields.of_points<double>(  // as current
+  PointField<double> bond_work = fields.of_points<double>(  // current after a step with diagnostics
       {.name = "bond_work", .unit = "J/m³", .meaning = "energy of the springs on both ends' gradients", .kept = true},
       When::if_used);
   FieldRef<Deduplicated<Symmetric>> shape_inverse = fields.add<Deduplicated<Symmetric>>(
       At::point, {{.name = "shape_inverse", .unit = "1/m⁵", .meaning = "K⁻¹", .width = 6}});
   FieldRef<Deduplicated<Vector>> first_moment = fields.add<Deduplicated<Vector>>(
       At::point, {{.name = "first_moment", .unit = "m⁴", .meaning = "Σ ω V ξ", .width = 3}});
-  // Where bonds may break (fracture/fracture.hpp).
+  // Allocated only if bonds may break (fracture/fracture.hpp).
   PointField<double> damage = fields.of_points<double>(
       {.name = "damage",
        .unit = "1",
@@ -76,7 +76,7 @@ struct PointFields {
                                       .meaning = "1: the bonds left to it hold no deformation gradient",
                                       .kept = true},
                                      When::if_used);
-  // Multi-time-stepping; ghosts, too, and of no point where it is empty: it chooses them anew, and keeps its choice.
+  // Levels of owned points and ghosts, empty without subcycling. Multi-time-stepping chooses and saves them.
   PointField<std::uint8_t> time_levels =
       fields.of_points<std::uint8_t>({.name = "time_levels",
                                       .unit = "1",
@@ -86,22 +86,22 @@ struct PointFields {
 };
 
 struct Body : PointFields {
-  Domain domain;  // y of its sites is what solvers move
+  Domain domain;  // solvers update the current positions y of its sites
   Influence influence = Influence::one;
-  std::vector<MaterialBlock> blocks;  // as domain.cloud.block_names
+  std::vector<MaterialBlock> blocks;  // in the order of domain.cloud.block_names
 
   ForceStates force_states;  // of owned points and ghosts
 
-  std::shared_ptr<QuadraticFits> fits;  // of owned points by quadratic correspondence, where there are any
+  std::shared_ptr<QuadraticFits> fits;  // of owned points by quadratic correspondence; null without any
 
-  // Workspaces of the sums over the families on lattices, as domain.families.lattices.
+  // Workspaces for the sums over families on lattices, one for each of domain.families.lattices.
   std::vector<std::shared_ptr<LatticeSums>> lattice_sums;
 
   int owned() const { return domain.owned; }
-  // The step of a point's stress as a part of the one of a level.
+  // The point's own step as a fraction of the step of a level.
   double share(int i, int level = 0) const { return time_levels.empty() ? 1 : power_of_two(level - time_levels[i]); }
   const MaterialBlock& block_of(int i) const { return blocks[domain.cloud.blocks[i]]; }
-  // Energy of the stabilization, J/m³, as current as the residual.
+  // Energy of the stabilization, J/m³; current when the residual is.
   double stabilization_work(int i) const {
     const bool in_bonds = block_of(i).has_springs(ResidualKind::both_gradients);
     return in_bonds ? bond_work[i] : 0.5 * points[i].stabilization * residual[i];
@@ -110,18 +110,18 @@ struct Body : PointFields {
     return std::any_of(blocks.begin(), blocks.end(), [&](const MaterialBlock& b) { return b.has_springs(residual); });
   }
   double mass(int i) const { return density[i] * domain.volume(i); }
-  // What is its own of the inertia of its cell, 1 but where a condition takes a part for another body's.
+  // Fraction of its cell's inertia that is the point's own; below 1 where a condition assigns a part to another body.
   double inertia_share(int i) const {
     return density[i] / (block_of(i).material.density * (mass_scale.empty() ? 1 : mass_scale[i]));
   }
   Vector current(int i) const { return domain.current(i); }
-  // The law point of block.points[k] at the place q.
+  // Integration point q of block.points[k].
   MaterialPoint law_point(const MaterialBlock& block, std::size_t k, int q) const {
     return block.is_quadratic() ? block.cells[block.place(k, q)] : points[block.points[k]];
   }
-  // Whether bonds of an owned point have broken.
+  // True if bonds of an owned point have broken.
   bool has_lost_bonds(int i) const { return !domain.families.broken.empty() && !domain.families.broken[i].empty(); }
-  // Whether bonds of a block's points, or of those that it is bonded to, may break; whether any may.
+  // True if bonds of the block, or of a block bonded to it, may break; without an argument, if any bonds may.
   bool may_break(std::size_t block) const;
   bool may_break() const;
   Vector displacement(int i) const { return current(i) - domain.reference(i); }

@@ -1,4 +1,4 @@
-// What breaks bonds takes part in a stress update; fracture implements it.
+// Interface by which a stress update breaks bonds; fracture implements it.
 #pragma once
 
 #include "mechanics/body.hpp"
@@ -11,13 +11,13 @@ class BondBreaking {
  public:
   virtual ~BondBreaking() = default;
 
-  // Before the stress of a part of the points is updated over the step of dt (s) that ends at `time` (s), with their
-  // neighbors' positions current; and after it.
+  // break_bonds is called before the stress update of a part of the points, count_dissipation after it. The step of dt
+  // (s) ends at `time` (s); the neighbors' positions must be current.
   virtual void break_bonds(Body& body, Part part, double time, double dt) = 0;
   virtual void count_dissipation(Body& body, Part part) = 0;
-  // After the stress of all points.
+  // Called after the stress update of all points.
   virtual void finish_step() = 0;
-  // After the sum of forces, where there are springs on the gradients of both ends.
+  // Called after the sum of forces if there are springs on the gradients of both ends.
   virtual void count_springs(Body& body) = 0;
 };
 

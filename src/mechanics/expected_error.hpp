@@ -1,5 +1,5 @@
-// The errors of struts a few cells thick by quadratic correspondence: the one table of them, which the program and
-// strut-mesh print. It stands in a header, so that the mesh tool needs none of mechanics to be linked.
+// Measured errors of struts a few cells thick by quadratic correspondence, in one table that the program and strut-mesh
+// print. It is header-only, so that the mesh tool does not link mechanics.
 #pragma once
 
 #include <algorithm>
@@ -12,22 +12,22 @@ namespace strut {
 
 struct ExpectedError {
   double thickness;     // cells
-  double stiffness;     // share, either way: the largest of single struts in any direction, and of foams
-  double above, below;  // shares of the plateau, too much and too little, where metal flows
+  double stiffness;     // relative error, plus or minus: the largest over single struts in any direction and over foams
+  double above, below;  // relative error of the plateau stress where metal flows: too high, too low
 };
 
-// Round struts of cells that know what is in them (tests/reference/bench_thin_members); the limit load of clamped ones
-// at elements and at nodes (bench_limit_load), lattices, sheared nodes and Kelvin's foam beside finite elements
-// (tests/reference/README.md). test_thin_members and test_limit_load keep it true: nothing is off by more, and some
-// strut or foam by half as much.
+// Measured on round struts whose cells know their material (tests/reference/bench_thin_members); on the limit load of
+// clamped struts with points at elements and at nodes (bench_limit_load); on lattices, sheared nodes and Kelvin's foam
+// against finite elements (tests/reference/README.md). test_thin_members and test_limit_load check the table: no error
+// exceeds its entry, and some strut or foam reaches at least half of it.
 inline constexpr std::array<ExpectedError, 4> expected_errors = {
     {{2, 0.20, 0.15, 0.06}, {3, 0.14, 0.05, 0.06}, {4, 0.11, 0.03, 0.06}, {6, 0.07, 0.02, 0.04}}};
 
-// Where whole cells make stairs of a surface, as voxels do of a round strut, errors of the stiffness are so many times
-// as large (the same bench and test).
+// Whole cells approximate a curved surface by stairs, as voxels do on a round strut; errors of the stiffness are then
+// larger by this factor (the same bench and test).
 inline constexpr int times_by_stairs = 3;
 
-// Between the entries linear, beyond the last one as 1/thickness; of thinner struts that of the first.
+// Linear between the entries and proportional to 1/thickness beyond the last; thinner struts get the first entry.
 inline ExpectedError expected_error(double thickness) {
   const auto &first = expected_errors.front(), &last = expected_errors.back();
   if (thickness >= last.thickness) {
@@ -43,9 +43,9 @@ inline ExpectedError expected_error(double thickness) {
           std::lerp(a->below, b->below, t)};
 }
 
-// E.g. "up to ±14 % in the stiffness and +5/-6 % in the plateau". `whole`: the cells are, so that there may be stairs.
+// E.g. "up to ±14 % in the stiffness and +5/-6 % in the plateau". `whole`: cells are whole, so surfaces may be stairs.
 inline std::string expected_error_text(double thickness, const std::string& plateau, bool whole = false) {
-  constexpr double known = 0.9;  // of the thinnest: below it, errors are larger than those of the table
+  constexpr double known = 0.9;  // fraction of the least thickness of the table; below it errors exceed the table's
   const ExpectedError error = expected_error(thickness);
   const char* bound = thickness < known * expected_errors.front().thickness ? "more than" : "up to";
   char text[100];

@@ -1,4 +1,4 @@
-// A point at which a step went wrong, and what is said of it.
+// A point at which a step failed, and the message about it.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace strut {
 
-// A point at which a step went wrong.
+// A point at which a step failed.
 struct Failure {
   int point;                                                 // owned, local index
   enum class Kind { not_finite, no_stress, inverted } kind;  // the worst first
 };
 
-// Leaves the worse of both in `worst`, of alike ones that of the first point: whichever comes first.
+// Leaves the worse failure in `worst`; between equal kinds the lower point index wins, whatever the order of the calls.
 inline void take_worse(const std::optional<Failure>& other, std::optional<Failure>& worst) {
   const auto order = [](const Failure& f) { return std::pair(f.kind, f.point); };
   if (other && (!worst || order(*other) < order(*worst))) worst = other;
@@ -24,7 +24,7 @@ inline void take_worse(const std::optional<Failure>& other, std::optional<Failur
 // "element 17 of block foam, reference position (…) m, now at (…) m"
 std::string locate(const Body& body, int i);
 
-// The same, and what the failure is and its likely cause.
+// locate(), followed by the failure and its likely cause.
 std::string describe(const Failure& failure, const Body& body);
 
 }  // namespace strut

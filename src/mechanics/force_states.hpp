@@ -1,4 +1,4 @@
-// What bonds read of their ends: force states, by formulation.
+// Force states by formulation: the data of an end point that a bond needs for its force.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,13 +6,13 @@
 
 namespace strut {
 
-// What a bond reads of an end by correspondence: a tensor by columns, and in their fourth lanes up to three numbers.
+// Data of a bond's end by correspondence: a tensor by columns; the fourth lane of each column holds one scalar.
 struct alignas(32) TensorRecord {
   Eigen::Array4d column[3];
 };
 
-// A = P K⁻¹ − C F and C, of the springs on the residual of the end's own gradient (0: none); 1 if the end has failed; 1
-// if bonds of it have broken in this step, where it has springs on the residual of both ends' gradients.
+// A = P K⁻¹ − C F. Scalars: C of the springs on the residual of the end's own gradient (0 without any); 1 if the end
+// has failed; 1 if bonds of it broke in this step and it has springs on the residual of both ends' gradients.
 struct ForceState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }
@@ -22,8 +22,8 @@ struct ForceState : TensorRecord {
   double lost_bonds() const { return column[2][3]; }
 };
 
-// F, and of the springs on the residual of both ends' gradients C, the share of the step at whose end they act, and
-// which stabilization they are (its index in the variant).
+// F. Scalars, of the springs on the residual of both ends' gradients: C; the fraction of the step at whose end they
+// act; the index of the stabilization in the variant.
 struct GradientState : TensorRecord {
   double& stiffness() { return column[0][3]; }
   double stiffness() const { return column[0][3]; }
@@ -31,18 +31,18 @@ struct GradientState : TensorRecord {
   double kind() const { return column[2][3]; }
 };
 
-// The same of an ordinary end, whose force state along the bond is t = ω (a |ξ| + b e).
+// State of an ordinary end: the force state along the bond is t = ω (a |ξ| + b e).
 struct alignas(16) ScalarState {
   double a = 0, b = 0;  // (3K − 5μ) θ/m; 15 μ/m; Pa/m⁵
 };
 
-// The same of an end by quadratic correspondence (quadratic_bonds.hpp): first and second force state, the part of the
-// consistency correction, and 1 if all places of the end have failed.
+// State of an end by quadratic correspondence (quadratic_bonds.hpp): first and second force state, its part of the
+// consistency correction, and 1 if all integration points of the end have failed.
 struct alignas(64) QuadraticState {
   double first[9] = {}, second[18] = {}, correction[9] = {}, offset[3] = {}, failed = 0;
   static constexpr int size = 40;
 
-  // Half of this one and half of the other, but for the mark.
+  // Averages this state with the other one; `failed` keeps its value.
   void take_half_of(const QuadraticState& other) {
     for (int n = 0; n < 9; ++n) first[n] = 0.5 * (first[n] + other.first[n]);
     for (int n = 0; n < 18; ++n) second[n] = 0.5 * (second[n] + other.second[n]);
@@ -51,15 +51,15 @@ struct alignas(64) QuadraticState {
   }
 };
 
-// One entry a point, ghosts too, in every formulation that the scene has: zero where the point is of another, so that a
-// bond between any two is the sum over the formulations.
+// Each vector has an entry for every owned point and ghost if any block uses the formulation. The entry is zero if the
+// point has another formulation, so that the force of any bond is the sum over the formulations.
 struct ForceStates {
   std::vector<ForceState> tensors;
   std::vector<ScalarState> scalars;
-  std::vector<GradientState> gradients;  // empty where no block has a stabilization by the gradients of both ends
+  std::vector<GradientState> gradients;  // empty if no block has a stabilization by the gradients of both ends
   std::vector<QuadraticState> quadratics;
 
-  // Whether point i, or a ghost, has failed.
+  // True if point i, owned or ghost, has failed.
   bool has_failed(std::size_t i) const {
     return (!tensors.empty() && tensors[i].failed() > 0) || (!quadratics.empty() && quadratics[i].failed > 0);
   }

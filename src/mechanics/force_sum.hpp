@@ -1,4 +1,4 @@
-// Inside mechanics: what the bonds add to the force on every point, on top of what its own state gives.
+// Inside mechanics: adds the forces of the bonds to what each point's own state gives.
 #pragma once
 
 #include <span>
@@ -13,15 +13,15 @@
 
 namespace strut {
 
-// The springs on the residual of both ends' gradients: one pass over bonds for each stabilization that has them. Their
-// energy is ½ Σ V_i V_j ω ½ z·t. `u`: of y, or of the field that stands in its place for a tangent.
+// Springs on the residual of both ends' gradients: one pass over the bonds for each such stabilization. Their energy is
+// ½ Σ V_i V_j ω ½ z·t. `u`: displacements of y, or of the field that replaces y in a tangent.
 struct ResidualSum {
   const Body& body;
   Bodies bodies;
   Displacements u;
   ForceStates& states;
-  std::vector<Vector>& result;  // what the points' own states give
-  std::span<double> energy;     // of each point; none if empty
+  std::vector<Vector>& result;  // on entry, what the points' own states give
+  std::span<double> energy;     // of each point; not computed if empty
 
   void operator()(Part part) const {
     for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { pass<S>(part, kind); });
@@ -68,8 +68,8 @@ struct ResidualSum {
   }
 };
 
-// What the far ends of the bonds give to the points of a group, by correspondence of either kind; for lists of points
-// of a whole step, of a substep, or of a tangent.
+// Force of the far ends of the bonds on the points of a group by quadratic correspondence; for the neighbor lists of
+// whole steps, substeps and tangents.
 template <class Weight>
 small::Vector3<small::Lanes> quadratic_far_forces(const Body& body, const Cluster& cluster, const ForceStates& states,
                                                   Weight weight) {
@@ -81,9 +81,9 @@ inline void add_to(const LaneGroup& group, const small::Vector3<small::Lanes>& f
   for (int l = 0; l < group.count; ++l) result[group.i[l]] += at(force, l);
 }
 
-// The force on every point, summed over the formulations that its block feels. `u`: of y, or of the field that stands
-// in its place for a tangent; `extension_of`: a family, of a bond between ordinary points; `result`: what the points'
-// own states give.
+// Adds up the force on every point over the formulations that its block feels. `u`: displacements of y, or of the field
+// that replaces y in a tangent; `extension_of(family)`: extensions of bonds between ordinary points; `result`: on
+// entry, what the points' own states give.
 template <class ExtensionOf>
 struct ForceSum {
   const Body& body;
@@ -128,7 +128,7 @@ struct ForceSum {
   }
 };
 
-// Each formulation behind the exchange of its states. `timed`: what lives as long as a sum.
+// Adds up each formulation while its states are exchanged. `timed`: returns an object that lives during one sum.
 template <class ExtensionOf, class Timed>
 void add_up(Halo& halo, const ForceSum<ExtensionOf>& sum, const Timed& timed) {
   const auto behind = [&]<class State>(std::vector<State>& states, void (ForceSum<ExtensionOf>::*over)(Part) const) {

@@ -35,7 +35,7 @@ double frequency_bound(const Body& body, const MaterialBlock& block, int k) {
   const MaterialPoint& point = body.points[i];
   const Tensor& F = point.deformation_gradient;
   const double speed2 = block.moduli(k).longitudinal() / body.density[i];
-  // tr K⁻¹ of a family that is alike in all directions is 9/m; of ordinary points any are allowed.
+  // tr K⁻¹ of an isotropic family is 9/m; ordinary points may have any family.
   if (block.is_ordinary()) return std::sqrt(speed2 * body.domain.volume(i) * 9 / block.ordinary[k].weighted_volume);
   const double steepness = F.determinant() * F.inverse().squaredNorm();
   return std::sqrt(speed2 * body.domain.volume(i) * trace(body.shape_inverse[i]) / 3 * steepness);

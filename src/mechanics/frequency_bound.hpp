@@ -1,17 +1,17 @@
-// How fast the motion of a point can be: what limits the critical time step.
+// Upper bounds for the frequencies of points, which limit the critical time step.
 #pragma once
 
 #include "mechanics/body.hpp"
 
 namespace strut {
 
-// A bound of what the stress of block.points[k] adds to ω, roughly: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
+// Approximate bound for the part of block.points[k]'s stress in ω: √(M J V tr K⁻¹/(3ρ)) ‖F⁻¹‖, M = λ + 2μ; 1/s.
 double frequency_bound(const Body& body, const MaterialBlock& block, int k);
 
-// The same of all owned points.
+// The bounds of all owned points, 1/s.
 std::vector<double> frequency_bounds(const Body& body);
 
-// Of the points of a block on this rank, as parts of their steps.
+// The largest bound of a block's points on this rank, each times the point's fraction of the step, 1/s.
 double largest_frequency_bound(const Body& body, const MaterialBlock& block);
 
 }  // namespace strut

@@ -15,7 +15,7 @@ StepReport together(const PerThread<StepReport>& reports) {
 
 StepReport advance(Body& body, const StressPass& pass, bool with_diagnostics, BondBreaking* breaking) {
   static Teuchos::Time& deforming = phase("Deformation and stress");
-  PerThread<StepReport> reports;  // of strips of a lattice
+  PerThread<StepReport> reports;  // one per thread: threads share the strips of a lattice
   const Displacements u{body.domain.sites.data()};
   const auto advance = [&](MaterialBlock& block, const LaneGroups& groups) {
     StepReport& report = reports.mine();

@@ -1,4 +1,4 @@
-// What a material point, or an integration point of its cell, keeps between steps.
+// The state of a material point, or of an integration point of its cell, that is kept between steps.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace strut {
 
-// What only the point itself reads.
+// Data that only the point itself reads.
 struct MaterialPoint {
   Tensor deformation_gradient = Tensor::Identity();  // F
   Rotation rotation;                                 // R
@@ -44,10 +44,10 @@ inline std::vector<FieldPart> parts_of_material_point() {
            .width = 1}};
 }
 
-// The law points of quadratic correspondence in tiles: of each F by columns, the six numbers of R, the stress.
+// The integration points of quadratic correspondence, in tiles: F by columns, the six numbers of R, the stress.
 class CellPoints {
  public:
-  static constexpr int rotation = 9, stress = 15, size = 21;  // where they begin; all numbers
+  static constexpr int rotation = 9, stress = 15, size = 21;  // offsets; count of all numbers
   static std::vector<FieldPart> parts() {
     return {{.name = "cell_deformation_gradient", .unit = "1", .meaning = "F", .kept = true, .width = rotation},
             {.name = "cell_rotation", .unit = "1", .meaning = "R", .kept = true, .width = stress - rotation},
@@ -80,7 +80,7 @@ class CellPoints {
   small::Tiles numbers_;
 };
 
-// What an ordinary point has besides.
+// Additional data of an ordinary point.
 struct OrdinaryPoint {
   double weighted_volume = 0;  // m = Σ ω |ξ|² V = tr K, m⁵
   double dilatation = 0;       // θ
@@ -95,12 +95,12 @@ struct OrdinaryPoint {
   }
 };
 
-// What the artificial viscosity of a block keeps of a point.
+// State of the artificial viscosity at an integration point.
 struct ViscousPoint {
   double pressure = 0;  // J q of the last step, Pa
-  double work = 0;      // taken so far, J per m³ of reference volume
-  double damping = 0;   // part of the critical damping of the fastest wave between points
-  double edge = 0;      // of a cube as large as the whole cell, of which a node on a symmetry plane has a part, m
+  double work = 0;      // dissipated so far, J per m³ of reference volume
+  double damping = 0;   // fraction of the critical damping of the fastest wave between points
+  double edge = 0;      // of a cube as large as the whole cell (a node on a symmetry plane has only a part of it), m
 
   static constexpr double ViscousPoint::*numbers[] = {&ViscousPoint::pressure, &ViscousPoint::work,
                                                       &ViscousPoint::damping, &ViscousPoint::edge};

@@ -63,14 +63,14 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
   return blocks;
 }
 
-// Springs on the residual of both ends' gradients.
+// True if a material has springs on the residual of both ends' gradients.
 bool has_springs_in_bonds(const std::vector<BlockMaterial>& materials) {
   return std::any_of(materials.begin(), materials.end(), [](const BlockMaterial& m) {
     return residual_of(m.stabilization) == ResidualKind::both_gradients && coefficient_of(m.stabilization) > 0;
   });
 }
 
-// Room for the states of the formulations that any block of the scene has, on this rank or another.
+// Zero states for the formulations that any block of the scene has, on this rank or another.
 ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& materials) {
   const auto any = [&materials](Formulation formulation) {
     return std::any_of(materials.begin(), materials.end(),
@@ -80,7 +80,7 @@ ForceStates zero_states(std::size_t points, const std::vector<BlockMaterial>& ma
   if (any(Formulation::correspondence)) states.tensors.assign(points, bonds::force_state(Tensor::Zero(), 0));
   if (any(Formulation::ordinary)) states.scalars.resize(points);
   if (any(Formulation::quadratic)) states.quadratics.resize(points);
-  if (has_springs_in_bonds(materials)) {  // undeformed, as what moves rigidly stays
+  if (has_springs_in_bonds(materials)) {  // undeformed, as bodies in rigid motion stay
     states.gradients.assign(points, bonds::gradient_state(Tensor::Identity(), 0, 0, NoStabilization()));
   }
   return states;
@@ -92,7 +92,7 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   inverse = block.is_ordinary() ? inverse_of(K) : symmetric_part(K.inverse());
   if (!inverse.allFinite()) inverse.setZero();  // of a cell that carries no stress
   if (block.lattice >= 0) {
-    // Of alike families the same. It takes the gradient of displacements there, so this is as small beside strains.
+    // Rounded, so that identical families share one entry. It multiplies displacements here, so the error is relative.
     const double size = trace(inverse);
     for (int c = 0; c < 6; ++c) inverse[c] = rounded(inverse[c], size, 44);
   }
@@ -103,7 +103,7 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
   }
 }
 
-// What is known of the families of owned points once and for all.
+// Constants of the families of owned points.
 struct FamilySums {
   std::vector<Symmetric> shape_inverses;
   std::vector<Vector> first_moments;
@@ -171,7 +171,7 @@ void set_what_blocks_feel(Body& body) {
       if (formulation == Formulation::correspondence) block.feels_correspondence = true;
     };
     feel(block.material.formulation);
-    if (block.lattice >= 0) continue;  // all of its body is by correspondence
+    if (block.lattice >= 0) continue;  // all blocks of its body are by correspondence
     for (const int i : block.points) families.for_each(i, [&](int j) { feel(formulations[j]); });
   }
 }
@@ -213,7 +213,7 @@ Body make_body(Domain domain, Influence influence, const std::vector<BlockMateri
   }
   set_shapes(body);
   set_what_blocks_feel(body);
-  // By what materials there are: a rank without points takes part.
+  // Decided by the materials of all blocks, because a rank without points takes part, too.
   const auto is_quadratic = [](const BlockMaterial& m) { return m.formulation == Formulation::quadratic; };
   if (std::any_of(materials.begin(), materials.end(), is_quadratic)) {
     body.fits = std::make_shared<QuadraticFits>(body);

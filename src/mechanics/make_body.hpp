@@ -5,10 +5,10 @@
 
 namespace strut {
 
-// Collective. Shape tensors, stabilization and undeformed state. `materials`: one for each block name of the cloud.
+// Collective. Sets shape tensors, stabilization and the undeformed state. `materials`: one per block name of the cloud.
 Body make_body(Domain domain, Influence influence, const std::vector<BlockMaterial>& materials);
 
-// Bytes that the points and bonds of this rank take, for predictions.
+// Memory of the points and bonds of this rank, bytes, for forecasts.
 double footprint(const Body& body);
 
 }  // namespace strut

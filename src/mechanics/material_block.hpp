@@ -19,7 +19,7 @@
 namespace strut {
 
 // Artificial viscosity of von Neumann & Richtmyer (1950) and Landshoff (1955): where the volume shrinks at the rate D,
-// a pressure q = ρ l |D| (b₁ c + b₂² l |D|) resists it, l the distance of points and c the speed of longitudinal waves.
+// a pressure q = ρ l |D| (b₁ c + b₂² l |D|) resists it; l is the spacing of points, c the speed of longitudinal waves.
 struct Viscosity {
   double linear = 0, quadratic = 0;  // b₁, b₂
   bool any() const { return linear > 0 || quadratic > 0; }
@@ -34,7 +34,7 @@ struct BlockMaterial {
   std::optional<DamageModel> damage = {};
 };
 
-// The state of a law point among those of all.
+// The law's state of the integration point `place`.
 template <class L>
 typename L::State state_in(const small::Tiles& states, std::size_t place) {
   std::array<double, materials::state_size<L>> values{};
@@ -47,12 +47,12 @@ struct MaterialBlock {
   std::string name;
   BlockMaterial material;
   std::vector<int> points;  // owned points, ascending
-  int interior = 0;         // so many of them need no ghost
+  int interior = 0;         // number of points that need no ghost; they come first
 
   FieldSet fields;
-  // The law's own, number by number.
+  // The law's state variables, number by number.
   FieldRef<small::Tiles> state = fields.add<small::Tiles>(At::integration_point, {});
-  // Integration points of quadratic correspondence; in other formulations body.points are these.
+  // Integration points of quadratic correspondence; other formulations use body.points.
   FieldRef<CellPoints> cells = fields.add<CellPoints>(At::integration_point, CellPoints::parts(), When::if_used);
   PointField<std::uint8_t> flowed =
       fields.of_points<std::uint8_t>({.name = "flowed",
@@ -66,20 +66,20 @@ struct MaterialBlock {
   PointField<ViscousPoint> viscous =
       fields.add<std::vector<ViscousPoint>>(At::integration_point, ViscousPoint::parts(), When::if_used);
 
-  // The formulations of all that its points are bonded to, themselves included: what its forces are summed over.
+  // The formulations of its points and of all their neighbors: forces are summed over these.
   bool feels_correspondence = false, feels_ordinary = false, feels_quadratic = false;
 
-  // Its body moves as a whole, without strain (rigid_motion.hpp): there is nothing to compute.
+  // The body moves rigidly, without strain (rigid_motion.hpp), so that nothing is computed.
   bool in_rigid_motion = false;
-  double rest_frequency_bound = 0;  // 1/s, the largest of its points, as a part of their steps, in rigid motion
+  double rest_frequency_bound = 0;  // 1/s, the largest of its undeformed points times their fraction of the step
 
-  int lattice = -1;            // in domain.families.lattices, where its points sit on one
-  SelectedPoints off_stencil;  // of these, who have lost bonds: their sums go by lists
+  int lattice = -1;            // index in domain.families.lattices if its points are on one
+  SelectedPoints off_stencil;  // points of a lattice that have lost bonds: their sums use neighbor lists
 
-  std::size_t first_law_point = 0;  // of `cells`, among those of all blocks
+  std::size_t first_law_point = 0;  // index of the first of `cells` among those of all blocks
 
-  // Law points: one a point, points[k] at k. Or four places of its cell, in tiles of as many cells as kernels take side
-  // by side: interior points and others begin tiles of their own, and what they leave of their last ones stays unused.
+  // Integration points: one per point, points[k] at k; or four per cell, in tiles of as many cells as there are SIMD
+  // lanes. Interior and boundary points begin tiles of their own; the rest of their last tiles stays unused.
   int places_a_point() const { return is_quadratic() ? 4 : 1; }
   std::size_t law_points() const {
     return is_quadratic() ? 4 * in_tiles(in_tiles(interior) + points.size() - interior) : points.size();
@@ -98,7 +98,7 @@ struct MaterialBlock {
   typename L::State state_of(std::size_t place) const {
     return state_in<L>(state, place);
   }
-  // The elastic moduli of a law point in its present state.
+  // The elastic moduli of an integration point in its present state.
   materials::Moduli moduli(std::size_t place) const {
     return std::visit([&]<class L>(const L& law) { return materials::moduli_of(law, state_of<L>(place)); },
                       material.law);
@@ -106,11 +106,11 @@ struct MaterialBlock {
 
   bool is_ordinary() const { return material.formulation == Formulation::ordinary; }
   bool is_quadratic() const { return material.formulation == Formulation::quadratic; }
-  // Whether it has springs on such residuals (stabilization/residual.hpp).
+  // True if it has springs on this kind of residual (stabilization/residual.hpp).
   bool has_springs(ResidualKind residual) const {
     return residual_of(material.stabilization) == residual && coefficient_of(material.stabilization) > 0;
   }
-  // C of the springs of one of its points on the residual of its own gradient.
+  // C of a point's springs on the residual of its own gradient, Pa/m⁵; 0 without any.
   double own_springs_of(const MaterialPoint& point) const {
     return has_springs(ResidualKind::own_gradient) ? point.stabilization : 0;
   }

@@ -10,7 +10,7 @@ namespace strut {
 
 namespace {
 
-// The images in the family of a point that a predicate picks.
+// The images in the family of a point that a predicate selects.
 template <class Picks>
 struct OfImages {
   using Scalar = double;
@@ -32,7 +32,7 @@ struct OfImages {
 
 Vector to_vector(const small::Vector3<double>& v) { return {v.c[0], v.c[1], v.c[2]}; }
 
-// The force density that some bonds of a point give to it, by all formulations; `own`: whether its own state acts, too.
+// The force density (N/m³) of some bonds of a point by all formulations; `own`: includes the point's own state.
 template <class Family, class Weight>
 Vector force_of(const Body& body, const Family& family, bool own, Weight weight) {
   const Site* sites = body.domain.sites.data();
@@ -89,8 +89,8 @@ class MirrorForces {
   }
 
  private:
-  // Bonds within a body give nothing to the sum of the forces on it: it is what the planes give, along their normals.
-  // Of two that are parallel each is asked what lies behind it.
+  // Bonds within a body cancel in the sum of the forces on it; the rest is the force of the planes, along their
+  // normals. If two planes are parallel, the images behind each are summed separately.
   void add(int body, std::vector<Vector>& forces) const {
     Vector rest = Vector::Zero();
     over_points(body, [&](int i) { rest += body_.domain.volume(i) * body_.force_density[i]; });
@@ -123,7 +123,7 @@ class MirrorForces {
     return false;
   }
 
-  // The force of the images behind one of the planes, along its normal.
+  // The force of the images behind one of the planes, along its normal, N.
   Vector across(std::size_t m) const {
     const std::vector<char> behind = images_behind(mirrors_[m]);
     const auto picks = [&](int j) { return behind[j] && is_due(j); };
@@ -138,7 +138,7 @@ class MirrorForces {
     return normal.dot(sum) * normal;
   }
 
-  // Of owned points and ghosts. Of a point on the plane a place beside it tells where its image belongs.
+  // Marks the images behind the plane. For a point on the plane, a position beside it decides where its image belongs.
   std::vector<char> images_behind(const Mirror& mirror) const {
     std::vector<char> behind(body_.domain.sites.size(), 0);
     for (const ImagePoint& image : body_.domain.halo.images()) {

@@ -1,11 +1,11 @@
-// Points on a lattice whose family is not its stencil: bonds of theirs have broken, or were left out for a crack.
+// Points on a lattice whose family differs from its stencil, because bonds of theirs have broken or cross a crack.
 #pragma once
 
 #include "mechanics/body.hpp"
 
 namespace strut {
 
-// Collects those of a block on a lattice, as Families has them now.
+// Collects those of a block on a lattice, from the present families.
 void set_off_stencil(const Domain& domain, MaterialBlock& block);
 
 }  // namespace strut

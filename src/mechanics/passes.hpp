@@ -1,4 +1,4 @@
-// Inside mechanics: passes over the points of a body, behind the exchange of what they read of ghosts.
+// Inside mechanics: passes over the points of a body that overlap with the exchange of what they read of ghosts.
 #pragma once
 
 #include <algorithm>
@@ -36,16 +36,16 @@ void behind_exchange_of(const Halo& halo, std::vector<Site>& places, const Work&
   between([&] { halo.start_places(places); }, [&] { halo.finish_places<reflected>(places); }, work);
 }
 
-// Which bodies a pass is over: forces need only those that are strained, a tangent is of all.
+// The bodies of a pass: forces need only the deforming ones, a tangent needs all.
 enum class Bodies { all, deforming };
 
 inline bool is_due(const MaterialBlock& block, Bodies bodies) {
   return bodies == Bodies::all || !block.in_rigid_motion;
 }
 
-// Calls work(block, groups of its points) for a part of the points; on lattices, sums over which are of all points at
-// once, after the exchange, for all in the second part, those that have lost bonds at last. `sweep`: calls a sweep of
-// sums over a lattice with what takes them.
+// Calls work(block, groups of its points) for a part of the points. Sums over a lattice are of all points at once, so
+// lattices come with the boundary part, after the exchange; points that have lost bonds come last. `sweep`: runs a
+// sweep of sums over a lattice and passes them to a function.
 template <class AnyBody, class Sweep, class Work>
 void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, const Work& work) {
   for (auto& block : body.blocks) {
@@ -66,7 +66,7 @@ void over_blocks(AnyBody& body, Bodies bodies, Part part, const Sweep& sweep, co
   }
 }
 
-// Calls work(group, ω).
+// Calls work(group, ω) for each group.
 template <class Work>
 void over_groups(const Body& body, const LaneGroups& groups, const Work& work) {
   bonds::with_influence(body.influence, [&](auto weight) {

@@ -29,8 +29,8 @@ PointEnergy law_energy(const Body& body, const MaterialBlock& block, std::size_t
   return std::visit([&](const auto& law) { return law_energy(body, block, law, k); }, block.material.law);
 }
 
-// ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)² of a whole family, whose sum is Σ ω V e² − m θ²/9; so it stays the potential of
-// the forces as bonds break, with the m that the family began with.
+// ½ K θ² + 15μ/(2m) Σ ω V (e − θ|ξ|/3)²; for a whole family the sum is Σ ω V e² − m θ²/9. With the initial m, this
+// stays the potential of the forces as bonds break.
 double ordinary_energy(const MaterialBlock& block, const OrdinaryPoint& point, double square) {
   const auto moduli = std::visit([](const auto& law) { return law.moduli(); }, block.material.law);
   const double theta2 = point.dilatation * point.dilatation;

@@ -10,10 +10,10 @@ namespace strut {
 
 namespace {
 
-// What the places of the points give to F at one place of the cell, columns as `points`: F = Σ y_a ⊗ g_a.
+// Weights of the points' positions in F at one integration point, columns as `points`: F = Σ y_a ⊗ g_a.
 using Weights = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-// Adds V Σ_q (1/Q) G_qᵀ (∂P_q/∂F) G_q over Q places; change(δF at the places) is δP there.
+// Adds V Σ_q (1/Q) G_qᵀ (∂P_q/∂F) G_q over Q integration points; change(δF there) returns δP.
 template <std::size_t Q, class Change>
 void add_gradients(const std::array<Weights, Q>& weights, double volume, const Change& change,
                    Eigen::MatrixXd& matrix) {
@@ -46,10 +46,10 @@ void add_cell(const Body& body, const MaterialBlock& block, int k, const std::ve
       weights, body.domain.volume(i), [&](const CellTensors& dF) { return tangent.change(dF); }, result.matrix);
 }
 
-// The springs of a point on the residuals of its own gradient, η − F ξ: V C Σ ω V_j |z_j|².
+// Adds the springs of a point on the residuals of its own gradient, η − F ξ: V C Σ ω V_j |z_j|².
 void add_springs(const Weights& weights, const Weights& bonds, const Eigen::VectorXd& share, double stiffness,
                  Eigen::MatrixXd& matrix) {
-  Eigen::MatrixXd residuals = -bonds.transpose() * weights;  // row j: of the places of the points
+  Eigen::MatrixXd residuals = -bonds.transpose() * weights;  // row j: derivative by the positions of the points
   for (int a = 1; a < residuals.rows(); ++a) residuals(a, a) += 1, residuals(a, 0) -= 1;
   const Eigen::MatrixXd springs = stiffness * residuals.transpose() * share.asDiagonal() * residuals;
   for (int a = 0; a < springs.rows(); ++a) {

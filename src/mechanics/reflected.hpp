@@ -1,5 +1,5 @@
-// Inside mechanics and integrators: what bonds read of an image of a point by symmetry planes (topology/mirror.hpp),
-// from what its original has. Numbers stay, vectors turn, tensors turn on both sides.
+// Inside mechanics and integrators: reflects what bonds read of a point to its image by symmetry planes
+// (topology/mirror.hpp). Scalars stay, vectors are reflected, tensors are reflected on both sides.
 #pragma once
 
 #include "mechanics/body.hpp"
@@ -15,13 +15,13 @@ inline void reflect(const Reflection& by, TensorRecord& record) {
 
 inline void reflect(const Reflection&, ScalarState&) {}
 
-// A direction by its numbers.
+// Reflects a vector of three numbers.
 inline void turn(const Reflection& by, double* numbers) {
   Eigen::Map<Vector> direction(numbers);
   direction = (by.turn * direction).eval();
 }
 
-// A tensor whose rows stand one after the other.
+// Reflects a tensor that is stored by rows.
 inline void reflect_rows(const Reflection& by, double* rows) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> tensor(rows);
   tensor = (by.turn * tensor * by.turn.transpose()).eval();
@@ -31,7 +31,7 @@ inline void reflect_multiplier(const Reflection& by, Eigen::Array4d& multiplier)
   multiplier.head<3>() = (by.turn * multiplier.head<3>().matrix()).eval().array();
 }
 
-// Each row is a symmetric tensor M by its numbers xx, yy, zz, xy, yz, zx: ½ ξ·M ξ = M q.
+// Each row is a symmetric tensor M as xx, yy, zz, xy, yz, zx: ½ ξ·M ξ = M q.
 inline void reflect_second(const Reflection& by, double* rows) {
   Eigen::Map<Eigen::Matrix<double, 3, 6, Eigen::RowMajor>> second(rows);
   Eigen::Matrix<double, 3, 6> turned;

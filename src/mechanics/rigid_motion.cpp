@@ -10,7 +10,7 @@ namespace strut {
 
 namespace {
 
-// The range of the points' velocities in the three directions, each with its opposite: the largest v and −v.
+// The range of the points' velocities along the axes: the largest v and −v of each component.
 class VelocityRange {
  public:
   void add(const Vector& v) {
@@ -29,8 +29,8 @@ class VelocityRange {
   }();
 };
 
-// Adds the velocities of a block's points and of their images by symmetry planes; the first that differs from the
-// others settles it.
+// Adds the velocities of a block's points and of their images by symmetry planes; stops at the first that differs from
+// the others.
 void add(const Body& body, const MaterialBlock& block, int number, VelocityRange& range) {
   for (const int i : block.points) {
     const Vector& v = body.velocity[i];
@@ -58,7 +58,7 @@ bool all_move_rigidly(const Body& body) {
 
 void find_rigid_motion(Body& body) {
   const std::vector<BlockHorizons>& blocks = body.domain.blocks;
-  std::vector<double> moved(blocks.size(), 0);  // of the first block of a body
+  std::vector<double> moved(blocks.size(), 0);  // at the first block of each body
   const auto first_of = [&](std::size_t b) {
     std::size_t first = 0;
     while (blocks[first].body != blocks[b].body) ++first;
@@ -72,7 +72,7 @@ void find_rigid_motion(Body& body) {
 }
 
 void update_rigid_motion(Body& body) {
-  std::vector<int> bodies;  // that are left
+  std::vector<int> bodies;  // in rigid motion
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     if (body.blocks[b].in_rigid_motion) bodies.push_back(body.domain.blocks[b].body);
   }
@@ -97,8 +97,8 @@ void update_rigid_motion(Body& body) {
       if (body.domain.blocks[b].body == bodies[n]) body.blocks[b].in_rigid_motion = false;
     }
   }
-  // Where none was strained, ranks have not told each other where points are: bonds that break ask for the start of the
-  // step.
+  // While all bodies were in rigid motion, ranks did not exchange positions; bonds that break need those at the start
+  // of the step.
   if (all_did && !all_move_rigidly(body)) body.domain.halo.exchange_places(body.domain.sites);
 }
 

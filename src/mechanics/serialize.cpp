@@ -10,9 +10,9 @@ namespace strut {
 
 namespace {
 
-// Collective. A number that changes with the node sets that points are in, however these are spread over the ranks.
+// Collective. A hash of the node sets that points are in, independent of their distribution over the ranks.
 double mark_of_sets(const Body& body) {
-  constexpr std::uint64_t digits = (std::uint64_t{1} << 52) - 1;  // that a double holds
+  constexpr std::uint64_t digits = (std::uint64_t{1} << 52) - 1;  // that a double holds exactly
   const PointCloud& cloud = body.domain.cloud;
   std::uint64_t sum = 0;
   for (int i = 0; i < body.owned(); ++i) {
@@ -24,7 +24,7 @@ double mark_of_sets(const Body& body) {
   return static_cast<double>(static_cast<std::uint64_t>(all) & digits);
 }
 
-// Collective. The mesh, to know it again: nothing of it is restored.
+// Collective. Compares the mesh with that of the checkpoint; nothing of it is restored.
 void compare_reference(Archive& archive, const Body& body) {
   const double own_sets = mark_of_sets(body);
   double sets = own_sets;

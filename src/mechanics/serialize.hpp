@@ -1,4 +1,4 @@
-// What of a body a checkpoint contains: all that its steps change.
+// The part of a body that a checkpoint contains: everything that steps change.
 #pragma once
 
 #include "base/archive.hpp"
@@ -6,8 +6,8 @@
 
 namespace strut {
 
-// Collective. Leaves the archive at the group of all owned points. Of restored bodies the ghosts' places are as their
-// owners'; time-step levels are not among it (multi_time_stepping.hpp).
+// Collective. Leaves the archive at the group of all owned points. On restoring, ghosts get the positions of their
+// owners; time-step levels are not included (multi_time_stepping.hpp).
 void serialize(Archive& archive, Body& body);
 
 // The ids of owned points, over all ranks.

@@ -19,7 +19,7 @@ Tensor shape_tensor(const Body& body, int i) {
 }
 
 Symmetric inverse_of(const Tensor& K) {
-  constexpr double flattest = 1e-8;  // round-off leaves some 1e-16 of an exact plane
+  constexpr double flattest = 1e-8;  // round-off leaves some 1e-16 for an exact plane
   const Eigen::SelfAdjointEigenSolver<Tensor> eigen(K, Eigen::EigenvaluesOnly);
   const bool spans = eigen.eigenvalues()[0] > flattest * eigen.eigenvalues()[2];
   return spans ? symmetric_part(K.inverse()) : Symmetric(Symmetric::Zero());

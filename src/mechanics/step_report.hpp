@@ -1,4 +1,4 @@
-// What a step tells of the points of this rank.
+// The results of a step for the points of this rank.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace strut {
 
 struct StepReport {
   double frequency_bound =
-      0;  // 1/s, the largest of any point, as a part of its step: the critical time step shrinks with it
-  // ζ, the largest part of the critical damping by viscosity: the critical time step is √(1 + ζ²) − ζ of that without.
+      0;  // 1/s, the largest of any point times its fraction of the step: the critical time step shrinks as it grows
+  // ζ, the largest fraction of critical damping by viscosity: it multiplies the critical time step by √(1 + ζ²) − ζ.
   double damping = 0;
-  std::optional<Failure> failure;  // the worst on this rank; its stress is the old one
+  std::optional<Failure> failure;  // the worst on this rank; its stress keeps the old value
 
   void add(const StepReport& other) {
     frequency_bound = std::max(frequency_bound, other.frequency_bound);

@@ -11,20 +11,20 @@ namespace {
 
 using small::Lanes;
 
-// The force state of the tangent at one point, for δF. A subcycled point, whose step is a `share` of the whole, is as
-// stiff to its own step as one of share² the stiffness is to the whole step. C: of its springs.
+// The force state of the tangent at one point, for δF. A subcycled point, whose step is a fraction `share` of the whole
+// step, limits its own step as a point with share² of the stiffness limits the whole step. C: of its springs, Pa/m⁵.
 ForceState tangent_state(const MaterialPoint& point, const Symmetric& shape_inverse, double C,
                          const materials::Moduli& moduli, const Tensor& dF, double share) {
   const Tensor A = elastic_change(point, moduli, dF) * to_tensor(shape_inverse) - C * dF;
   return bonds::force_state(share * share * A, share * share * C);
 }
 
-// The same with ∂P/∂F as it is.
+// The same with a given ∂P/∂F.
 ForceState tangent_state(const Symmetric& shape_inverse, double C, const PointTangent& tangent, const Tensor& dF) {
   return bonds::force_state(tangent.times(dF) * to_tensor(shape_inverse) - C * dF, C);
 }
 
-// The states of cells under a change of their motion, `field`. `tangents`: of law points, or the elastic ones.
+// Sets the states of cells for a change of their motion, `field`. `tangents`: of integration points; null: elastic.
 template <class Weight>
 void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
                        Weight weight, const std::vector<PointTangent>* tangents, std::vector<QuadraticState>& result) {
@@ -47,7 +47,7 @@ void set_tangent_cells(const Body& body, const MaterialBlock& block, const LaneG
   cells.store(group, share, [&](int l) -> QuadraticState& { return result[group.i[l]]; });
 }
 
-// δt of ordinary points: t is linear in the extensions, so it is the law itself of their changes.
+// Sets δt of ordinary points: t is linear in the extensions, so the law itself applies to their changes.
 template <class Weight>
 void set_tangent_scalars(const Body& body, const MaterialBlock& block, const LaneGroup& group, const Site* field,
                          Weight weight, std::vector<ScalarState>& result) {
@@ -76,14 +76,14 @@ void set_tangent_state(const Body& body, const MaterialBlock& block, int k, cons
   }
 }
 
-// The states of the points under a change of their places, `field`, and in `result` what their own states give.
+// Sets the states of the points for a change of their positions, `field`, and in `result` what their own states give.
 struct TangentStates {
   const Body& body;
   Displacements field;
   const std::vector<PointTangent>* tangents;
   ForceStates& states;
   std::vector<Vector>& result;
-  bool with_springs = body.has_springs(ResidualKind::own_gradient);  // asked once, not for each group
+  bool with_springs = body.has_springs(ResidualKind::own_gradient);  // evaluated once, not for each group
 
   void operator()(Part part) const {
     const auto sweep = [this](LatticeSums& sums, const LatticeSums::Take& take) { sums.moments(field, take); };
@@ -126,7 +126,7 @@ void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
   }
   const auto change_of = [&](const auto& family) { return bonds::OfField(family, directions.data()); };
   add_up(halo, ForceSum{body, Bodies::all, field, change_of, scratch, result},
-         [] { return 0; });  // the estimate of the step has a time of its own
+         [] { return 0; });  // the estimate of the time step has a timer of its own
   for_each_point(0, body.owned(), [&](int i) { result[i] *= -1; });
 }
 

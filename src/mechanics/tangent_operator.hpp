@@ -9,11 +9,11 @@ namespace strut {
 
 struct PointTangent;
 
-// Collective. The linearized operator in the current state, applied to a field: result = −f(v) (N/m⁴ times v's unit).
-// `directions`: a copy of the body's sites that holds v in the place of y.
-// `tangents`: of the owned points by correspondence (tangent.hpp); if null, those of the elastic moduli, without the
-// geometric stiffness (of the order stress/modulus), which is left out of ordinary points in any case.
-// `scratch`: a copy of body.force_states, or these themselves: forces and the next stresses do without.
+// Collective. Applies the linearized operator in the current state to a field v: result = −f(v) (N/m⁴ times v's unit).
+// `directions`: a copy of the body's sites that holds v in place of y.
+// `tangents`: of the owned points by correspondence (tangent.hpp); null: those of the elastic moduli, without the
+// geometric stiffness (of the order stress/modulus), which ordinary points never include.
+// `scratch`: a copy of body.force_states, or these themselves: forces and the next stress update do not read them.
 void apply_tangent(const Body& body, Halo& halo, std::vector<Site>& directions,
                    const std::vector<PointTangent>* tangents, ForceStates& scratch, std::vector<Vector>& result);
 

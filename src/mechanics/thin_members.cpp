@@ -13,22 +13,22 @@ namespace strut {
 
 namespace {
 
-// W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶, whose integral is 1 and whose sum over a lattice shows nothing of it; R in
-// spacings, and the mean of |x| under W in R.
+// W(r) = 45045/(4096 π R³) (1 − r²/R²)⁶ has the integral 1, and its sum over a lattice does not show the lattice; R in
+// spacings, and the mean of |x| under W in units of R.
 constexpr double reach_in_spacings = 4, mean_distance = 0.196386;
-// Points see faces in steps, from layer to layer; nodes on a face see more of what is missing than middles of cells
-// behind it. A little more of that is seen of square bars and plates along a lattice than of round rods: the middle of
-// what was found (tests/verification/mechanics/test_thickness.cpp).
+// Corrects for the layers of points: nodes on a face see more missing material than middles of cells behind it. Square
+// bars and plates along a lattice see a little more than round rods; the factors are the middle of what was measured
+// (tests/verification/mechanics/test_thickness.cpp).
 double of_steps(PointsAt at) { return at == PointsAt::nodes ? 1.19 : 0.965; }
 double smoothing(double r2, double reach) {
   const double x = 1 - r2 / (reach * reach), cube = x * x * x;
   return 45045 / (4096 * std::numbers::pi * reach * reach * reach) * cube * cube;
 }
 
-// So many points of a block tell its thickness.
+// The thickness of a block is measured at this many of its points at most.
 constexpr std::int64_t most_samples = 50000;
 
-// A point of which it is asked how much material is around it, as it travels to other ranks.
+// A point at which the material around it is measured, as it is sent to other ranks.
 struct Sample {
   double place[3], spacing, volume, block;
 };
@@ -57,8 +57,8 @@ std::vector<Vector> places_of(const std::vector<Sample>& samples) {
   return places;
 }
 
-// Adds to each block the part of the material around samples that this rank has of its body, times their volume over
-// their spacing.
+// Adds for each block the material of its body around the samples that this rank has, times their volume over their
+// spacing.
 void add_shares(const Domain& domain, const std::vector<Sample>& samples, std::span<double> of_blocks) {
   double farthest = 0;
   for (const Sample& one : samples) farthest = std::max(farthest, reach_of(one.spacing));
@@ -90,13 +90,13 @@ double interpolated(const std::vector<Entry>& table, double thickness) {
 
 }  // namespace
 
-// What of the material around a point is missing, 1 − Σ V W, summed over a body, is its surface times half of the mean
-// |x| under W, whatever its direction. Of a square bar of the thickness t, seen from all its points, there is (1 −
-// mean/t)² of the material, which is near that of plates and round rods, too.
+// The material missing around a point, 1 − Σ V W, summed over a body, is its surface times half of the mean |x| under
+// W, in any orientation. A square bar of thickness t, averaged over its points, has (1 − mean/t)² of the material,
+// which is close to that of plates and round rods.
 std::vector<double> thicknesses(const Domain& domain) {
   const std::size_t blocks = domain.blocks.size();
   std::vector<Sample> samples = own_samples(domain);
-  enum Sum { of_volume, of_spacing, whole, found, count };  // whole, found: the material around, by volume over spacing
+  enum Sum { of_volume, of_spacing, whole, found, count };  // whole, found: material around, times volume over spacing
   std::vector<double> sums(count * blocks, 0);
   double farthest = 0;
   for (const Sample& one : samples) {
@@ -128,8 +128,8 @@ double bending_stiffness_kept(double horizon, double thickness) {
   return interpolated({{2, 0.08}, {3, 0.19}, {4, 0.31}, {6, 0.51}}, thickness);
 }
 
-// Square bars along an axis of their lattice, 40 points long, under 0.1 % of tension. Thicker than the last of a table
-// they are not thin.
+// Measured on square bars along an axis of their lattice, 40 points long, under 0.1 % of tension. Bars thicker than the
+// last entry of a table are not thin.
 double tension_stiffness_found(Influence influence, double horizon, double thickness) {
   if (!(thickness > 0) || thickness > 12) return 1;
   if (horizon < 1.9)

@@ -43,7 +43,7 @@ void CrackTip::serialize(Archive& archive) {
   int count = static_cast<int>(rows_.size());
   archive.number(name + "rows", count);
   rows_.resize(count);
-  for (int k = 0; k < crack_.rows; ++k) {  // always so many
+  for (int k = 0; k < crack_.rows; ++k) {  // a fixed number of rows
     std::pair<double, double> row = k < count ? rows_[k] : std::pair(0.0, 0.0);
     archive.number(name + "time_" + std::to_string(k), row.first);
     archive.number(name + "tip_" + std::to_string(k), row.second);

@@ -1,4 +1,4 @@
-// How far a crack has come and how fast it is, as the history shows it: History > Cracks of a deck.
+// Position and speed of a crack tip for the history: History > Cracks of a deck.
 #pragma once
 
 #include <deque>
@@ -14,23 +14,23 @@ namespace strut {
 
 class CrackTip {
  public:
-  // Collective. Throws Error where no bond can break, or no point is looked at.
+  // Collective. Throws Error if no bond can break, or if the group contains no point.
   CrackTip(const deck::WatchedCrack& crack, const Body& body);
 
   const std::string& name() const { return crack_.name; }
-  // How far (m) the cracked points of this rank are along the crack's direction; 0 where there is none.
+  // Largest position (m) of the cracked points of this rank along the crack's direction; 0 without any.
   double local(const Body& body) const;
-  // As a row is written: the largest one of all ranks.
+  // Call it when a row is written; `tip`: the largest value over all ranks.
   void take(double time, double tip);
   double tip() const { return rows_.empty() ? 0 : rows_.back().second; }
-  double speed() const;  // m/s: of the line that fits the last rows best; 0 of one row
+  double speed() const;  // m/s: slope of the best-fit line through the last rows; 0 for one row
 
   void serialize(Archive& archive);
 
  private:
   deck::WatchedCrack crack_;
   PointGroup group_;
-  std::deque<std::pair<double, double>> rows_;  // the last ones: time (s), tip (m)
+  std::deque<std::pair<double, double>> rows_;  // the last rows: time (s), tip (m)
 };
 
 }  // namespace strut

@@ -54,7 +54,7 @@ std::vector<std::string> Mean::columns() const {
 std::vector<double> Mean::values(const Body& body) const {
   const std::vector<double> numbers = number_.of(body);
   const int count = layers_.count();
-  std::vector<double> sums(2 * static_cast<std::size_t>(count));  // of numbers times volumes, then of volumes
+  std::vector<double> sums(2 * static_cast<std::size_t>(count));  // values times volumes, then volumes
   for (int i = 0; i < body.owned(); ++i) {
     const int layer = layers_.of(body, i);
     if (layer < 0) continue;
@@ -69,10 +69,10 @@ std::vector<double> Mean::values(const Body& body) const {
 
 namespace {
 
-// What "Mean_X(set)" asks for: a number, and of which points.
+// Parsed "Mean_X(set)": a number, and its set of points.
 struct Asked {
   PointNumber number;
-  std::string set;  // or block, or profile; "" of all points
+  std::string set;  // or block, or profile; "" for all points
   const deck::Profile* profile = nullptr;
 };
 
@@ -90,7 +90,7 @@ Asked asked_for(const std::vector<Observable>& all, const std::vector<deck::Prof
   const auto is_wanted = [&](const deck::Profile& profile) { return profile.name == set; };
   const auto profile = std::find_if(profiles.begin(), profiles.end(), is_wanted);
   if (profile == profiles.end()) {
-    const PointGroup group(cloud, set, path);  // throws where there is none
+    const PointGroup group(cloud, set, path);  // throws if there is none
     return {*number, set, nullptr};
   }
   const auto among = [&set](const std::vector<std::string>& names) {

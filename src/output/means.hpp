@@ -1,4 +1,4 @@
-// Means over the points of a set, or over each of the layers of a profile, as the history shows them: "Mean_X(foam)".
+// Means over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)".
 #pragma once
 
 #include <span>
@@ -10,14 +10,14 @@
 
 namespace strut {
 
-// Layers of the points of a set across a direction, of equal thickness, from the outermost points' outer faces (half a
-// spacing, the cube root of the volume, out) in the reference state.
+// Layers of the points of a set across a direction, of equal thickness, between the outer faces of the outermost points
+// (half a spacing, the cube root of the volume, beyond them) in the reference state.
 class Layers {
  public:
-  Layers() = default;  // one, of all points
-  // Collective. Throws Error on all ranks: there is no such set; a layer that holds no point. `path`: who asks.
+  Layers() = default;  // a single layer of all points
+  // Collective. Throws Error on all ranks if there is no such set, or if a layer has no point. `path`: in the deck.
   Layers(const deck::Profile& profile, const Body& body, const std::string& path);
-  // Collective. One, of a node set or block.
+  // Collective. A single layer of a node set or block.
   Layers(const std::string& set, const Body& body, const std::string& path);
 
   int count() const { return count_; }
@@ -30,13 +30,13 @@ class Layers {
   int count_ = 1;
 };
 
-// Weighted by reference volumes.
+// A mean over each layer, weighted by reference volumes.
 class Mean {
  public:
   Mean(std::string name, PointNumber number, Layers layers)
       : name_(std::move(name)), number_(std::move(number)), layers_(std::move(layers)) {}
 
-  // Of the columns: "Mean_X(foam)", or of layers "Mean_X(slices 1)", ….
+  // Names of the columns: "Mean_X(foam)", or for layers "Mean_X(slices 1)", ….
   std::vector<std::string> columns() const;
   std::string unit() const { return unit_of(number_.observable); }
   std::vector<double> values(const Body& body) const;  // collective
@@ -47,10 +47,10 @@ class Mean {
   Layers layers_;
 };
 
-// Throws what mean_of throws for names that are not there, or mean two things.
+// Throws the errors of mean_of for unknown or ambiguous names.
 void check_mean(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const PointCloud& cloud,
                 const std::string& name, const std::string& where);
-// Collective. `name`: "Mean_X", or with a set, block or profile in brackets. Throws Error on all ranks.
+// Collective. `name`: "Mean_X", or with a set, block or profile in parentheses. Throws Error on all ranks.
 Mean mean_of(const std::vector<Observable>& all, const std::vector<deck::Profile>& profiles, const Body& body,
              const std::string& name, const std::string& where);
 

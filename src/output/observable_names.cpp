@@ -1,4 +1,4 @@
-// Observables, their components and extremes by name.
+// Finds observables, their components and extremes by name.
 #include <algorithm>
 #include <limits>
 
@@ -9,7 +9,7 @@ namespace strut {
 
 namespace {
 
-// As in the names of an Exodus file's fields.
+// The names of components in Exodus files.
 std::vector<std::string> component_names(int components) {
   if (components == 3) return {"X", "Y", "Z"};
   if (components == 6) return {"XX", "YY", "ZZ", "XY", "YZ", "ZX"};

@@ -22,7 +22,7 @@ std::span<const double> components(const Matrix& matrix) {
   return {matrix.data(), static_cast<std::size_t>(matrix.size())};
 }
 
-// An observable from a function of body and point that returns a double, Vector, Symmetric or (row by row) Tensor.
+// Makes an observable from a function of body and point that returns a double, Vector, Symmetric or Tensor (by rows).
 template <class Value>
 Observable observable(std::string name, std::string meaning, Value value, bool nodal = false) {
   const auto fill = [value](const Body& body, std::vector<double>& out) {
@@ -38,7 +38,7 @@ Observable observable(std::string name, std::string meaning, Value value, bool n
   return {std::move(name), count, nodal, std::move(meaning), fill};
 }
 
-// Eigen stores columns; files want rows.
+// Transposed: Eigen stores columns, files have rows.
 Tensor by_rows(const Tensor& t) { return t.transpose(); }
 
 Symmetric cauchy(const Body& body, int i) {
@@ -47,13 +47,13 @@ Symmetric cauchy(const Body& body, int i) {
   return symmetric_part(R * to_tensor(p.stress) * R.transpose());
 }
 
-// 0 of points whose neighbors do not span space.
+// 0 for points whose neighbors do not span space.
 double trace_of_shape(const Body& body, int i) {
   const Symmetric& inverse = body.shape_inverse[i];
   return trace(inverse) > 0 ? to_tensor(inverse).inverse().trace() : 0;
 }
 
-// Of ordinary points that of the whole family, before bonds broke.
+// For ordinary points, that of the complete family before bonds broke.
 Observable weighted_volume() {
   const auto fill = [](const Body& body, std::vector<double>& out) {
     out.assign(body.owned(), 0);
@@ -67,7 +67,7 @@ Observable weighted_volume() {
   return {"Weighted_Volume", 1, false, "Σ ω |ξ|² V = tr K, m⁵", fill};
 }
 
-// Ordinary points: θ. By correspondence tr U − 3, which under an isotropic stretch is the same.
+// θ of ordinary points; by correspondence tr U − 3, which is the same under an isotropic stretch.
 Observable dilatation() {
   const auto fill = [](const Body& body, std::vector<double>& out) {
     out.assign(body.owned(), 0);
@@ -155,7 +155,7 @@ std::vector<Observable> fixed_properties() {
   };
 }
 
-// Calls take(field, the number that the part begins with) for the part with this name as an output variable.
+// Calls take(field, index of the part's first number) for the part with this name as an output variable.
 template <class Take>
 void with_part(const FieldSet& fields, const std::string& variable, const Take& take) {
   for (const auto& field : fields.all()) {
@@ -167,7 +167,7 @@ void with_part(const FieldSet& fields, const std::string& variable, const Take& 
   }
 }
 
-// The observable of a declared field, of points or of blocks: the mean over integration points.
+// The observable of a declared field of points or blocks: the mean over integration points.
 Observable declared(const FieldPart& part) {
   const auto fill = [variable = part.variable, width = part.width](const Body& body, std::vector<double>& out) {
     out.assign(static_cast<std::size_t>(body.owned()) * width, 0);
@@ -226,7 +226,7 @@ std::set<std::string> states_of_all_laws() {
   return states;
 }
 
-// The fixed observables, and the state variables of these names.
+// The fixed observables, and the state variables with these names.
 std::vector<Observable> with_states(const std::set<std::string>& states) {
   std::vector<Observable> all = kinematic();
   for (auto group : {stresses(), fixed_properties(), declared_fields()})
@@ -253,7 +253,7 @@ std::vector<Observable> observables(const Body& body) {
 
 std::vector<Observable> observables_of_all_laws() { return with_states(states_of_all_laws()); }
 
-// As it is declared, or the part of the meaning after a comma that is one of these.
+// The declared unit, or the part of the meaning after a comma that is one of these.
 std::string unit_of(const Observable& observable) {
   if (!observable.unit.empty()) return observable.unit;
   static const std::vector<std::string> units = {"N/m³", "kg/m³", "m/s", "m³", "m⁵", "N", "m", "Pa"};

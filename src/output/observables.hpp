@@ -1,5 +1,5 @@
-// What a run can show of its points: one table, from which output, history, the errors about names and the page
-// inputs/VARIABLES.md are made.
+// All output variables of points: one table for output, history, error messages about names and the page
+// inputs/VARIABLES.md.
 #pragma once
 
 #include <functional>
@@ -19,44 +19,44 @@ struct Observable {
   std::string meaning;  // with its unit, for the page
   // Writes the components of every owned point, point by point.
   std::function<void(const Body&, std::vector<double>&)> fill;
-  std::string unit = {};  // of a declared field; empty: as the meaning has it
+  std::string unit = {};  // of a declared field; empty: the unit is in the meaning
 };
 
-std::string unit_of(const Observable& observable);  // as its meaning has it; "1" for none
+std::string unit_of(const Observable& observable);  // from its meaning; "1" if it has none
 
 // All observables of a body: the fixed ones and the state variables of its laws (zero in blocks whose law has none).
 std::vector<Observable> observables(const Body& body);
 std::vector<Observable> observables(const std::vector<materials::AnyLaw>& laws);
 
-// Those that a body of any law can have.
+// The observables of a body with any law.
 std::vector<Observable> observables_of_all_laws();
 
 // The page inputs/VARIABLES.md: the fixed ones, and the state variables of all laws.
 std::string observables_page();
 
-// The members of `all` that `names` ask for. Throws one Error for all names that are not there, with the valid ones.
-// `where`: the place in the deck.
+// The members of `all` with these names. Throws one Error for all unknown names, with the valid ones. `where`: path in
+// the deck.
 std::vector<Observable> chosen(const std::vector<Observable>& all, const std::vector<std::string>& names,
                                const std::string& where);
 
-// A number of each point: an observable of one component, one of the components of another ("Displacement_Z"), or the
-// root of the sum of their squares ("Displacement").
+// A scalar per point: an observable with one component, a component of another ("Displacement_Z"), or the root of the
+// sum of squares of its components ("Displacement").
 struct PointNumber {
   Observable observable;
-  int component = -1;  // -1: of all
+  int component = -1;  // -1: of all components
 
-  // As `name` says; none where there is no such observable.
+  // Parses `name`; nullopt if there is no such observable.
   static std::optional<PointNumber> find(const std::vector<Observable>& all, const std::string& name);
-  std::vector<double> of(const Body& body) const;  // of the owned points
+  std::vector<double> of(const Body& body) const;  // for the owned points
 };
 
-// What follows `prefixes` in names of numbers of points, for errors: observables, and their components.
+// Valid names of scalars, with each prefix, for error messages: observables and their components.
 std::vector<std::string> names_of_numbers(const std::vector<Observable>& all, const std::vector<std::string>& prefixes);
 // The observables alone.
 std::vector<std::string> names_of(const std::vector<Observable>& all);
 
-// "Max_X" and "Min_X" of a number X of points: collective, over all points of all ranks;
-// "Max_X(foam)": over the points of the node set foam or, where there is no such set, of the block.
+// "Max_X" and "Min_X" of a scalar X: collective, over all points of all ranks; "Max_X(foam)": over the points of the
+// node set foam or, if there is none, of the block.
 class Extreme {
  public:
   // Throws Error like chosen(). `cloud`: the points of the body.
@@ -64,9 +64,9 @@ class Extreme {
           const std::string& where);
   const std::string& name() const { return name_; }
   std::string unit() const { return unit_of(number_.observable); }
-  // How many points of this rank it is taken over.
+  // Number of points of this rank in its group.
   std::int64_t points(const PointCloud& cloud) const { return group_.points(cloud); }
-  double local(const Body& body) const;  // of this rank, negated for a minimum, so that all ranks take the maximum
+  double local(const Body& body) const;  // of this rank, negated for a minimum, so that ranks always take the maximum
   double value(double largest) const { return sign_ * largest; }
 
  private:

@@ -31,7 +31,7 @@ metal foams alone, say; by quadratic correspondence it is the mean over the cell
 |---|---|---|---|
 )";
 
-// As a cell of a table.
+// Escapes text for a cell of a table.
 std::string escaped(std::string text) {
   for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
   return text;

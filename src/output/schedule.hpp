@@ -1,4 +1,4 @@
-// When something is due: every so many steps, or every so many seconds of the simulation.
+// When output is due: every so many steps, or at a time interval of the simulation (s).
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ class Schedule {
   Schedule(bool enabled, std::optional<int> frequency, std::optional<double> interval, double initial_time);
 
   bool due(int step, double time) const;
-  // `time`: of the archive. A schedule that is restored with another interval begins anew there.
+  // `time`: of the archive. A restored schedule with another interval starts anew there.
   void serialize(Archive& archive, const std::string& name, double time);
 
   void done(double time);  // the next time is the first multiple of the interval after `time`

@@ -23,7 +23,7 @@ std::string before_bracket(const std::string& name) { return name.substr(0, name
 bool is_instant(const std::string& name) { return name.starts_with(instant); }
 std::string without_instant(const std::string& name) { return is_instant(name) ? name.substr(instant.size()) : name; }
 
-// Right or nearly so.
+// True if the name begins with the word or resembles one of `names`.
 bool means(const std::string& name, const std::string& first_word, const std::vector<std::string>& names) {
   const std::string kind = before_bracket(name);
   return kind.starts_with(first_word) || !did_you_mean(kind, names).empty();
@@ -33,7 +33,7 @@ bool reacts(const ConditionPrototype& kind) {
   return std::visit([]<class Type>(const Type&) { return Reacts<Type>; }, kind);
 }
 
-// The place in the deck of the condition of this name; throws where it is none that reacts.
+// The index in the deck of the condition with this name; throws if it has no reaction.
 int reacting_condition(const std::vector<deck::Condition>& conditions, const std::string& wanted,
                        const std::string& path) {
   std::vector<std::string> valid;
@@ -47,8 +47,8 @@ int reacting_condition(const std::vector<deck::Condition>& conditions, const std
               (valid.empty() ? "is none" : "are " + joined(valid)));
 }
 
-// "Kind(wanted)", after `prefix`: the place of Kind in `kinds`, and what is wanted. `of`: the section whose sections
-// may be.
+// Parses "Kind(wanted)" after `prefix`: the index of Kind in `kinds`, and the text in parentheses. `of`: the deck
+// section that names may refer to.
 std::pair<std::size_t, std::string> in_brackets(const std::string& name, const std::vector<std::string>& kinds,
                                                 const std::string& of, const std::string& example,
                                                 const std::string& prefix = "") {
@@ -68,7 +68,7 @@ ReactionComponent reaction(const std::vector<deck::Condition>& conditions, const
           is_instant(name)};
 }
 
-// "Crack_Tip(notch)": the section that is meant, and which of crack_names.
+// Parses "Crack_Tip(notch)": the section of the deck, and the index in crack_names.
 std::pair<const deck::WatchedCrack*, std::size_t> watched_crack(const std::vector<deck::WatchedCrack>& watched,
                                                                 const std::string& name) {
   const auto [kind, wanted] = in_brackets(name, crack_names, "History > Cracks", "Crack_Tip(notch)");
@@ -81,7 +81,7 @@ std::pair<const deck::WatchedCrack*, std::size_t> watched_crack(const std::vecto
               did_you_mean(wanted, valid) + "; there " + (valid.empty() ? "is none" : "are " + joined(valid)));
 }
 
-// Collective. Adds the crack where it is the first column of it.
+// Collective. Adds the crack if this is its first column.
 CrackColumn crack_column(const std::vector<deck::WatchedCrack>& watched, const Body& body, const std::string& name,
                          std::vector<CrackTip>& cracks) {
   const auto [crack, kind] = watched_crack(watched, name);
@@ -92,7 +92,7 @@ CrackColumn crack_column(const std::vector<deck::WatchedCrack>& watched, const B
   return {name, place, kind == 1};
 }
 
-// The place of a block by its name; throws where there is none.
+// The index of a block by its name; throws if there is none.
 int block_of(const std::vector<std::string>& names, const std::string& wanted, const std::string& path) {
   const auto found = std::find(names.begin(), names.end(), wanted);
   if (found != names.end()) return static_cast<int>(found - names.begin());
@@ -100,7 +100,7 @@ int block_of(const std::vector<std::string>& names, const std::string& wanted, c
               joined(names));
 }
 
-// Whether they can touch is not looked at.
+// Does not check that they can touch.
 ContactComponent contact_component(const std::vector<std::string>& blocks, const std::string& name) {
   const std::string path = where + " > " + name;
   const std::string kind = before_bracket(without_instant(name));
@@ -125,7 +125,7 @@ ContactComponent contact_force(const contact::Contact& contact, const std::vecto
               ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
 }
 
-// Collective: an unknown name throws on all ranks, before they count.
+// Collective: an unknown name throws on all ranks before points are counted.
 Extreme extreme(const std::vector<Observable>& all, const PointCloud& cloud, const Communicator& communicator,
                 const std::string& name) {
   Extreme extreme(all, cloud, name, where);
@@ -146,7 +146,7 @@ void attempt(deck::Problems& problems, const LookUp& look_up) {
   }
 }
 
-// Collective. As output_variables_of, of names alone.
+// Collective. The checks of output_variables_of that need only names.
 void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const PointCloud& cloud,
              const Communicator& communicator, const std::string& name) {
   if (means(without_instant(name), "Reaction", reaction_names)) {
@@ -154,9 +154,9 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
   } else if (means(name, "Crack", crack_names)) {
     const deck::WatchedCrack& crack = *watched_crack(deck.history.cracks, name).first;
     if (!cloud.block_names.empty())
-      PointGroup(cloud, crack.node_set, "History > Cracks > " + crack.name + " > Node Set");  // throws
+      PointGroup(cloud, crack.node_set, "History > Cracks > " + crack.name + " > Node Set");  // throws if there is none
   } else if (cloud.block_names.empty()) {
-    return;  // the others are of the mesh
+    return;  // the other names need the mesh
   } else if (means(without_instant(name), "Contact", contact_names)) {
     contact_component(cloud.block_names, name);
   } else if (name.starts_with("Mean_")) {
@@ -166,7 +166,7 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
   }
 }
 
-// Of the bodies that the deck can make; of all there are where it is not known which ones.
+// The observables of the bodies that the deck describes; all if its laws are unknown because of errors.
 std::vector<Observable> observables_of(const deck::Deck& deck, const deck::Problems& problems) {
   if (problems.about("Materials") || problems.about("Damage Models")) return observables_of_all_laws();
   std::vector<materials::AnyLaw> laws;
@@ -191,7 +191,7 @@ void check_output_variables(const deck::Deck& deck, const PointCloud& cloud, con
   for (const std::string& name : deck.history.variables) {
     const std::string in_brackets = name.substr(std::min(name.size(), before_bracket(name).size() + 1));
     const std::string section = in_brackets.substr(0, in_brackets.find(')'));
-    if (problems.about("Boundary Conditions > " + section + " > Type")) continue;  // whether it reacts is not known
+    if (problems.about("Boundary Conditions > " + section + " > Type")) continue;  // its reaction is unknown
     attempt(problems, [&] { look_up(deck, all, cloud, communicator, name); });
     const std::string problem = io::history_name_problem(name);
     if (!problem.empty()) problems.add(where, problem);

@@ -82,7 +82,7 @@ void History::open(const Body& body) {
   file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
 }
 
-// On this rank; of a column each.
+// Contact forces on this rank, N; one per column.
 std::vector<Vector> History::contact_forces(const contact::Contact& contact, const Domain& domain) const {
   std::vector<Vector> forces;
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -108,7 +108,7 @@ void History::gather(const StepImpulses& impulses, const contact::Contact& conta
   means_of_forces_.add(before, after);
 }
 
-// Collective. Of reactions, then contacts.
+// Collective. Values of reactions, then of contacts.
 std::vector<double> History::forces(double time, const Reactions& reactions, const contact::Contact& contact,
                                     const Domain& domain) {
   std::vector<double> row = means_of_forces_.take(time, domain.communicator), of_contacts;

@@ -1,4 +1,4 @@
-// What a run writes as it goes on: frames of the fields, and lines of the history.
+// Result files of a run: frames of the fields, and lines of the history.
 #pragma once
 
 #include <limits>
@@ -18,17 +18,17 @@ namespace strut {
 
 constexpr double never = -std::numeric_limits<double>::infinity();
 
-// The frames of the result file.
+// Writes the frames of the result file.
 class FieldWriter {
  public:
   FieldWriter(const deck::Deck& deck, const OutputVariables& variables);
 
-  // Collective. Replaces the file, or, of a resumed run, appends to it.
+  // Collective. Replaces the file; a resumed run appends to it.
   void open(const Body& body);
   void write(double time, const Body& body);  // collective
   void serialize(Archive& archive, double time);
 
-  bool has(double time) const { return time == last_; }  // a frame of this time was the last one
+  bool has(double time) const { return time == last_; }  // the last frame was of this time
   bool enabled() const { return enabled_; }
   bool is_open() const { return writer_.has_value(); }
   Schedule schedule;
@@ -39,18 +39,18 @@ class FieldWriter {
   std::filesystem::path file_;
   std::vector<Observable> variables_;
   std::vector<std::vector<double>> columns_;
-  int before_ = 0;  // frames that a restored run finds
-  double sum_ = 0;  // their check sum
+  int before_ = 0;  // number of frames before the restart
+  double sum_ = 0;  // their checksum
   std::optional<io::ExodusWriter> writer_;
 };
 
-// The table of the ledger and of asked-for extremes, means, reactions, contact forces and cracks over time.
+// Writes the table of the ledger, extremes, means, reactions, contact forces and cracks over time.
 class History {
  public:
   History(const deck::Deck& deck, const OutputVariables& variables);
 
-  void open(const Body& body);  // as FieldWriter
-  // At each time of explicit steps, before write() there.
+  void open(const Body& body);  // as FieldWriter::open
+  // Call it at each time of explicit steps, before write() there.
   void gather(const StepImpulses& impulses, const contact::Contact& contact, const Domain& domain);
   // Collective.
   void write(const Ledger& now, const Reactions& reactions, const contact::Contact& contact, const Body& body);
@@ -75,17 +75,17 @@ class History {
   std::vector<CrackTip> cracks_;
   std::vector<Mean> means_;
   std::vector<ContactComponent> contacts_;
-  bool has_means_;              // equilibria have none: all forces are those of the time
+  bool has_means_;              // false for equilibria: all forces are those at the time
   MeanForces means_of_forces_;  // of reactions_, then contacts_
-  std::int64_t before_ = 0;     // bytes that a restored run finds
-  double sum_ = 0;              // their check sum
+  std::int64_t before_ = 0;     // bytes before the restart
+  double sum_ = 0;              // their checksum
   std::optional<io::HistoryFile> file_;
 };
 
-// Collective. Whether the result that the deck names is of a run that came to its end.
+// Collective. True if the result named in the deck is that of a completed run.
 bool is_over(const deck::Deck& deck, const Communicator& communicator);
 
-// Both, as one.
+// Frames and history together.
 struct OutputWriters {
   OutputWriters(const deck::Deck& deck, const OutputVariables& variables)
       : frames(deck, variables), history(deck, variables) {}
@@ -99,8 +99,8 @@ struct OutputWriters {
     frames.serialize(archive, time);
     history.serialize(archive, time);
   }
-  // Collective. Frame and line of history where they are due, or, at the last time, in any case. `reactions`: asked
-  // where a line is written. Returns the ledger where there is either.
+  // Collective. Writes a frame and a line of history if they are due, or if it is the last time. `reactions`: called if
+  // a line is written. Returns the ledger if either is written.
   template <class Solver, class OfConditions>
   std::optional<Ledger> write(const Body& body, Solver& solver, const OfConditions& reactions, bool last) {
     const double now = solver.time();

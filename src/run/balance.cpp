@@ -15,13 +15,13 @@ namespace {
 constexpr int steps_between_looks = 100;
 constexpr double worse = 1.1;
 
-// What a new partition takes, in steps of evenly spread work (docs/decisions.md, Another partition).
+// Cost of a new partition, in steps with evenly distributed work (docs/decisions.md, Another partition).
 constexpr double cost_of_change = 100;
 
-// Contact of a point that touches, ns a step (docs/decisions.md, Another partition).
+// Cost of the contact of a touching point, ns per step (docs/decisions.md, Another partition).
 constexpr double cost_of_contact = 2000;
 
-// Of the owned points, ns a step, roughly. What moves rigidly counts, for it will not stay so.
+// Approximate work of the owned points, ns per step. Points in rigid motion count, because it will not last.
 std::vector<double> work_of_points(const Scene& scene, const contact::Contact& contact) {
   const Body& body = scene.body;
   std::vector<double> work(body.owned());
@@ -44,7 +44,7 @@ void tell(const Communicator& communicator, int step, const std::string& text) {
   if (communicator.rank() == 0) std::cout << "step " << step << ": " << text << std::endl;
 }
 
-// Collective. The most work of a rank beside the mean, where each point is on the rank named for it.
+// Collective. The largest work of a rank over the mean, if each point is on the rank given for it.
 double imbalance(const std::vector<double>& work, const std::vector<int>& ranks, const Communicator& communicator) {
   std::vector<double> of_ranks(communicator.size(), 0);
   for (std::size_t i = 0; i < work.size(); ++i) of_ranks[ranks[i]] += work[i];
@@ -64,7 +64,7 @@ Balance::Balance(const deck::Deck& deck)
 std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const CentralDifference& solver) {
   const Communicator& communicator = scene.body.domain.communicator;
   if (!enabled_ || communicator.size() == 1) return std::nullopt;
-  if (most_ >= communicator.size() && !verbose_) return std::nullopt;  // it cannot be so much
+  if (most_ >= communicator.size() && !verbose_) return std::nullopt;  // the imbalance cannot be so large
   if (solver.steps() == 0 || solver.steps() % steps_between_looks != 0) return std::nullopt;
   const std::vector<double> work = work_of_points(scene, solver.contact());
   const double now = imbalance(work, std::vector<int>(work.size(), communicator.rank()), communicator);

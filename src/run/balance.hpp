@@ -1,4 +1,4 @@
-// When points are spread over the ranks anew, and where each is to be: the ranks wait for the one with most work.
+// Load balancing: when points are redistributed over the ranks, and to which ranks.
 #pragma once
 
 #include <optional>
@@ -11,25 +11,25 @@
 
 namespace strut {
 
-// Work is counted (bonds, substeps, contact), not timed: what a run decides is the same when it is repeated or resumed.
+// Work is counted (bonds, substeps, contact), not timed, so that a run decides the same when repeated or resumed.
 class Balance {
  public:
   explicit Balance(const deck::Deck& deck);
 
-  // Collective; between advance_position() and advance_velocity(). The rank where each owned point is to be, if it is
-  // time to look, the work is uneven, and another partition will save more than it costs.
+  // Collective; between advance_position() and advance_velocity(). The rank for each owned point, if a check is due,
+  // the work is uneven, and another partition will save more than it costs.
   std::optional<std::vector<int>> better_ranks(const Scene& scene, const CentralDifference& solver);
 
-  // After a checkpoint has been read: the same, where it was written by as many ranks, with another partition.
+  // After a checkpoint has been read: the ranks of the points, if as many ranks wrote it with another partition.
   std::optional<std::vector<int>> take_restored_ranks() { return std::exchange(restored_, std::nullopt); }
 
   void serialize(Archive& archive, const Body& body);  // collective
 
  private:
   bool enabled_;
-  double most_, final_time_;  // of the work of a rank beside the mean; s
+  double most_, final_time_;  // largest allowed work of a rank over the mean; s
   bool verbose_;
-  double accepted_ = 0;  // the same, at the last look that found too much: no other until it is a tenth worse
+  double accepted_ = 0;  // work over the mean at the last check above the limit; the next change needs a tenth more
   std::optional<std::vector<int>> restored_;
 };
 

@@ -1,4 +1,4 @@
-// strut --check: what a run would do, from a real set-up and a few real steps that are thrown away.
+// strut --check: predicts what a run would do, from a real set-up and a few real steps that are discarded.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,8 +24,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Seconds a step, the least of a few: in others the critical time step is estimated anew, and cells that begin to flow
-// are fitted, which a run does rarely.
+// Wall time of a step, s, the least of a few: in others the critical time step is estimated anew, or cells that begin
+// to flow are refitted, which is rare in a run.
 double measured_step(const deck::Deck& deck, CentralDifference& solver) {
   constexpr int trial_steps = 5;
   double least = std::numeric_limits<double>::infinity();
@@ -38,10 +38,10 @@ double measured_step(const deck::Deck& deck, CentralDifference& solver) {
   return std::isfinite(least) ? least : 0;
 }
 
-// Gives points velocities against each other, which strain them by about 1 % a step: metals flow, contact searches.
-// Where bonds may break, so little that none does.
+// Gives points relative velocities that strain them by about 1 % per step, so that metals flow and contact searches; if
+// bonds may break, so little that none does.
 void shake(Body& body, double dt) {
-  const double part = body.may_break() ? 1e-6 : 1e-2;  // of a spacing, in a step
+  const double part = body.may_break() ? 1e-6 : 1e-2;  // of a spacing, per step
   for (int i = 0; i < body.owned(); ++i) {
     const auto id = static_cast<double>(body.domain.id(i));
     const Vector direction(std::sin(12.9898 * id), std::sin(78.233 * id), std::sin(37.719 * id));
@@ -49,7 +49,7 @@ void shake(Body& body, double dt) {
   }
 }
 
-// The same of steps in which all points move; the first ones of a run may be of bodies that fly as a whole, and cost
+// The same for steps in which all points move; in the first steps of a run bodies may be in rigid motion, which costs
 // nothing.
 double measured_moving_step(const deck::Deck& deck, CentralDifference& solver, Body& body) {
   try {
@@ -57,7 +57,7 @@ double measured_moving_step(const deck::Deck& deck, CentralDifference& solver, B
     solver.advance_velocity(deck.solver.final_time);
     solver.advance_position(false);
     return measured_step(deck, solver);
-  } catch (const Error&) {  // shaken to pieces
+  } catch (const Error&) {  // the shaking made points fail
     return 0;
   }
 }
@@ -66,7 +66,7 @@ std::string range(double least, double most) { return as_duration(least) + " to 
 
 std::string check_steps(const deck::Deck& deck, Scene& scene) {
   constexpr double most =
-      2;  // times as long, where the step shrinks with the deformation, points touch and are subcycled
+      2;  // factor if the step shrinks by deformation, points touch and are subcycled
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time, std::move(scene.fracture));
   const double limit = solver.critical_time_step();
@@ -83,10 +83,10 @@ std::string check_steps(const deck::Deck& deck, Scene& scene) {
   return text.str();
 }
 
-// From the first two load steps, or from the beginning of the first where that takes long.
+// Estimates from the first two load steps, or from the start of the first if it takes long.
 std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   constexpr double patience = 60;  // s
-  constexpr double most = 2;       // times as long as these are load steps in which bodies flow and touch
+  constexpr double most = 2;       // load steps with flow and contact take this many times as long
   const auto start = Clock::now();
   Observer observer{[](const std::string&) {}, {}, [&] { return seconds_since(start) > patience; }};
   QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
@@ -103,7 +103,7 @@ std::string check_equilibria(const deck::Deck& deck, Scene& scene) {
   text << "took " << as_duration(first) << " and " << solver.iterations() << " iterations\n";
   double second = first;
   if (solver.time() < deck.solver.final_time) {
-    solver.advance();  // or until the time is up: then it takes more
+    solver.advance();  // or stops when the time is up: then it takes longer
     second = seconds_since(start) - first;
   }
   text << "estimated time " << range(steps * std::min(first, second), most * steps * std::max(first, second)) << "\n";

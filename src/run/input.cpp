@@ -15,7 +15,7 @@ namespace strut {
 
 namespace {
 
-// On rank 0, whose disk it is. Of files that are found wrong by their names in the deck nothing more is said.
+// On rank 0, whose disk counts. Files whose names in the deck are wrong get no further message.
 void check_files(const deck::Deck& deck, deck::Problems& problems) {
   const auto attempt = [&problems](const std::string& path, const auto& check) {
     if (problems.about(path)) return;
@@ -29,7 +29,7 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
   if (deck.history.enabled) attempt("History > Filename", [&] { io::check_not_held(deck.history.file); });
   if (!deck.restart.enabled) return;
   attempt("Restart > Filename", [&] { io::check_not_held(lock_of(deck.restart.file)); });
-  if (std::filesystem::exists(before_of(deck.restart.file))) return;  // a damaged one is no obstacle to going on
+  if (std::filesystem::exists(before_of(deck.restart.file))) return;  // a damaged checkpoint does not prevent resuming
   const std::string why = obstacle(deck.restart.file, FileKind::checkpoint);
   if (!why.empty() && !problems.about("Restart > Filename")) problems.add("Restart > Filename", why);
 }

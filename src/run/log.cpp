@@ -10,8 +10,8 @@
 
 namespace strut {
 
-// Hands on to the terminal at once; to the file go whole lines, so that those of ranks do not mix, each as it is at
-// last: a bar of progress begins its line again and again.
+// Passes output to the terminal at once. The file gets whole lines, so that those of ranks do not mix, each in its
+// final form: a progress bar rewrites its line again and again.
 class Log::Both : public std::streambuf {
  public:
   Both(std::streambuf* terminal, std::ofstream& file) : terminal_(terminal), file_(file) {}
@@ -44,7 +44,7 @@ class Log::Both : public std::streambuf {
 
 namespace {
 
-// The first line, by which the next run knows that the file may be replaced.
+// The first line, which shows the next run that the file may be replaced.
 std::string log_of_strut() { return log_mark + strut_version() + "\n"; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A log of a run: what it says on the terminal, in a file.
+// Copies the terminal output of a run to a log file.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@
 
 namespace strut {
 
-// As long as it lives, what std::cout and std::cerr get on any rank goes to the file, too; at the end also a line that
-// has not ended.
+// While it exists, std::cout and std::cerr of any rank go to the file, too; at the end also an incomplete
+// line.
 class Log {
  public:
-  // Collective. Replaces the file, if it is a log; throws Error on all ranks where it is something else, cannot be
-  // created, or is that of a run which goes on.
+  // Collective. Replaces the file if it is a log. Throws Error on all ranks if it is another file, cannot be created,
+  // or belongs to a run in progress.
   Log(const std::filesystem::path& file, const Communicator& communicator);
   ~Log();
   Log(const Log&) = delete;

@@ -15,25 +15,25 @@ namespace strut {
 
 namespace {
 
-// Ledgers at the start of a run: its energies are still small, and what is small beside later ones is a large part.
+// Number of ledgers at the start of a run whose errors do not count: relative to the small energies they are large.
 constexpr int first_ledgers = 10;
 
-// Above this part of the internal energy at the end the springs of the stabilization bear what the law should: users of
-// explicit finite elements look at 5 to 10 % of hourglass energy. In the first microseconds of an impact it is more.
+// Above this fraction of the final internal energy, the springs of the stabilization carry what the law should: users
+// of explicit finite elements accept 5 to 10 % of hourglass energy. In the first microseconds of an impact it is more.
 constexpr double much_in_springs = 0.1;
 
-// Neighbors that have been drawn so many spacings apart: what lies between them is not resolved any more.
+// Stretch of neighbors, in spacings, above which the material between them is not resolved any more.
 constexpr double far_stretched = 8;
 
-// As parts of the largest energy. What is gained out of nothing ends the run where it is this part of what may be lost.
+// The balance error worth a warning, relative to the largest energy; the limit of a gain, relative to that of a loss.
 constexpr double worth_telling = 0.01, of_gains = 0.2;
 
-// Where the rank has what is largest of all ranks: `text`, else nothing.
+// `text` on the rank with the largest value over all ranks, else nothing.
 std::string of_largest(const Body& body, double own, const std::string& text) {
   return own == body.domain.communicator.max(own) ? text : "";
 }
 
-// The point that limits the step.
+// The point that limits the time step.
 std::string fastest_point(const Body& body) {
   double largest = -1;
   int fastest = -1;
@@ -85,7 +85,7 @@ void Monitor::check_step(const CentralDifference& solver) {
     if (!solver.warning().empty()) tell_("WARNING: " + solver.warning() + " (Watch > Inverted Points; told once)");
     told_[point] = true;
   }
-  const double now = solver.critical_time_step();  // the one that is taken may be short for the end of the run
+  const double now = solver.critical_time_step();  // the step that is taken may be shorter at the end of the run
   if (first_step_ == 0) first_step_ = now;
   const contact::Contact& contact = solver.contact();
   if (!(now >= limits_.smallest_step * first_step_) && !(told_[step] && std::isfinite(now))) {
@@ -181,7 +181,7 @@ void Monitor::check_tools(double time, const Conditions& conditions, const std::
   });
 }
 
-// That tools which overlap from the start on are meant to: two plates of one punch, say.
+// Tools that overlap from the start are meant to, e.g. two plates of one punch.
 void Monitor::check_meeting(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools) {
   const std::vector<RigidTool> all = tools_of(conditions);
   overlapped_.resize(all.size() * all.size(), 0);
@@ -211,7 +211,7 @@ void Monitor::serialize(Archive& archive) {
   for (int what = 0; what < count; ++what) archive.number("told_" + std::to_string(what), told_[what]);
 }
 
-// Known to all ranks, so told by the first one.
+// All ranks know it, so the first one prints it.
 void Monitor::warn(What what, const std::string& text) {
   tell_once(what, body_.domain.communicator.rank() == 0 ? text : "");
 }
@@ -259,7 +259,7 @@ void Monitor::check_energy(const Ledger& ledger, bool last) {
 
 namespace {
 
-// Of this rank: the points without any stress by a criterion of their law, and the first of them, or -1.
+// For this rank: the number of points without stress by a criterion of their law, and the first of them, or -1.
 std::pair<int, int> failed_points(const Body& body) {
   int count = 0, first = -1;
   for (const MaterialBlock& block : body.blocks) {
@@ -292,7 +292,7 @@ void Monitor::check_failed(double time) {
             "explicit "
             "steps (Solver > Verlet) where material parts";
   }
-  const double turn = own > 0 ? 1.0 / (1 + body_.domain.communicator.rank()) : 0;  // of one rank
+  const double turn = own > 0 ? 1.0 / (1 + body_.domain.communicator.rank()) : 0;  // one rank prints
   tell_once(failing, of_largest(body_, turn, text.str()));
 }
 

@@ -1,5 +1,5 @@
-// What ends a run that has gone wrong without a point that failed: a step that collapses, energy out of nothing, bodies
-// that pass through each other.
+// Ends a run that has gone wrong without a failed point: the step collapses, energy is created, bodies
+// interpenetrate.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,23 @@ namespace strut {
 
 class Monitor {
  public:
-  // `duration`: of the run, s. `tell`: takes a line, on any rank.
+  // `duration`: of the run, s. `tell`: prints a line, on any rank.
   Monitor(const deck::Watch& limits, double duration, const Body& body, std::function<void(const std::string&)> tell)
       : limits_(limits), pause_(duration / looks), body_(body), tell_(std::move(tell)) {}
 
-  // Where a limit is passed each throws Error on all ranks, or tells of it once where the deck says that the run goes
-  // on; else they are free.
+  // Each check throws Error on all ranks if a limit is exceeded, or warns once if the deck says that the run continues;
+  // else it is free.
   void check_step(const CentralDifference& solver);    // after advance_velocity()
   void check_energy(const Ledger& ledger, bool last);  // `last`: of the run; it counts, however early it is
-  // Whether the ledger is to be looked at, also where nothing is written: the error of the balance is a part of the
-  // largest energy so far, which is not that of the end.
+  // True if the ledger must be checked, also if nothing is written: the balance error is relative to the largest energy
+  // so far, which is not that at the end.
   bool is_energy_due(double time) const { return time >= next_energy_; }
-  void check_passing(double time, const contact::Contact& contact);  // bodies inside each other
-  // What the points do not resolve, after a step with diagnostics: told once, and never the end of a run.
+  void check_passing(double time, const contact::Contact& contact);  // interpenetration of bodies
+  // Deformation that the points do not resolve, after a step with diagnostics: warns once, never ends a run.
   void check_resolution(const Ledger& ledger, bool last);
-  void check_failed(double time);  // points that have lost all stress in an equilibrium: told once
-  // What the deck has forgotten or cannot have, at some looks: material that goes through material without contact,
-  // and tools (named as in `tools`) between points that are bonded to each other.
+  void check_failed(double time);  // points without stress in an equilibrium: warns once
+  // Omissions of the deck, at some checks: material that passes through material without contact, and tools (named as
+  // in `tools`) between points that are bonded to each other.
   void check_undeclared(double time, const contact::Contact& contact);
   void check_tools(double time, const Conditions& conditions, const std::vector<ToolOfScene>& tools);
 
@@ -58,8 +58,8 @@ class Monitor {
     unstored,
     count
   };
-  static constexpr double looks = 200;  // in a run, at energies, bodies inside each other, tools between points
-  static constexpr double costly = 10;  // of these looks, one is for material without contact
+  static constexpr double looks = 200;  // checks per run of energies, interpenetration and tools between points
+  static constexpr double costly = 10;  // one of this many checks is for undeclared contact
   void passed(What what, const std::string& text);
   void tell_once(What what, const std::string& text);
   void warn(What what, const std::string& text);
@@ -68,15 +68,15 @@ class Monitor {
   void check_stretch(double time);
 
   deck::Watch limits_;
-  double pause_;  // s, between looks
+  double pause_;  // s, between checks
   // s
   double next_look_ = std::numeric_limits<double>::lowest(), next_undeclared_ = next_look_, next_tools_ = next_look_,
          next_energy_ = next_look_;
   const Body& body_;
   std::function<void(const std::string&)> tell_;
-  static constexpr std::uint8_t apart = 1, together = 2;  // how two tools were at the first look; 0: it is to come
+  static constexpr std::uint8_t apart = 1, together = 2;  // state of two tools at the first check; 0: not yet checked
   std::vector<std::uint8_t> overlapped_ = {};
-  double first_step_ = 0;  // s, stable
+  double first_step_ = 0;  // s, stable step at the start
   int ledgers_ = 0;
   double told_error_ = 0;  // of the balance
   bool told_[count] = {};

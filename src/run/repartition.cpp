@@ -25,7 +25,7 @@ Snapshot saved(const ExplicitRun& run, double time) {
   return snapshot;
 }
 
-// All that has a place in memory, in the order in which one needs the other.
+// Rebuilds everything that depends on the order of points in memory, in the order of dependence.
 void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
   const Communicator communicator = run.scene->body.domain.communicator;
   Kept kept = kept_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));

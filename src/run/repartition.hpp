@@ -1,4 +1,4 @@
-// An explicit run on another partition, in memory.
+// Changes the partition of an explicit run in memory.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace strut {
 
-// What depends on where points are.
+// The objects that depend on the partition.
 struct ExplicitRun {
   const deck::Deck& deck;
   std::optional<Scene>& scene;
@@ -19,13 +19,13 @@ struct ExplicitRun {
   std::optional<OutputWriters>& writers;
 };
 
-// Thrown in the middle of a change, when there is neither the old run nor the new one.
+// Thrown if a change fails halfway, when there is neither the old run nor the new one.
 struct LostState : Error {
   using Error::Error;
 };
 
-// Collective; between advance_position() and advance_velocity(). Makes all of it anew where it stands, with each owned
-// point on the rank that is named for it, and gives it back what it held, as from a checkpoint.
+// Collective; between advance_position() and advance_velocity(). Rebuilds all objects in place, with each owned point
+// on the rank given for it, and restores their state as from a checkpoint.
 void repartition(const ExplicitRun& run, const std::vector<int>& ranks);
 
 }  // namespace strut

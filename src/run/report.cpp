@@ -27,8 +27,8 @@ std::string formatted(const char* format, Values... values) {
   return line;
 }
 
-// Whether a person watches. Open MPI gives every rank a terminal of its own, so under mpirun only tools/run, which
-// sees the real one, can tell (STRUT_TERMINAL).
+// True if a person watches. Open MPI gives every rank a terminal of its own, so under mpirun only tools/run, which sees
+// the real one, can tell (STRUT_TERMINAL).
 bool watched() {
   if (const char* told = std::getenv("STRUT_TERMINAL")) return std::string(told) == "1";
   return isatty(STDOUT_FILENO) != 0 && std::getenv("OMPI_COMM_WORLD_RANK") == nullptr;
@@ -60,8 +60,8 @@ double Progress::elapsed() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
-// The time left is by the speed since the last line, and by that of the whole run where that is less: what stands still
-// at first costs nothing.
+// The remaining time is estimated from the speed since the last line, and from that of the whole run if it is lower,
+// because rigid motion at first costs nothing.
 std::string Progress::left(double time) {
   if (!(time > shown_time_)) return "";
   const double since_last = (elapsed() - shown_elapsed_) / (time - shown_time_), whole = elapsed() / (time - begin_);
@@ -70,7 +70,7 @@ std::string Progress::left(double time) {
 
 void Progress::show(int step, double time, double dt) {
   if (!speaks_) return;
-  constexpr double often = 0.2, seldom = 60;  // s, between lines of a terminal, and of a log
+  constexpr double often = 0.2, seldom = 60;  // s, between lines on a terminal, and in a log
   const double share = (time - initial_) / (final_ - initial_), pause = elapsed() - shown_elapsed_;
   const int now = static_cast<int>(share * 10 + 1e-9);
   const bool due = terminal_ ? pause >= often || share >= 1 : now != shown_ || pause >= seldom;
@@ -101,7 +101,7 @@ namespace {
 
 std::string threads_of_a_rank() { return threads() == 1 ? "" : formatted(" of %d threads", threads()); }
 
-// mpirun binds each of one or two ranks to a core, more of them to a socket, unless it is told otherwise.
+// mpirun binds each of one or two ranks to a core, more ranks to a socket, unless told otherwise.
 std::string warning_of_cores(const Communicator& ranks) {
   if (threads() == 1) return "";
   const int of_node = cores_of_node() / ranks.ranks_of_node();
@@ -170,7 +170,7 @@ std::string table_of_phases(const Scene& scene, double seconds) {
   return text.str();
 }
 
-// Collective. A number of each rank, over all.
+// Collective. One value per rank: its minimum, mean and maximum over the ranks.
 std::string row_of_ranks(const Communicator& ranks, const char* name, const char* format, double mine) {
   const double mean = ranks.sum(mine) / ranks.size();
   std::string text = formatted("%-26s", name);
@@ -180,7 +180,7 @@ std::string row_of_ranks(const Communicator& ranks, const char* name, const char
   return text + "\n";
 }
 
-// How evenly the work is spread: the ranks wait for the one that has most of it.
+// The distribution of work: all ranks wait for the one that has most.
 std::string table_of_ranks(const Body& body) {
   const Communicator& ranks = body.domain.communicator;
   if (ranks.size() == 1) return "";
@@ -200,7 +200,7 @@ std::string searches(const contact::Contact& contact) {
   return formatted("%d searches for contact\n", contact.searches());
 }
 
-// Collective. What bonds that broke have left of the bodies.
+// Collective. The fragments left by broken bonds.
 std::string fragment_table(const Body& body) {
   constexpr std::size_t most = 10;
   if (!body.may_break()) return "";
@@ -218,7 +218,7 @@ std::string fragment_table(const Body& body) {
   return text;
 }
 
-// Collective. What a run that came to nothing should be told of.
+// Collective. Hints for a run in which nothing happened.
 std::string what_did_not_happen(const Scene& scene, const Ledger& ledger, int before) {
   const std::string since = before > 0 ? ", since it went on" : "";
   std::string text;
@@ -250,7 +250,7 @@ std::string closing_report(const Scene& scene, const CentralDifference& solver, 
                            int before) {
   std::ostringstream text;
   text << table_of_phases(scene, seconds) << table_of_ranks(scene.body) << searches(solver.contact());
-  const int steps = std::max(1, solver.steps() - before);  // none where a run that was over goes on
+  const int steps = std::max(1, solver.steps() - before);  // zero if a completed run was resumed
   const double core_seconds = seconds * scene.body.domain.communicator.size() * threads();
   text << formatted("%d steps, %.3g points*steps/s, %.2f ns per bond and step on each core\n", steps,
                     static_cast<double>(scene.points) * steps / seconds,

@@ -1,4 +1,4 @@
-// What a run tells the person who waits for it. Rank 0 speaks.
+// Messages of a run for its user, printed by rank 0.
 #pragma once
 
 #include <chrono>
@@ -11,12 +11,12 @@
 
 namespace strut {
 
-// A bar with the time left on a terminal; a line every tenth of the way in a log, and every minute.
+// A bar with the remaining time on a terminal; in a log, a line for every tenth of the run, and every minute.
 class Progress {
  public:
-  // `now`: where this run begins, which is later than the initial time where it goes on with another.
+  // `now`: start of this run, later than the initial time if it resumes another one.
   Progress(const Communicator& communicator, double initial_time, double now, double final_time);
-  void show(int step, double time, double dt);  // where a line is due
+  void show(int step, double time, double dt);  // prints if a line is due
   void finish();
 
  private:
@@ -24,33 +24,33 @@ class Progress {
   std::string left(double time);
   bool speaks_, terminal_;
   double initial_, begin_, final_;
-  int shown_ = -1;                         // tenths
+  int shown_ = -1;                         // tenths of the run
   double shown_time_, shown_elapsed_ = 0;  // s, of the last line
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// What was read: points, bonds, memory, blocks.
+// Summary of the input: points, bonds, memory, blocks.
 std::string describe_scene(const Scene& scene, const Advice& advice);
 
-// Bytes that points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) take
-// on all ranks; the program itself has some 50 MB a rank, 80 with equilibria.
+// Memory of points, bonds and the solver (the estimate of the critical time step, or the search for equilibria) on all
+// ranks, bytes; the program itself takes some 50 MB per rank, 80 with equilibria.
 double predicted_memory(const Scene& scene);
 
-// Of the result file, for each frame.
+// Size of a frame of the result file, bytes.
 double frame_bytes(const OutputVariables& variables, std::int64_t points);
 
-// Collective. What rank 0, which opens the files, and the others have taken at most until now, the program itself
-// included; what a frame takes.
+// Collective. Peak memory of rank 0, which opens the files, and of the other ranks, including the program itself; size
+// of a frame.
 std::string memory_and_frame(const Scene& scene, const OutputVariables& variables);
 
-// Of a run by explicit steps, s: one of its first lines.
+// One of the first lines of an explicit run; `limit`: critical time step, s.
 std::string critical_time_step_line(double limit);
 
-// A fixed step above the stable one, `limit` at `time` (s); "" where it is not.
+// Warns of a fixed step above the critical one, `limit` at `time` (s); "" if it is not.
 std::string step_warning(const StepControl& control, double limit, double time);
 
-// Collective. The tables of time by phase and of the ranks' shares, points·steps per second, ns per bond, the ledger at
-// the end. `before`: steps that were made by an earlier run.
+// Collective. Tables of time by phase and of work by rank, points·steps per second, ns per bond, the final ledger.
+// `before`: number of steps made by an earlier run.
 std::string closing_report(const Scene& scene, const CentralDifference& solver, const Ledger& ledger, double seconds,
                            int before);
 std::string closing_report(const Scene& scene, const QuasiStatic& solver, const Ledger& ledger, double seconds,

@@ -8,14 +8,14 @@ namespace strut {
 
 namespace {
 
-std::atomic<int> signalled = 0;  // the handler may be called by any thread
+std::atomic<int> signalled = 0;  // any thread may call the handler
 
 }  // namespace
 
 void catch_signals(std::initializer_list<int> signals) {
   for (const int signal : signals) {
     const auto before = std::signal(signal, [](int) { signalled = 1; });
-    if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // by nohup
+    if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // ignored by nohup
   }
 }
 

@@ -1,4 +1,4 @@
-// What a run does besides its steps: checkpoints, output, limits, progress, and how a run is ended by a signal.
+// Tasks of a run besides its steps: checkpoints, output, limits, progress, and the reaction to signals.
 #pragma once
 
 #include <chrono>
@@ -15,13 +15,13 @@
 
 namespace strut {
 
-// From now on these (of csignal) end the run after the current step, or its first one.
+// From now on these signals (of csignal) end the run after the current step, or its first one.
 void catch_signals(std::initializer_list<int> signals);
 bool is_signalled();
-void forget_signals();  // a process may run several decks
+void forget_signals();  // for a process that runs several decks
 
-// Whether a run is to end before its final time, on this rank: a signal has come, or its wall time is over. Ranks agree
-// on it by themselves.
+// True if a run must end before its final time, on this rank: a signal has come, or its wall time is over. The callers
+// agree on it over the ranks.
 class EarlyEnd {
  public:
   using Clock = std::chrono::steady_clock;
@@ -35,10 +35,10 @@ class EarlyEnd {
   std::optional<double> wall_time_;
 };
 
-// On rank 0.
+// Prints on rank 0.
 void say(const Communicator& communicator, const std::string& text);
 
-// All that a run has besides its solver.
+// Objects of a run besides its solver.
 struct RunServices {
   const deck::Deck& deck;
   const Scene& scene;
@@ -48,20 +48,20 @@ struct RunServices {
   const EarlyEnd& early_end;
 };
 
-// Of explicit steps. Energies are known everywhere at the times that are looked at or kept, for ranks agree a step
-// ahead on what is to be done.
+// Control of an explicit run. Ranks agree on the tasks of the next time one step ahead, so that all compute energies at
+// times of output or checkpoints.
 class ExplicitRunControl {
  public:
   ExplicitRunControl(const RunServices& services, const CentralDifference& solver);
 
-  // Collective. Between advance_position() and advance_velocity(): saves a checkpoint where one is due.
+  // Collective. Between advance_position() and advance_velocity(): saves a checkpoint if one is due.
   void save(CentralDifference& solver);
-  // Collective. After advance_velocity(): output, limits, progress. Whether this was the last time.
+  // Collective. After advance_velocity(): output, limits, progress. Returns true if this was the last time.
   bool observe(CentralDifference& solver);
-  // Before advance_position(): tells what this rank wants of the next times, and whether diagnostics are wanted there.
+  // Before advance_position(): tells the solver this rank's requests; returns true if diagnostics are needed next.
   bool prepare_next(CentralDifference& solver);
 
-  // Whether no step follows.
+  // True if no step follows.
   bool ends_here(const CentralDifference& solver) const { return is_over(solver) || ending_; }
 
   void finish() { progress_.finish(); }

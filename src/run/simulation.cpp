@@ -19,10 +19,10 @@ namespace {
 
 using Clock = EarlyEnd::Clock;
 
-// On the rank that has something to tell.
+// On the rank that has a message.
 void tell(const std::string& line) { std::cout << line << std::endl; }
 
-// After an error, which is what is told: not what goes wrong here.
+// Ignores errors of the action, so that the message of an earlier error stays the last one.
 template <class Action>
 void quietly(Action&& action) {
   try {
@@ -31,21 +31,21 @@ void quietly(Action&& action) {
   }
 }
 
-// The fields as they are, where a run ends in an error: they show where.
+// Writes the present fields when a run ends with an error: they show where.
 void leave_frame(OutputWriters& writers, double time, const Body& body) {
   if (!writers.frames.is_open() || writers.frames.has(time)) return;
   quietly([&] { writers.frames.write(time, body); });
 }
 
-// The time loop: everything after set-up. Returns the ledger at the end.
+// The time loop: everything after set-up. Returns the final ledger.
 Ledger step_through(const RunServices& services, const ExplicitRun& run, Balance& balance) {
   if (const auto ranks = balance.take_restored_ranks()) repartition(run, *ranks);
-  CentralDifference& solver = *run.solver;  // it stays there
+  CentralDifference& solver = *run.solver;  // stays at this address
   say(services.scene.body.domain.communicator, critical_time_step_line(solver.critical_time_step()));
   ExplicitRunControl control(services, solver);
   for (;;) {
     control.save(solver);
-    if (!control.ends_here(solver) && !solver.went_on()) {  // of whose point the monitor has not told yet
+    if (!control.ends_here(solver) && !solver.went_on()) {  // the monitor must first report the point
       if (const auto ranks = balance.better_ranks(*run.scene, solver)) repartition(run, *ranks);
     }
     solver.advance_velocity(services.deck.solver.final_time);
@@ -57,7 +57,7 @@ Ledger step_through(const RunServices& services, const ExplicitRun& run, Balance
   return solver.ledger();
 }
 
-// The same by load steps.
+// The loop over load steps. Returns the final ledger.
 Ledger load_through(const RunServices& services, QuasiStatic& solver) {
   const auto& [deck, scene, writers, checkpoint, monitor, early_end] = services;
   const int conditions = writers.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
@@ -96,7 +96,7 @@ Observer observer(const deck::Deck& deck, const Communicator& communicator, cons
   return observer;
 }
 
-// From set-up to the end, by a solver of either kind.
+// A run from set-up to the end, with a solver of either kind.
 template <class Solver, class Through>
 bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Solver& solver, Balance& balance,
                Start start, Clock::time_point began, const EarlyEnd& early_end, const Through& through) {
@@ -134,7 +134,7 @@ bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Sol
   return over;
 }
 
-// Whether the run can go on from it, or begin without it, is found before the mesh is read.
+// Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it.
 void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator& communicator,
                         deck::Problems& problems) {
   const bool is_there = checkpoint_exists(deck, communicator);
@@ -150,7 +150,7 @@ void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator&
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
   const Clock::time_point began = Clock::now();
   forget_signals();
-  // A job that ends while the mesh is read goes on in the next; the others end it at once.
+  // A job that is stopped while the mesh is read continues in the next one; other signals end it at once.
   catch_signals({SIGUSR1, SIGUSR2, SIGXCPU});
   deck::Problems problems;
   const deck::Deck deck = deck::read(deck_file, communicator, problems);
@@ -163,11 +163,11 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   }
   look_at_checkpoint(deck, start, communicator, problems);
   std::optional<Scene> parts = set_up(deck, checked_mesh(deck, std::move(problems), communicator), communicator);
-  Scene& scene = *parts;  // which stays there, also where another takes its place
+  Scene& scene = *parts;  // stays at this address, also when another scene replaces it
   say(communicator, describe_scene(scene, advice(deck, scene)));
   std::optional<OutputWriters> writers;
   writers.emplace(
-      deck, output_variables_of(deck, scene.body, scene.contact));  // all names are checked before a file is replaced
+      deck, output_variables_of(deck, scene.body, scene.contact));  // checks all names before a file is replaced
   Balance balance(deck);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,

@@ -1,4 +1,4 @@
-// The bounding box of points, and of those that are spread over ranks.
+// Bounding boxes of points, also of points spread over the ranks.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ inline Eigen::AlignedBox3d box_around(std::span<const Vector> points) {
   return box;
 }
 
-// Collective. The box that holds the boxes of all ranks; empty where all of them are.
+// Collective. The box that contains the boxes of all ranks; empty if all of them are.
 inline Eigen::AlignedBox3d common_box(const Eigen::AlignedBox3d& mine, const Communicator& communicator) {
   double bounds[6];
   for (int c = 0; c < 3; ++c) bounds[c] = mine.max()[c], bounds[3 + c] = -mine.min()[c];

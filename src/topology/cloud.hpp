@@ -1,4 +1,4 @@
-// The material points of one rank, as a reader delivers them and as the partition hands them on.
+// The material points of one rank, as a reader delivers them and the partition distributes them.
 #pragma once
 
 #include <array>
@@ -10,21 +10,21 @@
 
 namespace strut {
 
-// What of a mesh a point stands for. A text mesh has points only: they count as elements.
+// The entities of the mesh that points represent. A text mesh has points only: they count as elements.
 enum class PointsAt { elements, nodes };
 
 // "element" or "node", for messages.
 constexpr const char* word(PointsAt at) { return at == PointsAt::nodes ? "node" : "element"; }
 
-// The part of a body that a point stands for, by integrals over it: what a point's volume alone does not tell.
+// The part of a body that a point represents, by integrals over it, in addition to the volume.
 struct CellShape {
   Vector offset = Vector::Zero();           // from the point to the centroid, m
   Symmetric moments = Symmetric::Zero();    // central second moments per volume, m²: of a cube h²/12 (xx, yy, zz)
-  Vector surface = Vector::Zero();          // ∫ n dA over the body's surface that is the cell's, n outward, m²
+  Vector surface = Vector::Zero();          // ∫ n dA over the part of the body's surface in the cell, n outward, m²
   Tensor surface_moments = Tensor::Zero();  // ∫ n ⊗ (x − X) dA over it, X the point, m³
 };
 
-// A shape as it travels.
+// A shape, in the form in which it is sent to other ranks.
 using ShapeNumbers = std::array<double, 21>;
 inline ShapeNumbers numbers_of(const CellShape& shape) {
   ShapeNumbers numbers;
@@ -42,19 +42,19 @@ inline CellShape shape_of(const ShapeNumbers& numbers) {
 constexpr int first_plane_bit = 48, most_planes = 15;
 
 struct PointCloud {
-  // One entry a point.
-  std::vector<std::int64_t> ids;          // 0-based place in the file's order: unique over all ranks
+  // One entry per point.
+  std::vector<std::int64_t> ids;          // 0-based index in the order of the file: unique over all ranks
   std::vector<std::int64_t> element_ids;  // the mesh's own number of the element or node
   std::vector<Vector> positions;          // reference position X, m
   std::vector<double> volumes;            // m³
   std::vector<double> spacings;           // m: the edge of a cube as large as the elements here (see io/README.md)
   std::vector<int> blocks;                // index into block_names
   std::vector<std::uint64_t> sets;        // bit k: the point is in node set set_names[k]
-  // Empty unless they were asked for, and where the file does not tell them (text):
+  // Empty unless they were asked for, and if the file does not contain them (text):
   std::vector<CellShape> shapes;
-  // What of the mesh a point shares with those it hangs together with: the nodes of an element, the elements around a
-  // node; ascending. Two points touch if they have one of these numbers in common. From bit first_plane_bit on, on
-  // which symmetry planes a node lies.
+  // Shared nodes: numbers that a point has in common with the points that it touches, ascending. They are the nodes of
+  // an element, or the elements around a node. Two points touch if they have one of these numbers in common. Bits from
+  // first_plane_bit on: the symmetry planes that a node lies on.
   std::vector<std::vector<std::int64_t>> joints;
 
   // The same on all ranks.
@@ -62,8 +62,8 @@ struct PointCloud {
   bool joined = false;  // every point has joints
   std::vector<std::string> block_names;
   std::vector<std::string> set_names;  // at most 64
-  // Of points at nodes as they are read, block by block: m³ of the elements of the second block that points of the
-  // first have. Else empty.
+  // For points at nodes as they are read, by pairs of blocks: volume of the elements of the second block that points of
+  // the first have, m³. Else empty.
   std::vector<double> taken_volumes;
 
   std::size_t size() const { return ids.size(); }

@@ -13,7 +13,7 @@ namespace strut {
 
 namespace {
 
-// A point as it travels, in doubles.
+// A point, as it is sent to other ranks, in doubles.
 struct Record {
   double x[3];
   double edge;  // of a cube of its volume, m
@@ -21,13 +21,13 @@ struct Record {
 };
 constexpr int width_of_record = sizeof(Record) / sizeof(double);
 
-// Cubic cells without limits, told by numbers that are all but unique: in a cell are its points and those that are so
-// near to it that one of its points might be at their place.
+// Unbounded cubic cells, identified by hashes that are almost unique. A cell has its points and those so near to it
+// that one of its points might coincide with them.
 class Cells {
  public:
   explicit Cells(double edge) : width_(0.5 * edge), longest_(4 * edge) {}
 
-  // visit(cell, whether the point itself is in it)
+  // visit(cell, whether the cell contains the point)
   template <class Visit>
   void visit_cells(const Record& point, const Visit& visit) const {
     const double reach = at_one_place * std::min(point.edge, longest_);
@@ -78,7 +78,7 @@ std::vector<Record> records_of(const PointCloud& cloud) {
   return records;
 }
 
-// Collective. To each rank the points of the cells that are its own.
+// Collective. Sends the points of each cell to the rank that owns the cell.
 std::vector<Record> sent_to_owners(const std::vector<Record>& records, const Cells& cells,
                                    const Communicator& communicator) {
   const auto ranks = static_cast<std::uint64_t>(communicator.size());
@@ -115,7 +115,7 @@ struct Pair {
 };
 
 struct Found {
-  std::int64_t points = 0;  // that are where one with a smaller id is
+  std::int64_t points = 0;  // number of points that coincide with one of a smaller id
   std::optional<Pair> pair;
 };
 
@@ -130,7 +130,7 @@ void look_through(std::span<const Entry> cell, const std::vector<Record>& points
         continue;
       ++found.points;
       if (!found.pair || b.id < found.pair->second.id) found.pair = Pair{a, b};
-      break;  // where all points are at one place there is no need to look at all pairs
+      break;  // if all points coincide there is no need to test all pairs
     }
   }
 }
@@ -179,7 +179,7 @@ std::string told(const PointCloud& cloud, const Pair& pair, std::int64_t count) 
 std::string coincident_points(const PointCloud& cloud, const Communicator& communicator,
                               const std::function<bool(int, int)>& allowed) {
   std::vector<Record> points = records_of(cloud);
-  double logarithms = 0;  // a few points as large as the whole body do not make all others one cell
+  double logarithms = 0;  // so that a few points as large as the whole body do not put all others into one cell
   for (const Record& one : points) logarithms += std::log(one.edge);
   const auto all = communicator.sum(static_cast<std::int64_t>(points.size()));
   const Cells cells(std::exp(communicator.sum(logarithms) / static_cast<double>(std::max<std::int64_t>(1, all))));

@@ -1,4 +1,4 @@
-// Points that are at one place: what is given twice.
+// Coincident points: input that is given twice.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace strut {
 
-// Nearer to each other than this, in the edge of a cube of the smaller one's volume, two points are at one place: most
-// of the one's cell is in the other's. Cells that lie side by side are so near where they are 30 times as wide as
-// thick.
+// Two points coincide if they are nearer to each other than this, in units of the edge of a cube of the smaller one's
+// volume: most of the one's cell is then in the other's. Cells side by side are as near only if they are 30 times as
+// wide as thick.
 constexpr double at_one_place = 0.1;
 
-// Collective, of a cloud that is spread over the ranks in any way. `allowed`: whether points of these two blocks may be
-// at one place. "" where no others are; else a sentence, the same on all ranks, that names the first two by the order
-// of the file and says how many there are.
+// Collective, for a cloud that is spread over the ranks in any way. `allowed`: whether points of these two blocks may
+// coincide. Returns "" if no others do; else a sentence, the same on all ranks, with the first two in the order of the
+// file and their number.
 std::string coincident_points(const PointCloud& cloud, const Communicator& communicator,
                               const std::function<bool(int, int)>& allowed);
 

@@ -15,7 +15,7 @@ namespace {
 std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::vector<double>& horizons,
                                           const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
   constexpr double none = -std::numeric_limits<double>::infinity();
-  std::vector<double> bounds(3 * bonds.size(), none);  // of each block the largest, the smallest, negated; the spacing
+  std::vector<double> bounds(3 * bonds.size(), none);  // per block: largest horizon; smallest one, negated; spacing
   for (std::size_t i = 0; i < horizons.size(); ++i) {
     double* of_block = &bounds[3 * cloud.blocks[i]];
     of_block[0] = std::max(of_block[0], horizons[i]);
@@ -32,7 +32,7 @@ std::vector<BlockHorizons> block_horizons(const PointCloud& cloud, const std::ve
   return blocks;
 }
 
-// Cracks cut all bodies, their images the body that is mirrored. By body.
+// The cracks of each body: all cracks apply to all bodies, their mirror images only to the mirrored body.
 std::vector<std::vector<Crack>> with_images(const std::vector<Crack>& cracks, const std::vector<BlockBonds>& bonds,
                                             const Images& images) {
   std::vector<std::vector<Crack>> all;
@@ -47,9 +47,9 @@ std::vector<std::vector<Crack>> with_images(const std::vector<Crack>& cracks, co
   return all;
 }
 
-// The points of a domain in their order, owned ones and ghosts.
+// The points of a domain in their order: owned points and ghosts.
 struct Members {
-  std::vector<int> in_pool, local, bodies;  // local: of the pool's members, −1 of those that are left out
+  std::vector<int> in_pool, local, bodies;  // local: of the pool's members, −1 if left out
   std::vector<Site> sites;
   std::vector<std::int64_t> ghost_ids;
   std::vector<int> ghost_owners;
@@ -89,7 +89,7 @@ void add_lattices(const std::vector<LatticeFrame>& frames, const CandidatePool& 
     for (std::size_t l = 0; l < cluster.points.size(); ++l) {
       const int i = cluster.points[l];
       const LatticeFamilies* stencil = families.lattice(i);
-      families.off_stencil[i] = stencil && stencil->family_size(i) > cluster.family_size(l);  // for a crack
+      families.off_stencil[i] = stencil && stencil->family_size(i) > cluster.family_size(l);  // because of a crack
     }
   }
 }
@@ -100,7 +100,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
                    const std::vector<Crack>& cracks, std::vector<Mirror> mirrors) {
   const std::vector<double> own_horizons = horizons_of(cloud, bonds);
   std::vector<BlockHorizons> blocks = block_horizons(cloud, own_horizons, bonds, communicator);
-  double reach = std::numeric_limits<double>::min();  // where there is no point
+  double reach = std::numeric_limits<double>::min();  // for a rank without points
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     reach = std::max(reach, blocks[b].largest * (1 + 1e-9));
     blocks[b].smallest /= bonds[b].search_factor(), blocks[b].largest /= bonds[b].search_factor();

@@ -1,4 +1,4 @@
-// The points of one rank ready for mechanics: owned points and ghosts, families, halo.
+// The points of one rank, ready for mechanics: owned points and ghosts, families, halo.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,10 @@
 
 namespace strut {
 
-// What the horizons of a block's points turned out to be, over all ranks.
+// The horizons of a block's points, over all ranks.
 struct BlockHorizons {
-  double smallest = 0, largest = 0;  // m; 0 where the block has no points
-  double spacing = 0;                // of the points, the largest, m
+  double smallest = 0, largest = 0;  // m; 0 if the block has no points
+  double spacing = 0;                // the largest of its points, m
   int body = 0;
 };
 
@@ -31,15 +31,15 @@ struct Domain {
   int interior = 0;
   int owned = 0;
   int ghosts = 0;
-  std::vector<Site> sites;  // owned points and ghosts; they stand where they were read until a solver moves them
-  std::vector<BlockHorizons> blocks;  // one each
+  std::vector<Site> sites;  // owned points and ghosts; at the positions that were read until a solver moves them
+  std::vector<BlockHorizons> blocks;  // one per block
   Families families;
   Halo halo;
   std::vector<std::int64_t> ghost_ids;
-  // Owned points, each with the id of one to which it is not bonded for a crack alone; ascending. No ghost stands for
-  // it.
+  // Points separated by a crack: owned points, each with the id of a point to which only a crack prevents a bond;
+  // ascending. The other point need not be a ghost.
   std::vector<std::pair<int, std::int64_t>> parted;
-  // Symmetry planes; the images of points by them are ghosts, with ids by Images::id.
+  // Symmetry planes. The mirror images of points are ghosts, with ids by Images::id.
   std::vector<Mirror> mirrors = {};
 
   Vector reference(int i) const { return sites[i].reference.head<3>().matrix(); }  // X, m
@@ -49,22 +49,22 @@ struct Domain {
   std::int64_t id(int i) const { return i < owned ? cloud.ids[i] : ghost_ids[i - owned]; }
 };
 
-// Collective. `cloud`: as partitioned. `bonds`: one for each block of the cloud; all may lose bonds where there
-// are cracks. Throws Error where mirrors do not meet at 180°/n.
+// Collective. `cloud`: after the partition. `bonds`: one for each block of the cloud; with cracks, all may lose bonds.
+// Throws Error if mirrors do not meet at 180°/n.
 Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator,
                    const std::vector<Crack>& cracks = {}, std::vector<Mirror> mirrors = {});
 
 // The owned points as they were read.
 PointCloud whole_cloud(const Domain& domain);
 
-// What is wrong with a family, or nullptr: a shape tensor needs at least four neighbors that span space.
-// `spread`: Σ V ξ⊗ξ of the family.
+// Describes the defect of a family, or returns nullptr: a shape tensor needs at least four neighbors that span space.
+// `spread`: Σ V ξ⊗ξ of the family, m⁵.
 const char* degeneracy(std::size_t neighbors, const Tensor& spread);
 
 // Σ V over the family of owned point i, m³.
 double family_volume(const Domain& domain, int i);
 
-// Σ V ξ⊗ξ over the same, m⁵.
+// Σ V ξ⊗ξ over its family, m⁵.
 Tensor family_spread(const Domain& domain, int i);
 
 }  // namespace strut

@@ -22,7 +22,7 @@ Teuchos::ArrayView<const T> view(const std::vector<T>& values) {
   return {values.data(), static_cast<Teuchos::ArrayView<const T>::size_type>(values.size())};
 }
 
-// The places of the ghosts in the order in which they arrive: by owners.
+// The indices of the ghosts in the order in which they arrive: by owner.
 std::vector<int> by_owners(std::span<const int> owners) {
   std::vector<int> order(owners.size());
   std::iota(order.begin(), order.end(), 0);
@@ -30,7 +30,7 @@ std::vector<int> by_owners(std::span<const int> owners) {
   return order;
 }
 
-// The places of some ids among the owned ones.
+// The indices of some ids among the owned ones.
 template <class Ids>
 std::vector<int> places_of(const Ids& wanted, std::span<const std::int64_t> owned) {
   std::vector<int> by_id(owned.size()), places;
@@ -49,13 +49,13 @@ std::vector<int> places_of(const Ids& wanted, std::span<const std::int64_t> owne
 }  // namespace
 
 struct Halo::Plan {
-  Teuchos::RCP<Tpetra::Distributor> distributor;  // null where there is one rank
-  std::vector<int> sent, receivers, received;  // local indices, the ranks that `sent` go to; as ranks follow each other
+  Teuchos::RCP<Tpetra::Distributor> distributor;  // null if there is only one rank
+  std::vector<int> sent, receivers, received;  // local indices; ranks that `sent` go to; in the order of ranks
   Buffer outgoing, incoming;
   std::vector<ImagePoint> images;
 };
 
-// A rank asks the owners of its ghosts, which learn so to whom they send what.
+// Each rank asks the owners of its ghosts, which thereby learn what to send to whom.
 Halo::Halo(const Communicator& communicator, std::span<const std::int64_t> owned, std::span<const std::int64_t> ghosts,
            std::span<const int> owners, const Images& images)
     : plan_(std::make_unique<Plan>()) {
@@ -84,14 +84,14 @@ Halo::Halo(const Communicator& communicator, std::span<const std::int64_t> owned
   plan_->distributor->createFromRecvs(view(asked), view(from), wanted, receivers);
   plan_->sent = places_of(wanted, owned);
   plan_->receivers.assign(receivers.begin(), receivers.end());
-  // No rank sends by its plan before all have theirs: without, three ranks with Tpetra 16.1 and Open MPI 6.0.0rc2
-  // waited for each other in most runs. Which of the three is at fault is not known.
+  // No rank sends by its plan before all have theirs: without this barrier, three ranks with Tpetra 16.1 and Open MPI
+  // 6.0.0rc2 waited for each other in most runs. It is unknown which of the three is at fault.
   communicator.barrier();
 }
 
 Halo::Halo(std::unique_ptr<Plan> plan) : plan_(std::move(plan)) {}
 
-// Of each pair of ranks, what one sends is in the order in which the other receives it; so is a part of it.
+// For each pair of ranks, the order of sending equals that of receiving, and so it does for a part of the points.
 Halo Halo::restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const {
   auto part = std::make_unique<Plan>();
   std::ranges::copy_if(plan_->images, std::back_inserter(part->images),
@@ -118,7 +118,7 @@ Halo& Halo::operator=(Halo&&) noexcept = default;
 
 namespace {
 
-// Messages are of doubles, which Tpetra sends; a value takes whole ones.
+// Messages consist of doubles, which Tpetra sends; each value takes whole doubles.
 std::size_t doubles(std::size_t bytes) { return (bytes + sizeof(double) - 1) / sizeof(double); }
 
 }  // namespace

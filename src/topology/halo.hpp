@@ -1,4 +1,4 @@
-// Values of points that other ranks own: sent and received while this rank works on points that need none of them.
+// Exchange of values of points that other ranks own, while this rank works on points that need none of them.
 #pragma once
 
 #include <cstdint>
@@ -17,32 +17,32 @@ class Communicator;
 inline void reflect_place(const Reflection& by, Vector& place) { place = by(place); }
 inline void reflect_direction(const Reflection& by, Vector& direction) { direction = (by.turn * direction).eval(); }
 
-// For values that an image has as its original does.
+// For values that are equal on an image and its original.
 inline constexpr auto unchanged = [](const Reflection&, auto&) {};
 
-// A ghost that is an image by symmetry planes, and its original where that is this rank's own; −1: another's.
+// A ghost that is a mirror image; `original`: local index if this rank owns the original, else −1.
 struct ImagePoint {
   int ghost, original;
   Reflection by;
 };
 
-// Built on Tpetra's distributor.
+// The halo exchange, built on Tpetra's distributor.
 class Halo {
  public:
-  // Collective. `owned`, `ghosts`: global ids in the order of local indices (ghosts follow the owned points); `owners`:
-  // the ranks that own the ghosts, or the originals of those that are images. Each of these must know the id, or the
-  // original's, as one of its own.
+  // Collective. `owned`, `ghosts`: global ids in the order of local indices (ghosts follow the owned points);
+  // `owners`: the ranks that own the ghosts, or the originals of images. Each of these must own the id, or that of the
+  // original.
   Halo(const Communicator& communicator, std::span<const std::int64_t> owned, std::span<const std::int64_t> ghosts,
        std::span<const int> owners, const Images& images = {});
-  // Collective. The same for some of the points: `wanted` of owned points and ghosts, as their owners have it.
+  // Collective. The exchange for some of the points: `wanted` of owned points and ghosts, equal on their owners.
   Halo restricted_to(const Communicator& communicator, const std::vector<std::uint8_t>& wanted) const;
   ~Halo();
   Halo(Halo&&) noexcept;
   Halo& operator=(Halo&&) noexcept;
 
-  // Values of owned points and of ghosts, of any type that can be copied byte by byte. Sends those of the owned points
-  // that other ranks need. One exchange at a time; finish() with the same values waits and fills the ghosts. An image
-  // takes reflect(by, value) of its original's value, or a number as it is.
+  // Exchanges values of owned points and ghosts, of any trivially copyable type. Sends those of the owned points that
+  // other ranks need. One exchange at a time; finish() with the same values waits and fills the ghosts. An image gets
+  // reflect(by, value) of its original's value, or a number unchanged.
   template <class Value>
   void start(const std::vector<Value>& values) const {
     static_assert(std::is_trivially_destructible_v<Value>, "it owns what is elsewhere");
@@ -60,14 +60,14 @@ class Halo {
     finish(values);
   }
 
-  // With another function of that kind; a Vector does not say by itself whether it is a place or a direction.
+  // With another reflection: the type Vector does not show whether it is a position or a direction.
   template <auto reflected, class Value>
   void exchange(std::vector<Value>& values) const {
     start(values);
     finish(values.data(), sizeof(Value), sizeof(Value), by_value<reflected, Value>);
   }
 
-  // The same for present places alone, or for directions in their place.
+  // The same for present positions alone, or for directions stored in their place.
   void start_places(const std::vector<Site>& sites) const { start(place(sites), sizeof(Site), sizeof(Vector)); }
   template <auto reflected = reflect_place>
   void finish_places(std::vector<Site>& sites) const {
@@ -83,7 +83,7 @@ class Halo {
   std::int64_t bytes_sent() const { return bytes_sent_; }  // since the start, by this rank
 
  private:
-  // Makes the value of an image from its original's, in place.
+  // Turns the value of an original into that of its image, in place.
   using Reflect = void (*)(const Reflection& by, void* value);
   template <auto reflected, class Value>
   static void by_value(const Reflection& by, void* value) {
@@ -91,7 +91,7 @@ class Halo {
   }
   static const void* place(const std::vector<Site>& sites) { return sites.empty() ? nullptr : &sites[0].current; }
 
-  // `width` bytes of each point, `stride` bytes from one to the next.
+  // `width` bytes for each point, `stride` bytes from one to the next.
   void start(const void* first, std::size_t stride, std::size_t width) const;
   void finish(void* first, std::size_t stride, std::size_t width, Reflect reflect) const;
 

@@ -8,7 +8,7 @@ namespace strut {
 
 namespace {
 
-// More of them are no pattern that fills space.
+// Upper limit: a larger number is no pattern that fills space.
 constexpr std::size_t most_images = 200;
 
 bool is_same(const Reflection& a, const Reflection& b, double size) {
@@ -21,7 +21,7 @@ Eigen::AlignedBox3d image_of(const Eigen::AlignedBox3d& box, const Reflection& r
   return image;
 }
 
-// From one image to those beside it, as long as they are within reach of the box; the box's own first.
+// The images, each made from a neighboring one, as long as they are within reach of the box; first the box itself.
 std::vector<Reflection> images_of(const std::vector<Mirror>& mirrors, const Eigen::AlignedBox3d& box, double reach) {
   std::vector<Reflection> all{{}};
   const double size = box.sizes().norm() + reach + box.center().norm();

@@ -1,5 +1,5 @@
-// Symmetry planes: bodies that are half of what they stand for. The other half is there as images of the points, ghosts
-// whose values are the reflected ones of their originals.
+// Symmetry planes: bodies of which only a part is computed. The rest consists of mirror images of the points: ghosts
+// whose values are the reflected values of their originals.
 #pragma once
 
 #include <cmath>
@@ -10,19 +10,19 @@
 
 namespace strut {
 
-// A plane by which a body goes on as its mirror image.
+// A plane behind which a body continues as its mirror image.
 struct Mirror {
   Vector on = Vector::Zero(), normal = Vector::UnitX();  // m; of unit length
   int body = 0;                                          // BlockBonds::body
-  int number = 0;                                        // the place in the deck of the condition that it is
-  int bit = 0;                                           // of joints that lie on it (cloud.hpp)
+  int number = 0;                                        // index in the deck of its condition
+  int bit = 0;                                           // bit of `joints` for nodes on it (cloud.hpp)
 
   double distance(const Vector& X) const { return normal.dot(X - on); }  // m, negative behind the normal
-  // Whether a point is on it, to round-off; `size`: its horizon or spacing, m.
+  // True if a point is on it, to round-off; `size`: its horizon or spacing, m.
   bool holds(const Vector& X, double size) const { return std::abs(distance(X)) < 1e-6 * size; }
 };
 
-// What takes a point to its image: a product of reflections, X → turn X + shift.
+// Maps a point to its image: a product of reflections, X → turn X + shift.
 struct Reflection {
   Tensor turn = Tensor::Identity();
   Vector shift = Vector::Zero();  // m
@@ -35,12 +35,12 @@ struct Reflection {
   Reflection after(const Reflection& first) const { return {turn * first.turn, turn * first.shift + shift}; }
 };
 
-// The images of bodies. Image 0 is the body itself.
+// The mirror images of bodies. Image 0 is the body itself.
 class Images {
  public:
   Images() = default;
-  // Those that come within `reach` (m) of their body, which lies in boxes[b] if it is the body of mirrors[b]. Throws
-  // Error where the mirrors of a body make too many: they do not meet at 180°/n.
+  // Makes those within `reach` (m) of their body, whose box is boxes[b] for the body of mirrors[b]. Throws Error if the
+  // mirrors of a body make too many images, because they do not meet at 180°/n.
   Images(const std::vector<Mirror>& mirrors, const std::vector<Eigen::AlignedBox3d>& boxes, double reach);
 
   // Numbers of the images of a body, ascending, without the body itself.
@@ -48,7 +48,7 @@ class Images {
   const Reflection& operator[](int image) const { return all_[image]; }
   int count() const { return static_cast<int>(all_.size()); }
 
-  // Ids of images follow upon those of all points.
+  // The ids of images are larger than those of all points.
   static constexpr int bits = 40;
   static std::int64_t id(std::int64_t original, int image) {
     return original + (static_cast<std::int64_t>(image) << bits);

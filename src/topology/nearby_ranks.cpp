@@ -11,7 +11,7 @@ namespace {
 
 std::vector<Eigen::AlignedBox3d> boxes_of_all(const Eigen::AlignedBox3d& mine, const Communicator& communicator) {
   std::vector<double> corners(6 * communicator.size(), 0);
-  // An empty box, turned inside out, must stay finite to be added up.
+  // An empty box, with its corners swapped, must stay finite to be summed.
   const Vector low = mine.isEmpty() ? Vector::Constant(1) : mine.min();
   const Vector high = mine.isEmpty() ? Vector::Constant(-1) : mine.max();
   double* own = &corners[6 * communicator.rank()];
@@ -26,7 +26,7 @@ std::vector<Eigen::AlignedBox3d> boxes_of_all(const Eigen::AlignedBox3d& mine, c
   return boxes;
 }
 
-// Places follow each other along a curve, or in a lattice: a run of them is in a small box.
+// Successive positions lie along a curve, or in a lattice: a run of them is in a small box.
 constexpr std::size_t run_length = 32;
 
 struct Run {
@@ -45,8 +45,8 @@ std::vector<Run> runs_of(std::span<const Vector> places) {
 
 }  // namespace
 
-// A box that holds places is no farther from another than any of them, to the last bit: the differences of coordinates
-// and the sum of their squares grow alike.
+// A box that contains positions is no farther from another box than any of them, to the last bit, because differences
+// of coordinates and sums of squares are monotonic in floating point.
 NearbyRanks nearby_ranks(std::span<const Eigen::AlignedBox3d> boxes, int this_rank, std::span<const Vector> places,
                          double reach) {
   NearbyRanks found;

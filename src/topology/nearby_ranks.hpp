@@ -1,4 +1,4 @@
-// Points that lie near the points of other ranks: how ghosts are found before anyone knows who they are.
+// Points near the points of other ranks: the candidates for ghosts.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace strut {
 
-// places[k] goes to ranks[k], in the order of ranks, and to each of them in the order of places.
+// places[k] goes to ranks[k], in the order of ranks, and within each rank in the order of positions.
 struct NearbyRanks {
   std::vector<int> ranks, places;
-  std::int64_t tests = 0;  // of a place against a box
+  std::int64_t tests = 0;  // number of tests of a position against a box
 };
 
-// Which places lie within `reach` (m) of which box of another rank than this one; an empty box is near nobody. Of boxes
-// out of reach of all places, or of a run of them, no place is tested.
+// Finds the positions within `reach` (m) of the box of each other rank; an empty box is near none. If a box is out of
+// reach of all positions, or of a run of them, they are not tested one by one.
 NearbyRanks nearby_ranks(std::span<const Eigen::AlignedBox3d> boxes, int this_rank, std::span<const Vector> places,
                          double reach);
 
-// `width` doubles a place. Used through the template below.
+// `width` doubles per position. Used by the template below.
 std::vector<double> doubles_from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
                                               std::span<const double> records, int width, double reach,
                                               const Communicator& communicator);
 
-// Collective. records[k] belongs to the point at places[k]. Sends every other rank the records whose places lie within
-// `reach` (m) of that rank's `box`, and returns what the others sent, in the order of ranks.
-// All ranks learn all boxes: fine up to some thousand ranks.
+// Collective. records[k] belongs to the point at places[k]. Sends every other rank the records of positions within
+// `reach` (m) of that rank's `box`; returns the records received, in the order of ranks. All ranks get all boxes, which
+// is fine up to some thousand ranks.
 template <class Record>
 std::vector<Record> from_nearby_ranks(const Eigen::AlignedBox3d& box, std::span<const Vector> places,
                                       std::span<const Record> records, double reach, const Communicator& communicator) {

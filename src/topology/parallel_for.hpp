@@ -1,4 +1,4 @@
-// Loops over points, by the threads of this rank (base/parallel/threads.hpp). Each index writes what is its own, and
+// Loops over points by the threads of this rank (base/parallel/threads.hpp). Each index writes only its own data, and
 // none calls MPI or a timer.
 #pragma once
 
@@ -12,14 +12,14 @@ namespace strut {
 
 namespace chunks {
 
-// Parts of [begin, end), one a thread: a thread comes to the same indices in each loop, so it has their values in its
-// cache. One part alone where that is not worth another thread's while.
+// Number of parts of [begin, end), one per thread: a thread gets the same indices in each loop, so their values are in
+// its cache. A single part if another thread is not worthwhile.
 inline int count(int begin, int end) {
   constexpr int least = 16;
   return goes_alone() ? 1 : std::min((end - begin) / least, threads());
 }
 
-// work(chunk, its begin, its end).
+// Calls work(chunk, its begin, its end) for each part.
 template <class Work>
 void over(int count, int begin, int end, const Work& work) {
   if (count < 2) return work(0, begin, end);
@@ -29,7 +29,7 @@ void over(int count, int begin, int end, const Work& work) {
 
 }  // namespace chunks
 
-// work(i) for every i in [begin, end), in any order.
+// Calls work(i) for every i in [begin, end), in any order.
 template <class Work>
 void for_each_point(int begin, int end, const Work& work) {
   chunks::over(chunks::count(begin, end), begin, end, [&work](int, int first, int last) {
@@ -56,7 +56,7 @@ double largest(int begin, int end, double floor, const Value& value) {
   return *std::max_element(best.begin(), best.end());
 }
 
-// Σ value(i) over [begin, end), by one thread: a sum has an order.
+// Σ value(i) over [begin, end) by one thread, so that the sum has a fixed order.
 template <class Value>
 double total(int begin, int end, const Value& value) {
   double sum = 0;

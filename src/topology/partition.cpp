@@ -17,7 +17,7 @@ namespace strut {
 
 namespace {
 
-// One point as it travels; behind it the numbers of its shape, then its joints, where there are any.
+// A point, in the form in which it is sent; the numbers of its shape and its joints follow separately.
 struct Parcel {
   std::int64_t id, element_id;
   double position[3];
@@ -48,14 +48,14 @@ void append(PointCloud& cloud, const Parcel& parcel) {
   cloud.sets.push_back(parcel.sets);
 }
 
-// Point i of `from`.
+// Appends point i of `from`.
 void append(PointCloud& cloud, const PointCloud& from, std::size_t i) {
   append(cloud, packed(from, i));
   if (!from.shapes.empty()) cloud.shapes.push_back(from.shapes[i]);
   if (!from.joints.empty()) cloud.joints.push_back(from.joints[i]);
 }
 
-// What Zoltan's callbacks read.
+// Data for Zoltan's callbacks.
 struct Parted {
   const PointCloud& cloud;
   const std::vector<double>& costs;
@@ -111,7 +111,7 @@ Zoltan started_zoltan(const Communicator& communicator, Parted& parted) {
   return zoltan;
 }
 
-// What holds for all points, but no points.
+// The data of a cloud that hold for all points, without points.
 PointCloud emptied(const PointCloud& cloud) {
   PointCloud result;
   result.at = cloud.at;
@@ -121,14 +121,14 @@ PointCloud emptied(const PointCloud& cloud) {
   return result;
 }
 
-// What goes to each rank, one rank after the other; shapes and joints only where there are any.
+// Data for each rank, one rank after the other; shapes and joints only if there are any.
 struct Load {
   std::vector<Parcel> parcels;
   std::vector<ShapeNumbers> shapes;
   std::vector<std::int64_t> joints;
 };
 
-// How many of each go to, or come from, each rank.
+// Numbers of each that go to, or come from, each rank.
 struct Counts {
   std::vector<std::int64_t> parcels, shapes, joints;
 
@@ -140,7 +140,7 @@ struct Counts {
   }
 };
 
-// Not by Zoltan, whose messages end at 2 GB.
+// Moves points without Zoltan, whose messages are limited to 2 GB.
 PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator) {
   std::vector<int> order(cloud.size());
   std::iota(order.begin(), order.end(), 0);
@@ -179,7 +179,7 @@ PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, cons
   return arrived;
 }
 
-// The place of a cell of the 2²¹ cube along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004).
+// The index of a cell of the 2²¹ cube along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004).
 std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   constexpr int bits = 21;
   for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
@@ -202,7 +202,7 @@ std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   return key;
 }
 
-// The median over the points, m.
+// The median of the spacings, m.
 double common_spacing(const PointCloud& cloud) {
   std::vector<double> spacings = cloud.spacings;
   const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
@@ -210,9 +210,9 @@ double common_spacing(const PointCloud& cloud) {
   return *middle;
 }
 
-// The width of the cells of the curve, m: a spacing halved as often as the cube has room for. So the curve goes through
-// all points of a cube of two spacings, of four, … before the next one, and points that follow upon each other are
-// neighbors in all directions.
+// The width of the cells of the curve, m: a spacing halved as often as the cube permits. So the curve visits all
+// points of a cube of two spacings, of four, … before the next one, and consecutive points are neighbors in all
+// directions.
 double cell_width(const PointCloud& cloud, double size) {
   const double smallest = std::max(size, 1e-300) / ((1 << 21) - 2), spacing = common_spacing(cloud);
   return spacing > smallest ? std::ldexp(spacing, -static_cast<int>(std::log2(spacing / smallest))) : smallest;
@@ -223,7 +223,7 @@ std::vector<int> along_curve(const PointCloud& cloud) {
   Eigen::AlignedBox3d box;
   for (const Vector& X : cloud.positions) box.extend(X);
   const double width = cell_width(cloud, box.sizes().maxCoeff());
-  // Half a cell keeps round-off from deciding about the cells of points on a lattice.
+  // Half a cell of offset, so that round-off does not decide the cells of points on a lattice.
   const Vector origin = box.min() - Vector::Constant(0.5 * width);
   std::vector<std::pair<std::uint64_t, std::int64_t>> keys;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -237,7 +237,7 @@ std::vector<int> along_curve(const PointCloud& cloud) {
   return order;
 }
 
-// Zoltan's messages, of some 100 bytes a point, end at 2 GB.
+// Zoltan's messages, some 100 bytes per point, are limited to 2 GB.
 void check_size(const PointCloud& cloud, const Communicator& communicator) {
   constexpr double most = 16e6;
   const double largest = communicator.max(static_cast<double>(cloud.size()));

@@ -1,4 +1,4 @@
-// Who owns which point: geometric partition and the order of points in memory.
+// The partition of points over the ranks, and their order in memory.
 #pragma once
 
 #include "topology/cloud.hpp"
@@ -8,20 +8,20 @@ namespace strut {
 class Communicator;
 
 struct Cuts {
-  std::vector<double> costs;        // of a point of each block, in any unit: ranks get equal sums (empty: all alike)
-  Vector lengths = Vector::Ones();  // how much a length along each axis counts: cuts go across the longest
+  std::vector<double> costs;        // of a point of each block, in any unit: ranks get equal sums (empty: equal costs)
+  Vector lengths = Vector::Ones();  // weight of a length along each axis: cuts are across the longest
 };
 
-// Collective. The rank on which each point is to be, by recursive coordinate bisection (Zoltan's RCB). `costs`: of each
-// point, in any unit.
+// Collective. The rank for each point, by recursive coordinate bisection (Zoltan's RCB). `costs`: of each point, in any
+// unit.
 std::vector<int> bisected(const PointCloud& cloud, const std::vector<double>& costs, const Vector& lengths,
                           const Communicator& communicator);
 
-// Collective. The same points, each on the rank that is named for it, and ordered on each rank along a space-filling
-// curve, so that a family lies close together in memory. The order does not depend on where they were.
+// Collective. Moves each point to the rank given for it, and orders the points of each rank along a space-filling
+// curve, so that a family is close together in memory. The order does not depend on the ranks that they came from.
 PointCloud moved(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator);
 
-// Collective. Both.
+// Collective. Bisects and moves.
 PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts = {});
 
 // The points order[0], order[1], … of `cloud`.

@@ -18,11 +18,11 @@ UnionFind joined_on_this_rank(const Domain& domain) {
 
 }  // namespace
 
-// Each rank joins what it sees, and takes the least id that its ghosts have heard of, until nothing changes.
+// Each rank joins the points that it has, and takes over the least id that its ghosts have, until nothing changes.
 std::vector<std::int64_t> piece_ids(const Domain& domain) {
   const int count = static_cast<int>(domain.sites.size());
   UnionFind sets = joined_on_this_rank(domain);
-  std::vector<std::int64_t> of_point(count), least(count, 0);  // least: of a set, by its first point
+  std::vector<std::int64_t> of_point(count), least(count, 0);  // least: of each set, at its first point
   for (int i = 0; i < count; ++i) of_point[i] = domain.id(i);
   for (bool changed = true; changed;) {
     for (int i = 0; i < count; ++i) least[sets.first(i)] = of_point[sets.first(i)];
@@ -39,7 +39,7 @@ std::vector<std::int64_t> piece_ids(const Domain& domain) {
   return of_point;
 }
 
-// Each is counted by the rank that owns its first point.
+// Each piece is counted by the rank that owns its first point.
 std::int64_t count_pieces(const Domain& domain) {
   const std::vector<std::int64_t> ids = piece_ids(domain);
   std::int64_t first = 0;

@@ -1,4 +1,4 @@
-// The connected pieces of a body: points that bonds lead to from each other.
+// Connected pieces of a body: sets of points that are connected by bonds.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace strut {
 
-// Collective. Of each owned point the least id of the points of its piece.
+// Collective. For each owned point, the least id of the points of its piece.
 std::vector<std::int64_t> piece_ids(const Domain& domain);
 
-// Collective. How many pieces there are.
+// Collective. The number of pieces.
 std::int64_t count_pieces(const Domain& domain);
 
 }  // namespace strut

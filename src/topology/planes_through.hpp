@@ -7,10 +7,10 @@
 
 namespace strut {
 
-// Those of the body of an owned point.
+// The planes of the body of an owned point that run through it.
 std::vector<Mirror> planes_through(const Domain& domain, int i);
 
-// How many images of an owned point are where it is, itself counted: on a symmetry plane 2, each with half of a cell.
+// Number of images at the position of an owned point, itself included: 2 on a symmetry plane, each with half of a cell.
 int coincident_images(const Domain& domain, int i);
 
 }  // namespace strut

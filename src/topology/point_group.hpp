@@ -11,14 +11,14 @@ namespace strut {
 class PointGroup {
  public:
   PointGroup() = default;  // all points
-  // A node set or a block, or `all`. Throws Error where there is neither, or both; `path`: who asks.
+  // A node set or a block, or `all`. Throws Error if there is neither, or both; `path`: deck path for the error.
   PointGroup(const PointCloud& cloud, const std::string& name, const std::string& path);
 
   bool counts(const PointCloud& cloud, int i) const {
     if (set_ >= 0) return (cloud.sets[i] >> set_ & 1) != 0;
     return block_ < 0 || cloud.blocks[i] == block_;
   }
-  std::int64_t points(const PointCloud& cloud) const;  // how many on this rank
+  std::int64_t points(const PointCloud& cloud) const;  // number of points on this rank
 
  private:
   int set_ = -1, block_ = -1;  // both -1: all points

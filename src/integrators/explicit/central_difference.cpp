@@ -18,8 +18,8 @@ namespace strut {
 
 namespace {
 
-// What every point has that shrinks, the slowest, too: a step that took it only while one does would change as soon as
-// a body is struck, and each change costs energy.
+// The damping of every shrinking point, also the slowest. It reduces the step from the start: a step that shrank only
+// while a point does would change as soon as a body is struck, and each change costs energy.
 double linear_viscosity(const Body& body) {
   double most = 0;
   for (const MaterialBlock& block : body.blocks) most = std::max(most, block.material.viscosity.linear);
@@ -53,8 +53,8 @@ CentralDifference::CentralDifference(Body& body, Conditions conditions, contact:
   if (!std::isfinite(first)) return;
   const std::vector<Vector> velocities = predicted_velocities(conditions_, time_, first, body_);
   contact_.foresee({body_.domain, velocities, body_.density}, first);
-  // What touches in the first step, or is so near that it soon may, has its levels and its step from the start: a
-  // change once bodies vibrate gives energy.
+  // Points that touch in the first step, or are so near that they soon may, have their levels and time step from the
+  // start: a change while bodies vibrate would add energy.
   constexpr double soon = 10;  // steps
   std::vector<std::uint8_t> marks = pushed_points(body_, conditions_, contact_, velocities, time_, soon * first);
   contact_.mark_near(marks);
@@ -80,7 +80,7 @@ void CentralDifference::advance_velocity(double final_time) {
   choose_load_times(final_time);
   add_loads();
   const double before = length_.previous_dt(), after = length_.dt(), impulse_time = 0.5 * (before + after);
-  // Initial velocities are those of the initial time: the first impulse is of half a step.
+  // Initial velocities belong to the initial time: the first impulse is that of half a step.
   if (steps() == 0) body_.velocity = predicted_velocities(conditions_, time_, after, body_);
   mid_steps_.before = before / (before + after);
   for_each_point(0, body_.owned(), [&](int i) { kick(i, impulse_time); });
@@ -108,8 +108,8 @@ void CentralDifference::sum_all_forces(bool with_diagnostics) {
   contact_.add_forces(kinematics(), dt(), body_.force_density);
 }
 
-// Between time() and the next: the impulses of the points of higher time-step levels. Times of level m come every
-// dt/2^m.
+// Between time() and the next time: applies the impulses of the points of higher time-step levels. Times of level m
+// come every dt/2^m.
 StepReport CentralDifference::substeps() {
   StepReport first;
   const int levels = multi_stepping_.level_count();
@@ -141,10 +141,10 @@ StepReport CentralDifference::substep(int level, double t) {
   return report;
 }
 
-// ---- Its phases -----------------------------------------------------------------------------------------------------
+// ---- Phases of a step -----------------------------------------------------------------------------------------------
 
-// Loads act once a step, by what they are at time(). With substeps a step is long, and loads that change in it act by
-// their mean over the time of the impulse, at as many times as there are substeps.
+// Loads act once per step, with their values at time(). With substeps a step is long; loads that change in it act with
+// their mean over the time of the impulse, sampled as many times as there are substeps.
 void CentralDifference::choose_load_times(double final_time) {
   const int count = loads_change_ ? 1 << multi_stepping_.level_count() : 1;
   load_times_.assign(1, time_);
@@ -168,7 +168,7 @@ void CentralDifference::kick(int i, double impulse_time) {
   body_.velocity[i] += impulse_time / body_.density[i] * body_.force_density[i];
 }
 
-// Velocities to what conditions allow, and their reactions.
+// Constrains velocities by the conditions and adds up the reactions.
 void CentralDifference::constrain(double impulse_time) {
   energies_.begin_impulse();
   ReactionImpulses impulses = reactions_.none();
@@ -179,7 +179,7 @@ void CentralDifference::constrain(double impulse_time) {
   reactions_.take(impulses, mid_steps_, impulse_time, length_.previous_dt());
 }
 
-// Adds the work of loads and friction, once velocities are final.
+// Adds the work of loads and friction. Call it once velocities are final.
 void CentralDifference::count_work(double impulse_time) {
   ImpulseWork& work = energies_.at_impulse();
   const double part = impulse_time / static_cast<double>(load_times_.size());
@@ -190,8 +190,8 @@ void CentralDifference::count_work(double impulse_time) {
   energies_.end_impulse(mid_steps_);
 }
 
-// Whoever looks at the body takes the mean of both velocities for the one at the time of the forces: the one before
-// becomes that of a step before as long as the one after.
+// Output takes the mean of both velocities for the velocity at the time of the forces. Where the two steps differ, the
+// velocity before is replaced by that of a step as long as the one after.
 void CentralDifference::even_out() {
   for_each_point(0, body_.owned(), [&](int i) {
     Vector& before = body_.previous_velocity[i];
@@ -218,7 +218,7 @@ std::vector<std::uint8_t> CentralDifference::pushed_now() const {
   return pushed_points(body_, conditions_, contact_, body_.velocity, time_, dt());
 }
 
-// The points that limit the step are chosen anew.
+// Chooses the time-step levels anew.
 void CentralDifference::reassign_levels(StepReport& report, const std::vector<std::uint8_t>& pushed) {
   length_.begin_levels();
   if (!control_.subcycling || control_.fixed_dt > 0) return;
@@ -236,8 +236,8 @@ void CentralDifference::restrict_conditions() {
   }
 }
 
-// One reduction a step: whether a point failed anywhere, whether to stop, how far the deformation has gone, and what
-// contact needs.
+// One reduction per step: whether a point failed anywhere, whether to stop, the largest frequency bound and damping,
+// and the numbers of contact.
 void CentralDifference::agree(const StepReport& report) {
   const std::string no_number = conditions_.first_not_finite();
   const std::vector<std::uint8_t>& exposed = multi_stepping_.exposed();
@@ -262,7 +262,7 @@ void CentralDifference::agree(const StepReport& report) {
   if (severity != harmless) tell(report, no_number);
 }
 
-// Collective. Throws, unless the run may go on with it.
+// Collective. Throws Error unless the run may continue with this report; else sets the warning.
 void CentralDifference::tell(const StepReport& report, const std::string& no_number) {
   std::ostringstream text;
   if (!no_number.empty()) {
@@ -275,7 +275,7 @@ void CentralDifference::tell(const StepReport& report, const std::string& no_num
   warning_ = text.str();
 }
 
-// A point that only is turned inside out has a place; others take their neighbors with them.
+// An inverted point still has a position, so a run may continue with it; other failures spread to the neighbors.
 CentralDifference::Severity CentralDifference::severity(const StepReport& report) const {
   if (!report.failure) return harmless;
   return control_.continue_with_inverted && report.failure->kind == Failure::Kind::inverted ? passable : fatal;

@@ -1,4 +1,4 @@
-// Explicit central differences (leap-frog form): velocities live at mid-steps, places and forces at steps.
+// Explicit central differences (leapfrog form): velocities are at mid-steps, positions and forces at steps.
 #pragma once
 
 #include "conditions/conditions.hpp"
@@ -15,18 +15,18 @@ namespace strut {
 
 class CentralDifference {
  public:
-  // Collective. Computes the initial forces and step. Throws Error when the initial state already fails.
+  // Collective. Computes the initial forces and time step. Throws Error if the initial state already fails.
   CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control,
                     double initial_time, std::optional<Fracture> fracture = {});
-  // One that serialize() is to restore before anything else is asked of it: nothing is computed.
+  // For a restart: computes nothing; serialize() must restore the state before any other call.
   struct ToBeRestored {};
   CentralDifference(Body& body, Conditions conditions, contact::Contact contact, StepControl control, ToBeRestored,
                     std::optional<Fracture> fracture = {});
 
   double time() const { return time_; }
   int steps() const { return length_.steps(); }
-  // So often the stress of a point was brought up to date, in the mean of all points, and of the one that was stepped
-  // most often in a step.
+  // Numbers of stress updates: per point, averaged over all points; the largest number of any point in one
+  // step.
   double updates() const { return updates_; }
   int most_substeps() const { return most_substeps_; }
   double dt() const { return length_.dt(); }
@@ -34,37 +34,37 @@ class CentralDifference {
   const contact::Contact& contact() const { return contact_; }
   const Conditions& conditions() const { return conditions_; }
 
-  // One step is advance_velocity(); then, if wanted, a look at the body and its ledger, both at time(); then
+  // One step is advance_velocity(); then, if wanted, output and the ledger, both at time(); then
   // advance_position().
-  // Velocities from the mid-step before time() to the one after: loads, impulses, conditions. The step does not pass
-  // `final_time`.
+  // Updates velocities from the mid-step before time() to the one after, by loads, impulses and conditions. The step
+  // does not pass `final_time`.
   void advance_velocity(double final_time);
-  // Places to time() + dt, by way of the substeps of points of higher time-step levels; then stresses and forces there.
-  // Throws Error on all ranks when a point fails. `with_diagnostics`: the ledger, or a look at the body, will be asked
-  // for at the new time.
+  // Moves points to time() + dt, through the substeps of points of higher time-step levels; then updates stresses and
+  // forces. Throws Error on all ranks if a point fails. `with_diagnostics`: the ledger or output will be needed at the
+  // new time.
   void advance_position(bool with_diagnostics);
 
   Ledger ledger();  // collective; after advance_velocity()
 
-  // From now on, impulses are gathered of as many conditions as the deck has.
+  // From now on, adds up the impulses of this number of conditions of the deck.
   void gather_reactions(int conditions) { reactions_.gather(conditions); }
-  // Collective; after advance_velocity(). Forces at time(): impulses over the times that they stand for.
+  // Collective; after advance_velocity(). Reaction forces at time(), N: impulses divided by their time intervals.
   Reactions reactions() const { return reactions_.reactions(body_.domain.communicator); }
-  // After advance_velocity(): at time().
+  // After advance_velocity(): the impulses at time().
   const StepImpulses& impulses() const { return reactions_.impulses(); }
 
-  // What the last advance_position() went on with, on the ranks that have such a point; the same on all ranks: whether
-  // any has.
+  // Warning of the last advance_position(), on the ranks that own such a point. went_on(): true on all ranks if any
+  // rank has a warning.
   const std::string& warning() const { return warning_; }
   bool went_on() const { return went_on_; }
 
-  // Of any rank: agreed upon by all at the end of advance_position(), the greatest request of all.
+  // The greatest request of any rank, agreed upon at the end of advance_position().
   enum class Request { none, save, stop };
   Request agreed_request() const { return agreed_request_; }
   void request(Request request) { request_ = request; }
 
-  // Collective; between advance_position() and advance_velocity(). All that the next steps depend on, of the body too.
-  // The run that restores it goes on to the last bit on as many ranks.
+  // Collective; between advance_position() and advance_velocity(). Saves or restores all that the next steps depend on,
+  // including the body. A restored run continues identically to the last bit on the same number of ranks.
   void serialize(Archive& archive);
 
  private:
@@ -99,12 +99,12 @@ class CentralDifference {
   StepControl control_;
   StepLength length_;
   MultiTimeStepping multi_stepping_;
-  std::vector<Conditions> conditions_of_level_;  // of the points that move at times between steps
+  std::vector<Conditions> conditions_of_level_;  // for the points that move at times between whole steps
   EnergyAccount energies_;
   ReactionAccount reactions_;
-  MidSteps mid_steps_;                 // about time()
+  MidSteps mid_steps_;                 // around time()
   std::vector<Vector> mirror_forces_;  // N, at time(), of domain.mirrors on this rank's points
-  std::vector<double> load_times_;     // s, at which loads are asked for the impulses at time()
+  std::vector<double> load_times_;     // times of the loads for the impulses at time(), s
   bool loads_change_ = false;
   double time_;
   int most_substeps_ = 1;

@@ -13,18 +13,18 @@ namespace {
 using Field = std::vector<Vector>;
 using StoredField = std::vector<Eigen::Vector3f>;  // single precision is far finer than an estimate's accuracy
 
-// What is left of the image of a vector when its share in the basis is taken out: less than this is round-off.
+// Length of an image vector, relative, after its components in the basis are removed; less than this is round-off.
 constexpr double smallest_rest = 1e-5;
 
-// Σ m a·b over all ranks: M⁻¹K is symmetric in this product. The same on any number of ranks to the last bit, or modes
-// that come in pairs, among which round-off chooses, would tip the estimate, and the step and the run with it.
+// Σ m a·b over all ranks; M⁻¹K is symmetric in this product. It is the same on any number of ranks to the last bit;
+// else round-off would choose among degenerate modes, and change the estimate, the step and the run.
 template <class Other>
 double inner(const Body& body, const Field& a, const Other& b) {
   return reproducible_sum(body.domain.communicator, body.owned(),
                           [&](int i) { return body.mass(i) * a[i].dot(b[i].template cast<double>()); });
 }
 
-// A pseudo-random direction that depends on the draw and the point's id alone, not on who owns it (SplitMix64).
+// A pseudo-random direction that depends only on the draw and the point's id, not on the rank (SplitMix64).
 Vector noise(int draw, std::int64_t id) {
   Vector v;
   for (int c = 0; c < 3; ++c) {
@@ -40,7 +40,7 @@ void set_noise(const Body& body, int draw, Field& field) {
   for (int i = 0; i < body.owned(); ++i) field[i] = noise(draw, body.domain.cloud.ids[i]);
 }
 
-// Mostly the mode found before; enough noise to find one that it has missed, or that has overtaken it.
+// The mode found last, with enough noise to find one that was missed or that has overtaken it.
 void add_noise(const Body& body, const StoredField& mode, Field& field) {
   set_noise(body, 1, field);
   const double scale = 0.1 / std::sqrt(inner(body, field, field));
@@ -51,14 +51,14 @@ void widen(const StoredField& stored, Field& field) {
   for (std::size_t i = 0; i < stored.size(); ++i) field[i] = stored[i].cast<double>();
 }
 
-// The body's sites with a field in the place of y, as the tangent takes it.
+// The body's sites with a field in place of y, as the tangent takes it.
 void set_directions(const StoredField& field, std::vector<Site>& directions) {
   for (std::size_t i = 0; i < field.size(); ++i) {
     directions[i].current.head<3>() = field[i].cast<double>().array();
   }
 }
 
-// The tridiagonal matrix of Lanczos and its basis.
+// The tridiagonal matrix of the Lanczos iteration, and its basis.
 struct Lanczos {
   std::vector<double> diagonal, off_diagonal;
   std::vector<StoredField> basis;
@@ -71,7 +71,7 @@ StoredField stored(const Field& field, double scale) {
   return result;
 }
 
-// From a start in `image`, which is spoiled.
+// Iterates from the vector in `image`, which is overwritten.
 Lanczos iterate(Body& body, Field& image, int iterations) {
   std::vector<Site> directions = body.domain.sites;
   Lanczos lanczos;
@@ -82,7 +82,7 @@ Lanczos iterate(Body& body, Field& image, int iterations) {
     apply_tangent(body, body.domain.halo, directions, nullptr, body.force_states, image);
     for (int i = 0; i < body.owned(); ++i) image[i] /= body.density[i];
     lanczos.diagonal.push_back(inner(body, image, lanczos.basis.back()));
-    // Against the whole basis: it is short, and ghosts of converged modes would spoil the residual.
+    // Orthogonalizes against the whole basis: it is short, and copies of converged modes would spoil the residual.
     for (const StoredField& earlier : lanczos.basis) {
       const double overlap = inner(body, image, earlier);
       for (int i = 0; i < body.owned(); ++i) image[i] -= overlap * earlier[i].cast<double>();
@@ -106,7 +106,7 @@ StoredField combine(const std::vector<StoredField>& basis, const Eigen::VectorXd
 
 }  // namespace
 
-// Basis, image and directions.
+// Memory of basis, image and directions.
 double CriticalTimeStep::bytes(const Body& body) {
   const double fields = basis_size * sizeof(Eigen::Vector3f) + sizeof(Vector);
   return fields * body.owned() + static_cast<double>(sizeof(Site) * body.domain.sites.size());
@@ -122,8 +122,8 @@ double CriticalTimeStep::estimate(Body& body) {
   static Teuchos::Time& timer = phase("Critical time step");
   const Timed timed(timer);
   Field image(body.owned());
-  // The highest mode may be of a few points, and noise all but orthogonal to it: then a lower one converges. That noise
-  // of another draw is, too, is a chance of a chance.
+  // The highest mode may be confined to few points and nearly orthogonal to the noise; then a lower mode converges. It
+  // is very unlikely that the noise of a second draw is orthogonal to it, too.
   const int least_cycles = found_ ? 1 : 2;
   double bound = 0;
   for (int cycle = 0; cycle < most_cycles; ++cycle) {
@@ -132,7 +132,7 @@ double CriticalTimeStep::estimate(Body& body) {
     } else {
       found_ ? add_noise(body, mode_, image) : set_noise(body, 0, image);
     }
-    mode_ = StoredField();  // makes room for the basis
+    mode_ = StoredField();  // frees memory for the basis
     const Lanczos lanczos = iterate(body, image, basis_size);
     const int n = static_cast<int>(lanczos.diagonal.size());
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;

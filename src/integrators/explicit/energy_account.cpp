@@ -27,8 +27,8 @@ Ledger EnergyAccount::ledger(const Body& body, const Conditions& conditions, con
     sums[7] += 0.5 * body.mass(i) * after.squaredNorm();
   }
   body.domain.communicator.sum(sums);
-  // The conserved energy is a difference: of a body at rest that has just been struck nothing is left but its
-  // round-off.
+  // The conserved energy is a difference of squares: for a body at rest that has just been struck, only their round-off
+  // is left.
   constexpr double round_off_of_squares = 1e-9;
   largest_ = std::max(largest_, round_off_of_squares * sums[7]);
   const Energies stored = stored_energies(body);

@@ -1,4 +1,4 @@
-// The work of all that acts on a body in explicit steps, and with the energies that the body holds the ledger.
+// The work of all external forces on a body in explicit steps; with the stored energies it gives the ledger.
 #pragma once
 
 #include "base/archive.hpp"
@@ -11,27 +11,27 @@ namespace strut {
 
 class EnergyAccount {
  public:
-  // Collective. Less energy than round-off makes counts as that much.
+  // Collective. Sets the smallest scale of the balance error: the energy that round-off makes.
   void start(const Body& body) { largest_ = energy_of_round_off(body); }
 
-  // The impulses at a time: their work is added to at_impulse(), then divided among the steps before and after.
+  // Impulses at one time: their work is added to at_impulse(), then divided between the steps before and after.
   void begin_impulse();
   ImpulseWork& at_impulse() { return impulse_; }
   void end_impulse(const MidSteps& steps) { impulse_ = impulse_.split(steps); }
-  // Adds the work of impulses between whole steps.
+  // Adds the work of impulses in substeps.
   void add(const ImpulseWork& work) { done_ = done_ + work.before + work.after; }
 
-  // Collective. At the time of the impulses; `dt`: of the step after it.
+  // Collective; at the time of the impulses. `dt`: length of the step after it, s.
   Ledger ledger(const Body& body, const Conditions& conditions, const contact::Contact& contact, const MidSteps& steps,
                 double time, double dt);
-  // Counts the energy that the body holds at the start as put in.
+  // Counts the energy that the body has at the start as external work.
   void begin_with(const Ledger& ledger) { initial_ += ledger.gained; }
 
   void serialize(Archive& archive);
 
  private:
-  Work done_;            // J, up to the mid-step before the time
-  ImpulseWork impulse_;  // J, of the impulses at the time
+  Work done_;            // J, up to the mid-step before the present time
+  ImpulseWork impulse_;  // J, of the impulses at the present time
   double initial_ = 0, largest_ = 0;
 };
 

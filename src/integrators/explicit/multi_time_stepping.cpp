@@ -17,7 +17,7 @@ void scale(QuadraticState& state, double factor) {
   for (std::size_t n = 0; n < sizeof(QuadraticState) / sizeof(double); ++n) numbers[n] *= factor;
 }
 
-// Half of the impulse belongs to the interval before, half to the one after.
+// Half of the impulse at a change of levels belongs to the interval before, half to the one after.
 void spread_impulses(Body& body, const std::vector<std::uint8_t>& before) {
   for_each_point(0, body.owned(), [&](int i) {
     const double old_share = before.empty() ? 1 : power_of_two(-before[i]), share = body.share(i);
@@ -37,7 +37,7 @@ void exchange_states(Halo& halo, std::vector<State>& states) {
   if (!states.empty()) halo.exchange(states);
 }
 
-// What the far ends of the bonds of a cluster give to the forces on its points.
+// The force of the far ends of the bonds on the points of a cluster.
 template <class Weight>
 small::Vector3<small::Lanes> far_force(const Body& body, const Cluster& cluster, Weight weight) {
   const ForceStates& states = body.force_states;
@@ -72,13 +72,13 @@ double MultiTimeStepping::choose(Body& body, double safety_factor, const Present
   return fastest;
 }
 
-// What the time-step levels of the points mean for their steps.
+// Sets up the substeps from the time-step levels of the points.
 void MultiTimeStepping::make_levels(Body& body) {
   levels_.clear();
   motion_levels_.clear();
   exposed_.clear();
   updates_ = 1;
-  double agreed[] = {0};  // the most time-step levels of any point
+  double agreed[] = {0};  // the highest time-step level of any point
   for (const std::uint8_t h : body.time_levels) agreed[0] = std::max<double>(agreed[0], h);
   body.domain.communicator.max(agreed);
   const int count = static_cast<int>(agreed[0]);
@@ -171,7 +171,7 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
     }
   }
   for (const int i : now.moved) {
-    // Its own state acts at other times, or is none: what is left is the force of the last whole step, with its loads.
+    // Its own state acts at other times, or is zero; force_density still holds the last whole step with its loads.
     if (body.time_levels[i] < level || moves_rigidly(body, i)) body.force_density[i].setZero();
   }
   for_each_bond_stabilization([&]<class S>(const S&, std::size_t kind) { add_residuals<S>(kind, body, now, level); });
@@ -193,7 +193,7 @@ StepReport MultiTimeStepping::forces(Body& body, int level, double dt) {
   return report;
 }
 
-// The springs on both ends' gradients, of the bonds between points that are due.
+// Adds the springs on both ends' gradients, for bonds between points that are due.
 template <class S>
 void MultiTimeStepping::add_residuals(std::size_t kind, Body& body, Level& now, int level) const {
   ForceStates& states = body.force_states;

@@ -1,8 +1,8 @@
 // Multi-time-stepping: points whose stress limits the time step take smaller steps of their own.
 //
-// The stress of a point moves its family by impulses: of most points one a step Δt, of a stiff one one every Δt/2^h, to
-// which its stress follows the motion (impulse multiple time stepping, r-RESPA: Tuckerman, Berne & Martyna 1992). So
-// momenta are conserved as before. Contact and loads act once a step.
+// The stress of a point acts on its family by impulses: one per step Δt for most points; for a stiff point one every
+// Δt/2^h, for which its stress follows the motion (impulse multiple time stepping, r-RESPA: Tuckerman, Berne & Martyna
+// 1992). So momenta are conserved as without substeps. Contact and loads act once per step.
 #pragma once
 
 #include <utility>
@@ -17,47 +17,47 @@ namespace strut {
 
 class MultiTimeStepping {
  public:
-  // Collective. Chooses the time-step level of each point (body.time_levels), by its frequency bound:
-  // what costs least; none where that saves little. The forces of the points whose time-step levels change are scaled
-  // accordingly, so that their impulse ends the last interval and begins the next: between advance_stress and
-  // sum_forces. Returns the largest frequency bound of a point of this rank, as a part of its step. `safety_factor`:
-  // the step will be such a part of the stable one. The present step stays as it is, unless another is much better.
+  // Collective. Chooses the time-step level of each point (body.time_levels) from its frequency bound, for the least
+  // cost; none if that saves little. Rescales the forces of points whose level changes, so that their impulse ends the
+  // last interval and begins the next: call it between advance_stress and sum_forces. Returns the largest product of
+  // frequency bound and fraction of the step of any point on this rank, 1/s. `safety_factor`: step over stable step.
+  // The present step stays, unless another is much better.
   double choose(Body& body, double safety_factor, const PresentStep& present, const ActedOn& acted_on);
 
-  // Whether an owned point is too near to such of several substeps for contact to push it. Empty: no point is.
+  // Marks owned points too close to points with several substeps for contact to push them. Empty: no point is.
   const std::vector<std::uint8_t>& exposed() const { return exposed_; }
 
-  // Of the last choice: whether the step is to be chosen anew, and for which frequency bound.
+  // Result of the last choice: whether the step must be chosen anew, and for which frequency bound.
   bool anew() const { return anew_; }
   double bound() const { return bound_; }
 
   // A step has 2^level_count() substeps. Times of level m come every Δt/2^m.
   int level_count() const { return static_cast<int>(levels_.size()); }
 
-  // In a step, the mean of all points of all ranks.
+  // In a step, the mean over all points of all ranks.
   double updates_a_point() const { return updates_; }
 
-  // Of owned points: the time-step levels of their motion, as that of the stiffest point that moves them.
-  // Empty: of none.
+  // Time-step levels of the motion of the owned points: that of the stiffest point that moves each one. Empty: no
+  // substeps.
   const std::vector<std::uint8_t>& motion_levels() const { return motion_levels_; }
 
-  // Owned points that move at times of this level (1 … level_count()), in ascending order.
+  // Owned points that move at times of this level (1 … level_count()), ascending.
   const std::vector<int>& moved(int level) const { return levels_[level - 1].moved; }
 
-  // Collective. The choice, after serialize() of the body: it leaves the archive at the group of all owned points.
+  // Collective. Saves or restores the choice, after serialize() of the body left the archive at all owned points.
   void serialize(Archive& archive, Body& body);
 
-  // Collective. At a time of this level, `dt` after the last: the stresses of the points that are due, and in
-  // body.force_density of the moved points the force of these stresses, for an impulse of length dt.
+  // Collective. At a time of this level, `dt` (s) after the last: updates the stresses of the points that are due, and
+  // sets body.force_density of the moved points to the force of these stresses, for an impulse over dt.
   StepReport forces(Body& body, int level, double dt);
 
  private:
-  // What happens at times of one level.
+  // The points and lists for the times of one level.
   struct Level {
-    std::vector<SelectedPoints> stressed;  // of each block: those that are due
+    std::vector<SelectedPoints> stressed;  // in each block: the points that are due
     std::vector<int> moved;
-    ClusterLists sources;  // of the moved points: the stressed points of their families
-    // Of points on lattices: Σ ω V ξ by differences of places, as the far ends of lists have it, less that by whole
+    ClusterLists sources;  // of the moved points: the stressed points in their families
+    // For points on lattices: Σ ω V ξ by differences of positions, as in the lists of far ends, minus that by whole
     // cells (Body::first_moment).
     std::vector<std::pair<int, Vector>> moment_errors;
     Halo halo;

@@ -4,10 +4,10 @@
 
 namespace strut {
 
-// A tool meets points between steps, too, by these velocities before the levels of the next step but one are there.
+// A tool meets points between steps, too, by these velocities, before the levels of the next step but one are chosen.
 std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                                         std::span<const Vector> velocities, double t, double dt) {
-  // So many spacings besides, for what changes meanwhile; a gap of a round number is not left to round-off.
+  // Margin for changes meanwhile, in steps and spacings; a gap of a round number must not depend on round-off.
   constexpr double steps = 2, near = 0.05 + 1e-6;
   std::vector<std::uint8_t> marks(body.owned(), 0);
   contact.mark_touching(marks);

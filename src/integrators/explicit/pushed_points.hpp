@@ -1,4 +1,4 @@
-// Which points something outside the stress of the body acts on: these have limits to their time-step levels.
+// Points on which contact, tools or damping act: these limit their time-step levels.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace strut {
 
-// Whether contact, or a tool with a mass, acts on an owned point at time t (s) or is about to: once a step of dt (s),
-// on both alike. Empty where there is neither.
+// Marks owned points on which contact, or a tool with a mass, acts at time t (s) or is about to, once per step of dt
+// (s). Empty if the scene has neither.
 std::vector<std::uint8_t> pushed_points(const Body& body, const Conditions& conditions, const contact::Contact& contact,
                                         std::span<const Vector> velocities, double t, double dt);
 
-// Points whose motion a condition damps. Empty where none does.
+// Marks points whose motion a condition damps. Empty if none does.
 std::vector<std::uint8_t> damped_points(const Body& body, const Conditions& conditions);
 
-bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others);  // empty: of none
+bool any_in_both(const std::vector<std::uint8_t>& some, const std::vector<std::uint8_t>& others);  // empty: no marks
 
 }  // namespace strut

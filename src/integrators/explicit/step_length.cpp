@@ -9,20 +9,20 @@ namespace strut {
 namespace {
 
 // The estimate is renewed when the largest frequency bound has grown by this factor since the last one (until then the
-// step shrinks in proportion), and after so many steps in any case, when it may also grow again.
+// step shrinks in proportion), and after this number of steps in any case, when it may also grow.
 constexpr double renewal_growth = 1.1;
 constexpr int renewal_steps = 1000;
 
-constexpr double round_off = 1e-6;  // of a step: times are sums of up to millions of steps
+constexpr double round_off = 1e-6;  // of a step: times are sums over up to millions of steps
 
-// The step grows by this factor at least, when an estimate of the critical time step has been renewed, and to what
-// would have done since the one before.
+// When an estimate of the critical time step has been renewed, the step grows only if it can by this factor, and only
+// to the least value that was allowed since the previous estimate.
 constexpr double least_growth = 4.0 / 3;
 
 }  // namespace
 
-// ω² of a sum of operators is at most the sum of theirs. A damping by the velocities of the mid-step before takes as
-// much of the step as the formula of StepReport says.
+// ω² of a sum of operators is at most the sum of theirs. Damping by the velocities of the mid-step before reduces the
+// step by the formula of StepReport.
 double StepLength::critical(double contact_stiffness) const {
   const double alone = critical_at_estimate_ * std::min(1.0, bound_at_estimate_ / frequency_bound_);
   const double undamped = alone / std::sqrt(1 + 0.25 * alone * alone * contact_stiffness);
@@ -34,7 +34,7 @@ double StepLength::wanted(double contact_stiffness) const {
 }
 
 void StepLength::estimate(Body& body) {
-  // The estimate takes the force states for its own; a break in the next step asks what they were.
+  // The estimate overwrites the force states; a break in the next step needs them.
   std::optional<ForceStates> kept;
   if (body.may_break()) kept = body.force_states;
   critical_at_estimate_ = critical_time_step_.estimate(body);
@@ -47,21 +47,21 @@ void StepLength::estimate(Body& body) {
 void StepLength::choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body) {
   previous_dt_ = dt_;
   const double left = final_time - time;
-  if (left <= 0 && steps_ > 0) {  // no step follows: velocities at the end are those about one as long as usual
+  if (left <= 0 && steps_ > 0) {  // no step follows: the final velocities are those around a step of the usual length
     if (control_.fixed_dt > 0) dt_ = control_.fixed_dt;
     return;
   }
-  // A fixed step is watched, too, more closely where it may have become too large: a warning should be true.
+  // A fixed step is checked, too, more closely if it may have become too large, so that the warning is true.
   const double growth = control_.fixed_dt > critical(contact_stiffness) ? 1.01 : renewal_growth;
   const bool estimated = estimate_due_;
   if (estimated) estimate(body);
   levels_due_ =
       frequency_bound_ > growth * bound_at_estimate_ || steps_since_estimate_ >= renewal_steps || exposed_are_pushed;
   if (control_.fixed_dt > 0) {
-    // The rest that round-off leaves after the last full step is no step of its own.
+    // The remainder that round-off leaves after the last full step is not a step of its own.
     dt_ = left < control_.fixed_dt * (1 + round_off) ? left : control_.fixed_dt;
   } else {
-    // Equal steps to the end: a jump in dt at the last one would cost energy.
+    // Equal steps to the end, because a jump of dt at the last step would cost energy.
     const double longest = longest_step(contact_stiffness, body.may_break(), estimated);
     dt_ = left / std::ceil(left / longest * (1 - round_off));
     if (levels_anew_) step_of_bound_ = dt_;
@@ -70,15 +70,15 @@ void StepLength::choose(double time, double final_time, double contact_stiffness
   next_time_ = dt_ == left ? final_time : time + dt_;
 }
 
-// As a part of the critical time step. Where bonds break its bound goes up and down with the families of a few points.
+// As a fraction of the critical time step. While bonds break, its bound fluctuates with the families of a few points.
 double StepLength::longest_stay(bool bonds_may_break) const {
   constexpr double most = 0.95, slack = 1.05;
   const double safety = control_.safety_factor, limit = std::max(most, safety);
   return bonds_may_break ? limit : std::min(slack * safety, limit);
 }
 
-// Changes that follow a vibration would feed it: the step stays as it is while it is stable, and until it could be much
-// longer.
+// Changes that follow a vibration would feed energy to it: the step stays as it is while it is stable, and until it
+// could be much longer.
 double StepLength::longest_step(double contact_stiffness, bool bonds_may_break, bool estimated) {
   const double now = critical(contact_stiffness), chosen = control_.safety_factor * now;
   const double since = std::min(chosen, least_chosen_);

@@ -1,5 +1,5 @@
-// The length of explicit steps: a part of the critical time step, which is estimated now and then and watched in
-// between. It stays as it is while it is stable: each change gives or takes energy.
+// The length of explicit steps: a fraction of the critical time step, which is estimated from time to time and bounded
+// in between. It is kept while it is stable, because each change adds or removes energy.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ namespace strut {
 struct StepControl {
   double fixed_dt = 0;  // s; 0: from the critical time step
   double safety_factor = 0.8;
-  bool subcycling = true;               // of the points that limit the step; none with a fixed one
+  bool subcycling = true;               // of the points that limit the step; not with a fixed step
   bool continue_with_inverted = false;  // inverted points carry no stress but keep their mass while det F ≤ 0
 };
 
@@ -22,26 +22,26 @@ class StepLength {
  public:
   explicit StepLength(const StepControl& control) : control_(control) {}
 
-  double dt() const { return dt_; }                    // s, of the step that is under way or comes next
-  double previous_dt() const { return previous_dt_; }  // s, of the one before; 0 before the first
+  double dt() const { return dt_; }                    // s, of the present or next step
+  double previous_dt() const { return previous_dt_; }  // s, of the previous step; 0 before the first
   double next_time() const { return next_time_; }      // s, at the end of that step
 
-  // 2/ω_max now, s: the last estimate, less where the deformation has gone on and where points touch, by contact of
-  // this stiffness (1/s²).
+  // 2/ω_max now, s: the last estimate, reduced by the deformation since then and by contact of this stiffness
+  // (1/s²).
   double critical(double contact_stiffness) const;
-  // As long as the control wants, s.
+  // The length of step that the control asks for, s.
   double wanted(double contact_stiffness) const;
 
-  // Collective. The critical time step anew.
+  // Collective. Estimates the critical time step anew.
   void estimate(Body& body);
-  // Collective. For the step after `time`, which does not pass `final_time`. `exposed_are_pushed`: contact acts on
-  // points the levels of which do not allow for it.
+  // Collective. Chooses the step after `time`, which does not pass `final_time`. `exposed_are_pushed`: contact acts on
+  // points whose levels do not allow for it.
   void choose(double time, double final_time, double contact_stiffness, bool exposed_are_pushed, Body& body);
   // Takes the largest frequency bound (1/s) and damping of a point on any rank at the end of a step.
   void take(double frequency_bound, double damping) { frequency_bound_ = frequency_bound, damping_ = damping; }
   void count_step() { ++steps_, ++steps_since_estimate_; }
 
-  // Time-step levels: whether they are to be chosen anew; what they must know of the present step; what was chosen.
+  // Time-step levels: whether to choose them anew; the data of the present step that they need; the result.
   bool levels_due() const { return levels_due_; }
   PresentStep present(bool bonds_may_break) const;
   void begin_levels() { levels_due_ = false, estimate_due_ = true; }
@@ -58,8 +58,8 @@ class StepLength {
   CriticalTimeStep critical_time_step_;
   double dt_ = 0, previous_dt_ = 0, next_time_ = 0;                // s
   double least_chosen_ = std::numeric_limits<double>::infinity();  // s, since the last estimate
-  double bound_of_step_ = 0;                                       // 1/s, the bound that levels were chosen for, and
-  double step_of_bound_ = 0;                                       // s, the step that this led to
+  double bound_of_step_ = 0;                                       // 1/s, the bound for which levels were chosen, and
+  double step_of_bound_ = 0;                                       // s, the step that resulted
   double critical_at_estimate_ = 0, frequency_bound_ = 0, bound_at_estimate_ = 0, damping_ = 0;
   int steps_ = 0, steps_since_estimate_ = 0;
   bool levels_due_ = true, estimate_due_ = true, levels_anew_ = false;

@@ -32,29 +32,29 @@ namespace {
 
 constexpr int max_level = 6;
 
-// The fastest motion of a point whose stress is stepped by Δt/2^h turns by no more than twice this angle in its step,
-// and by four times in the step of the level below: less than half a period (docs/theory.md, Multi-time-stepping).
+// The fastest motion of a point whose stress is updated every Δt/2^h turns by at most twice this angle (rad) in its
+// step, and four times in the step of the level below: less than half a period (docs/theory.md, Multi-time-stepping).
 constexpr double most_turn = 0.6;
 
-// What points cost is not timed in a run, which would then be another on another machine or the second time; these
+// Costs are not timed in the run, because the run would then differ on another machine or when repeated; these
 // constants are measured (docs/decisions.md, What subcycling costs).
 //
-// A substep of a point, with its share of the points that it moves, beside a whole step of that point: more than is
-// measured on one rank, for each substep has exchanges of its own.
+// Cost of a substep of a point, with its part of the points that it moves, relative to a whole step of that point: more
+// than measured on one rank, because each substep has exchanges of its own.
 constexpr double cost_of_substep = 1.5;
 
-constexpr double worth_while = 0.75;    // of the cost of a run without
-constexpr double worth_a_change = 0.9;  // of the cost of a run whose step stays as it is
+constexpr double worth_while = 0.75;    // relative to the cost of a run without levels
+constexpr double worth_a_change = 0.9;  // relative to the cost of a run that keeps its step
 
-// A point's level falls when its frequency bound could be so much larger on the lower one: each change takes or gives
-// energy, and bounds go up and down with vibrations.
+// A point's level falls only if the lower one would allow a frequency bound this much larger: each change adds or
+// removes energy, and bounds fluctuate with vibrations.
 constexpr double slack = 1.25;
 
-// Relative: frequency bounds of points that are the same but for their places differ by so much at the most, and have
-// the same level.
+// Relative: frequency bounds of points that are equal except for their positions differ by at most this, and get the
+// same level.
 constexpr double round_off = 1e-9;
 
-// The cost of steps by frequency bound, in classes that are an eighth of an octave wide.
+// The cost of steps by frequency bound, in classes of an eighth of an octave.
 class FrequencyHistogram {
  public:
   static constexpr int classes_per_octave = 8, octaves = 32, classes = classes_per_octave * octaves;
@@ -63,7 +63,7 @@ class FrequencyHistogram {
   void add(double frequency_bound, double cost) { costs_[class_of(frequency_bound)] += cost; }
   void agree(const Communicator& communicator) { communicator.sum(costs_); }
 
-  // Frequency bounds of points of level 0 are below this, where the run costs least.
+  // The frequency bound up to which points have level 0 at the least cost.
   double best() const {
     int best = 0;
     const int last = static_cast<int>(classes_per_octave * (max_level + std::log2(margin_)));
@@ -79,21 +79,21 @@ class FrequencyHistogram {
     const double c = std::floor(classes_per_octave * std::log2((1 + round_off) * fastest_ / frequency_bound));
     return c < classes ? static_cast<int>(std::max(c, 0.0)) : classes - 1;  // NaN, too: such a point has failed
   }
-  // The cost of the same time, with steps for points of the frequency bound bound(c) and below.
+  // The cost of a given simulated time, if the step fits points of the frequency bound bound(c) and below.
   double cost(int c) const;
 
   double fastest_, margin_;
   std::array<double, classes> costs_{};  // of whole steps of all points in the class
 };
 
-// A point of a higher level is at most `margin` times as fast in its own steps as one of level 0.
+// A point of a higher level may be at most `margin` times as fast in its own step as one of level 0.
 int level_of(double frequency_bound, double bound, double margin) {
   const double least = (1 - round_off) * frequency_bound;
   if (!(least > bound)) return 0;
   return std::clamp(static_cast<int>(std::ceil(std::log2(least / (margin * bound)))), 1, max_level);
 }
 
-// The cost of a step of a point, in that of one of level 0.
+// The cost of a step of a point, relative to one of level 0.
 double cost_of(int levels) { return 1 + cost_of_substep * ((1 << levels) - 1); }
 
 double FrequencyHistogram::cost(int c) const {
@@ -104,7 +104,7 @@ double FrequencyHistogram::cost(int c) const {
   return sum * bound(c);
 }
 
-// Whether the points of a block may have smaller steps: not in a body with ordinary points, whose forces act once a
+// True if points of a block may have substeps: not in a body with ordinary points, whose forces act once per
 // step.
 bool may_be_subcycled(const Body& body, std::size_t block) {
   if (body.may_break(block)) return false;  // bonds break between whole steps
@@ -114,7 +114,7 @@ bool may_be_subcycled(const Body& body, std::size_t block) {
   return true;
 }
 
-// The cost of a whole step of a point, also while it is in rigid motion: it will not stay so.
+// The cost of a whole step of a point, also in rigid motion, which will not last.
 double cost_of_point(const Body& body, int i) { return body.block_of(i).is_quadratic() ? cost_of_quadratic : 1; }
 
 // Calls visit(i, whether it may have a higher level) for the owned points.
@@ -126,8 +126,8 @@ void over_points(const Body& body, Visit&& visit) {
   }
 }
 
-// The frequency bounds of owned points over all ranks: the largest, and the largest of those that may not have a higher
-// level.
+// Frequency bounds of the owned points; over all ranks, the largest, and the largest of points that may not have a
+// higher level.
 struct FrequencyBounds {
   std::vector<double> values;
   double largest = 0, floor = 0;
@@ -145,8 +145,8 @@ FrequencyBounds frequency_bounds_of(const Body& body) {
   return bounds;
 }
 
-// In the family of a point of level h all are of level h − 1 at least (docs/theory.md, Multi-time-stepping). Few points
-// are of level 2 and more: where no ghost is, each of them raises its neighbors, and other families are not looked at.
+// All points in the family of a point of level h have at least level h − 1 (docs/theory.md, Multi-time-stepping). Few
+// points have level 2 or more: without ghosts, each of them raises its neighbors, and other families are not visited.
 void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   const int owned = body.owned();
   double highest[] = {0};
@@ -169,9 +169,9 @@ void smooth_levels(Body& body, std::vector<std::uint8_t>& levels) {
   }
 }
 
-// In each body the points that move damped ones have one bound, so that they are of one level: between the impulses of
-// coarser steps a damper lets the velocity decay, and an impulse does the work of the mean of the velocities before and
-// after it, which is then more than that over its step. The bound is that of all points whose level reaches there.
+// In each body, all points that move damped points get one bound, and so one level: between the impulses of coarser
+// steps a damper reduces the velocity, and an impulse does work by the mean velocity before and after it, which then
+// exceeds the mean over its step. The bound is the largest of the points whose level reaches there.
 void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBounds& bounds) {
   std::vector<std::uint8_t> reaching = damped;
   spread(body, 1, damped);
@@ -192,7 +192,7 @@ void even_out(const Body& body, std::vector<std::uint8_t> damped, FrequencyBound
   bounds.floor = body.domain.communicator.max(bounds.floor);
 }
 
-// The frequency bound of level 0 that leaves the marked points level 1.
+// The frequency bound of level 0 for which the marked points have level 1.
 double floor_of_pushed(const Body& body, const FrequencyBounds& bounds, double margin,
                        const std::vector<std::uint8_t>& marks) {
   double most = 0;
@@ -206,7 +206,7 @@ double work_of_step(const Body& body, const std::vector<std::uint8_t>& levels) {
   return body.domain.communicator.sum(work);
 }
 
-// `before`: the levels so far, if any, that points keep which nothing pushes.
+// `before`: the present levels, if any, which points keep unless something pushes them.
 TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double bound, double margin,
                           const std::vector<std::uint8_t>& before, const std::vector<std::uint8_t>& pushed) {
   std::vector<std::uint8_t> levels(body.owned(), 0);
@@ -222,7 +222,7 @@ TimeStepLevels levels_for(Body& body, const FrequencyBounds& bounds, double boun
   return {std::move(levels), bound, work};
 }
 
-// The levels that cost least; points between stiff ones count, too.
+// The levels of least cost, including the levels of points near stiff ones.
 TimeStepLevels cheapest_levels(Body& body, const FrequencyBounds& bounds, double margin) {
   FrequencyHistogram histogram(bounds.largest, margin);
   for (int i = 0; i < body.owned(); ++i) histogram.add(bounds.values[i], cost_of_point(body, i));

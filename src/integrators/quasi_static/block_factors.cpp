@@ -10,7 +10,7 @@ namespace {
 
 using Pattern = Eigen::SparseMatrix<double>;
 
-// A block at work: its columns in registers, of four numbers each.
+// A block in registers, with its columns padded to four numbers.
 struct Padded {
   Eigen::Array4d column[3] = {Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
 
@@ -23,12 +23,12 @@ struct Padded {
     for (int c = 0; c < 3; ++c) all.col(c) = column[c].head<3>().matrix();
     return all;
   }
-  void take_away(const Padded& a, const Eigen::Matrix3d& b) {  // the product
+  void take_away(const Padded& a, const Eigen::Matrix3d& b) {  // subtracts the product
     for (int c = 0; c < 3; ++c) column[c] -= a.column[0] * b(0, c) + a.column[1] * b(1, c) + a.column[2] * b(2, c);
   }
 };
 
-// Of the row at work L D, and transposed of the column D U: so both are multiplied from the right.
+// The present row of L D, and the present column of D U transposed, so that both are multiplied from the right.
 struct AtWork {
   Padded lower, upper;
 };
@@ -49,7 +49,7 @@ BlockFactors::BlockFactors(const Pattern& pattern) {
   }
 }
 
-// The elimination tree, from the columns of each row. Returns how many rows each column of L fills below its diagonal.
+// Finds the elimination tree from the columns of each row. Returns the fill of each column of L below the diagonal.
 std::vector<int> BlockFactors::find_parents() {
   const int size = static_cast<int>(start_.size()) - 1;
   parent_.assign(size, -1);
@@ -81,7 +81,7 @@ void BlockFactors::add(int row, int column, const Eigen::Matrix3d& block) {
   (row >= column ? at.lower : at.upper) += block;
 }
 
-// The columns of row k of L, each before its parent: the ways of the entries of the matrix up the elimination tree.
+// Columns of row k of L, each before its parent: the paths of the row's entries up the elimination tree.
 std::vector<int> BlockFactors::row_of(int k, std::vector<int>& seen_by) const {
   std::vector<int> reversed, way;
   seen_by[k] = k;

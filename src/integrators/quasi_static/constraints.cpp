@@ -4,7 +4,7 @@ namespace strut {
 
 namespace {
 
-// Of the length of a direction: what others at its point hold already leaves no more than this of it.
+// Part of the length of a direction that is left by the other held directions of its point; less means dependent.
 constexpr double smallest_part = 1e-8;
 
 }  // namespace
@@ -14,7 +14,7 @@ Constraints::Constraints(const std::vector<HeldDirection>& held, const Body& bod
   for (const HeldDirection& one : held) hold(one);
 }
 
-// With y·d = target, in the directions that are still free: y·(F d) = target − (d − F d)·y, and the rest of d is held.
+// Adds y·d = target in the directions still free: y·(F d) = target − (d − F d)·y; the rest of d is held already.
 void Constraints::hold(const HeldDirection& held) {
   Tensor& free_projection = free_projection_[held.point];
   const Vector free = free_projection * held.direction;

@@ -15,18 +15,18 @@ namespace strut {
 
 namespace {
 
-// Reactions that have become smaller than this part of the largest so far are no scale: what is left of an unloaded
-// body is round-off of its loading.
+// Reactions below this fraction of the largest so far are no scale for the imbalance: the rest of an unloaded body is
+// round-off of its loading.
 constexpr double smallest_scale = 1e-4;
 
-// Of the forces that round-off leaves: what moves a little has others than what rests.
+// Factor on the forces by round-off: a body that moves a little has larger ones than a body at rest.
 constexpr double few = 4;
 
-// Of the forces by the round-off of places, those of a body at rest, where terms that cancel are larger: with quadratic
-// correspondence some 200 times. What is more is no round-off: a body that is handed over strained.
+// Largest ratio of the forces of a body at rest to the forces by round-off of positions; canceling terms make it some
+// 200 with quadratic correspondence. More is no round-off: the body is handed over strained.
 constexpr double most_cancelled = 1e4;
 
-// N, of all points: places are off by ε |X|, and forces by the stiffness of their points, ω² m, times that.
+// Root of the sum of squares over all points, N: positions have the error ε |X|, forces ω² m times that.
 double round_off_of_places(const Body& body) {
   double sum = 0;
   for (const MaterialBlock& block : body.blocks) {
@@ -39,9 +39,9 @@ double round_off_of_places(const Body& body) {
   return std::numeric_limits<double>::epsilon() * std::sqrt(body.domain.communicator.sum(sum));
 }
 
-// N, of all points: what is left of the forces of a body at rest.
+// Root of the sum of squares over all points, N: the forces that are left in a body at rest.
 double forces_at_rest(Body& body) {
-  advance_by_any_step(body, 1, false);  // of any length: laws in rates see nothing in none
+  advance_by_any_step(body, 1, false);  // any length: laws in rate form see nothing in a step of no length
   double sum = 0;
   for (int i = 0; i < body.owned(); ++i) sum += (body.domain.volume(i) * body.force_density[i]).squaredNorm();
   return std::sqrt(body.domain.communicator.sum(sum));
@@ -74,7 +74,7 @@ void Equilibrium::begin(double t, double dt) {
   check_values();
 }
 
-// Of what acts at the end of the step, before anything is moved by it.
+// Checks the values of conditions at the end of the step, before any point is moved by them.
 void Equilibrium::check_values() {
   const std::vector<Vector> kept = body_.force_density;
   add_forces(conditions_, t_ + dt_, body_);
@@ -99,7 +99,7 @@ Imbalance Equilibrium::evaluate(bool with_diagnostics) {
   return measure(report.failure.has_value());
 }
 
-// Contact asks how far points may have moved by their velocities: those of the way from the last trial, in a second.
+// Contact needs velocities to bound motion: it gets the displacements since the last trial, over one second.
 void Equilibrium::add_contact() {
   if (!contact_.any()) return;
   std::vector<Vector> way(body_.owned());
@@ -123,14 +123,14 @@ std::vector<Vector> Equilibrium::step_way() const {
 
 double Equilibrium::friction_work() const { return contact_.any() ? contact_.friction_work_of_trial(step_way()) : 0; }
 
-// Σ f·u ≤ ‖f‖ ‖u‖.
+// Upper bound by Σ f·u ≤ ‖f‖ ‖u‖.
 double Equilibrium::work_of_round_off() const {
   double sum = 0;
   for (const Vector& way : step_way()) sum += way.squaredNorm();
   return round_off_ * std::sqrt(body_.domain.communicator.sum(sum));
 }
 
-// The reactions are what balances the forces in held directions.
+// The reactions balance the forces in held directions.
 Imbalance Equilibrium::measure(bool failed) {
   Field of_tools(body_.owned(), Vector::Zero());
   tools_.add_forces(body_, of_tools);
@@ -187,8 +187,8 @@ void Equilibrium::commit() {
   begin_flow_of_cells();
 }
 
-// Cells that begin to flow have other forces from here on. The difference, which would let the body jump to its next
-// equilibrium, is held at first and fades over the next step: its work is counted as that of loads.
+// Cells that begin to flow have other forces from here on. The difference, by which the body would jump to its next
+// equilibrium, is held at first and fades over the next step; its work counts as that of loads.
 void Equilibrium::begin_flow_of_cells() {
   const bool any = body_.domain.communicator.max(begin_flow(body_) ? 1.0 : 0.0) > 0;
   committed_.take(body_);
@@ -220,7 +220,7 @@ void Equilibrium::go_back() {
 }
 
 void Equilibrium::serialize(Archive& archive) {
-  if (!archive.loading()) committed_.restore(body_);  // to the last bit, after a trial that was broken off
+  if (!archive.loading()) committed_.restore(body_);  // to the last bit, after a trial that was interrupted
   strut::serialize(archive, body_);
   if (fracture_) fracture_->serialize(archive, body_);
   const auto serialize_field = [&archive](const std::string& name, Field& field) {
@@ -272,7 +272,7 @@ std::string Equilibrium::weakest_point() const {
   for (int i = 0; i < body_.owned(); ++i) {
     if (residual_[i].norm() > largest || worst < 0) largest = residual_[i].norm(), worst = i;
   }
-  // A failure counts above any force.
+  // A failure counts more than any force.
   const double rating = failure_ ? HUGE_VAL : largest;
   const double highest = ranks.max(rating);
   std::string text;

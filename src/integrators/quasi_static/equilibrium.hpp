@@ -1,5 +1,5 @@
-// The forces of one load step that must vanish, at any places of the points, and how they change with these. What a
-// step has come to is kept in a committed state; trials start from there, so a trial leaves nothing behind.
+// The forces of one load step that must vanish, as a function of the positions of the points, and their derivative. The
+// result of a step is stored in a committed state; trials start from there and leave nothing behind.
 #pragma once
 
 #include <optional>
@@ -15,47 +15,47 @@
 
 namespace strut {
 
-// How far the forces of a trial are from balance, the same on all ranks.
+// The imbalance of the forces of a trial, the same on all ranks.
 struct Imbalance {
-  double norm = 0;       // N, root of the sum of squares of what is not held
-  double scale = 0;      // N, the same of reactions, loads and contact: what `norm` is small against
-  double round_off = 0;  // N: `norm` of a body in balance, where nothing acts
-  bool failed = false;   // a point was turned inside out or found no stress; the numbers mean nothing then
+  double norm = 0;       // N, root of the sum of squares of the forces in free directions
+  double scale = 0;      // N, the same for reactions, loads and contact: `norm` is compared with it
+  double round_off = 0;  // N: `norm` of a balanced body without loads
+  bool failed = false;   // a point inverted or its law found no stress; the numbers are then meaningless
 };
 
 class Equilibrium {
  public:
-  // Collective. Computes the forces of the undeformed state. Throws Error for conditions that need inertia.
+  // Collective. Computes the forces of the undeformed state. Throws Error if a condition needs inertia.
   Equilibrium(Body& body, Conditions conditions, contact::Contact contact, std::optional<Fracture> fracture = {});
 
-  // Collective. A load step from t over dt (s) begins, at the committed places. Throws Error where a condition has no
-  // number for it.
+  // Collective. Begins a load step from t over dt (s), at the committed positions. Throws Error if a value of a
+  // condition is not finite.
   void begin(double t, double dt);
 
-  // Collective. Forces at the present places of body().domain.sites.
+  // Collective. Evaluates the forces at the present positions of body().domain.sites.
   Imbalance evaluate(bool with_diagnostics = false);
-  const Field& residual() const { return residual_; }  // N, what is not held of the forces of the last trial
-  // Where the last trial failed, or where its residual is largest: a sentence with point, block and place. Collective.
+  const Field& residual() const { return residual_; }  // N, forces of the last trial in free directions
+  // Collective. A sentence with point, block and position where the last trial failed, or has the largest residual.
   std::string weakest_point() const;
 
-  // Collective. The tangent at the last trial, for apply(): result = K field, N; held parts included.
+  // Collective. Sets the tangent at the last trial, for apply(): result = K field, N; held components included.
   void linearize();
   void apply(const Field& field, Field& result);
   const std::vector<PointTangent>& tangents() const { return tangents_; }
 
-  // Collective. Whether contact with tools needs another round of its multipliers; and the round.
+  // Collective. True if contact with tools needs another round of its multipliers; augment() makes the round.
   bool needs_round() const;
   void augment() { tools_.augment(); }
 
-  // Collective. Whether other points touch tools than when this was asked last.
+  // Collective. True if other points touch tools than at the last call.
   bool contact_has_changed();
-  // What contact adds to the stiffness of each point alone, N/m.
+  // The stiffness of contact for each point alone, N/m.
   std::vector<Tensor> contact_springs();
 
-  // Collective; after commit(). The body, and all else that the next step depends on.
+  // Collective; after commit(). Saves or restores the body and all else that the next step depends on.
   void serialize(Archive& archive);
 
-  void commit();   // collective; the last trial is where the next step begins
+  void commit();   // collective; the next step begins at the last trial
   void go_back();  // to the committed state
 
   Body& body() { return body_; }
@@ -63,17 +63,17 @@ class Equilibrium {
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
   const Conditions& conditions() const { return conditions_; }
-  // Of the last trial: work of loads and of what holds points over the step, by the mean of the forces at its ends, J
+  // For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at its ends, J
   // on this rank.
   double external_work() const;
   double tool_work() const { return tools_.work(body_); }
   double friction_work() const;      // between bodies
-  double work_of_round_off() const;  // collective; J, at most, of the forces that round-off leaves in this load step
-  // Collective. Of the last trial, for so many conditions of the deck.
+  double work_of_round_off() const;  // upper bound of the work of the round-off forces in this load step, J; collective
+  // Collective. Reactions of the last trial for this number of conditions of the deck, N.
   Reactions reactions(int conditions) const;
 
  private:
-  std::vector<Vector> step_way() const;  // of the owned points in this load step, m
+  std::vector<Vector> step_way() const;  // displacement increment of the owned points in this load step, m
   StepReport advance(double dt, bool with_diagnostics) {
     return advance_by_any_step(body_, dt, with_diagnostics, fracture_ ? &*fracture_ : nullptr);
   }
@@ -85,18 +85,18 @@ class Equilibrium {
   Body& body_;
   Conditions conditions_;
   contact::Contact contact_;
-  std::optional<Fracture> fracture_;  // no bond breaks, but springs go with the stress of points that fail
+  std::optional<Fracture> fracture_;  // no bond breaks, but springs lose stiffness with points that fail
   ToolContact tools_;
   Committed committed_;
   std::optional<Constraints> constraints_;
   double t_ = 0, dt_ = 0, round_off_ = 0, last_scale_ = 0, largest_scale_ = 0;
   std::optional<Failure> failure_;
-  Field forces_, residual_;                     // N: all; those that nothing holds
+  Field forces_, residual_;                     // N: all; those in free directions
   Field inner_;                                 // N, of the body alone
   Field forces_before_;                         // N, of the committed state
-  Field outer_, outer_before_;                  // loads and reactions, N; at the begin of the step
+  Field outer_, outer_before_;                  // loads and reactions, N; at the start of the step
   Field mirror_forces_, mirror_forces_before_;  // N, of domain.mirrors on this rank's points
-  std::vector<Vector> looked_at_;               // places that contact has last been asked about
+  std::vector<Vector> looked_at_;               // positions at the last evaluation of contact, m
   std::vector<PointTangent> tangents_;
   std::vector<Site> directions_;
 };

@@ -38,7 +38,7 @@ void copy(const Vectors& vectors, Field& field) {
   }
 }
 
-// A product with fields as Belos wants it.
+// A matrix-vector product as an operator of Belos.
 class ProductOperator : public Operator {
  public:
   ProductOperator(Krylov::Product product, RCP<const Map> map, std::size_t owned)
@@ -100,7 +100,7 @@ RCP<Matrix> assembled(const BlockRows& rows, const RCP<const Map>& map) {
 struct Krylov::Implementation {
   RCP<const Map> map;
   std::size_t owned;
-  RCP<Operator> hierarchy;  // null: none yet
+  RCP<Operator> hierarchy;  // null before the first
 };
 
 Krylov::Krylov(const RCP<const Teuchos::Comm<int>>& ranks, int owned) {
@@ -124,7 +124,7 @@ bool Krylov::is_preconditioned() const { return !implementation_->hierarchy.is_n
 
 namespace {
 
-// Keeps what is written to the error stream meanwhile: MueLu writes of an exception before it throws it on.
+// Captures the error stream: MueLu prints an exception before it throws it on.
 class QuietErrors {
  public:
   QuietErrors() : before_(std::cerr.rdbuf(kept_.rdbuf())) {}
@@ -136,8 +136,8 @@ class QuietErrors {
   std::streambuf* before_;
 };
 
-// Trilinos estimates eigenvalues from random vectors. MueLu seeds std::rand for each hierarchy, from which
-// Trilinos 13.2 takes them; later ones go on with one generator, so that what a run finds would depend on where it was
+// Trilinos estimates eigenvalues from random vectors. MueLu seeds std::rand for each hierarchy, and Trilinos 13.2 takes
+// them from there; later versions use one generator throughout, so that results would depend on where a run was
 // resumed.
 void seed_random_vectors([[maybe_unused]] int rank) {
 #if __has_include(<Tpetra_Details_Random.hpp>)
@@ -146,8 +146,8 @@ void seed_random_vectors([[maybe_unused]] int rank) {
 #endif
 }
 
-// Null where Trilinos finds none on some rank; `trouble` is then what it says. The coarsest grid is factorized when it
-// is first used: here.
+// Null if Trilinos finds no hierarchy on some rank; `trouble` is then its message. The coarsest grid is factorized at
+// its first use, which is here.
 RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList options, std::string& trouble) {
   RCP<Operator> hierarchy;
   try {
@@ -157,7 +157,7 @@ RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList o
     Vectors ones(matrix->getDomainMap(), 1), result(matrix->getRangeMap(), 1);
     ones.putScalar(1);
     hierarchy->apply(ones, result);
-  } catch (const std::exception& error) {  // on all ranks, as the coarsest grid is theirs together
+  } catch (const std::exception& error) {  // on all ranks, because they share the coarsest grid
     trouble = error.what();
     hierarchy = {};
   }
@@ -167,7 +167,7 @@ RCP<Operator> hierarchy_of(const RCP<Operator>& matrix, Teuchos::ParameterList o
   return any > 0 ? RCP<Operator>() : hierarchy;
 }
 
-// Not where all points are held: there is nothing then that a coarser grid could stand for.
+// False if all points are held: a coarser grid would have no unknowns.
 bool couples_points(const BlockRows& rows, const Teuchos::Comm<int>& ranks) {
   int here = 0, anywhere = 0;
   for (std::size_t i = 0; i + 1 < rows.start.size(); ++i) {
@@ -190,7 +190,7 @@ std::string Krylov::precondition(const BlockRows& rows, const std::vector<Field>
   options.set("number of equations", 3);
   options.set("multigrid algorithm", "sa");
   options.set("coarse: max size", 300);
-  // The matrix only resembles the system: more smoothing of it takes longer than the iterations that it saves.
+  // The matrix only resembles the system: more smoothing would take longer than the iterations that it saves.
   options.set("smoother: type", "CHEBYSHEV");
   options.sublist("smoother: params").set("chebyshev: degree", 1);
   options.set("smoother: pre or post", "pre");
@@ -235,7 +235,7 @@ Krylov::Outcome Krylov::solve(const Product& K, const Field& right, Measure meas
     const bool converged = solver.solve() == Belos::Converged;
     copy(*solution, x);
     return {solver.getNumIters(), converged};
-  } catch (const Belos::BelosError&) {  // numbers that are none, the same on all ranks: no step is found
+  } catch (const Belos::BelosError&) {  // a number is not finite, the same on all ranks: there is no step
     return {most, false};
   }
 }

@@ -1,6 +1,6 @@
-// The linear systems of implicit steps: GMRES (Belos), with algebraic multigrid (MueLu) or what else solves them
-// roughly as its preconditioner.
-// Written in C++17, as its .cpp must be: Trilinos' parameter validators are not C++20.
+// The linear systems of implicit steps: GMRES (Belos), preconditioned by algebraic multigrid (MueLu) or by
+// another approximate solver. Written in C++17, as its .cpp must be, because Trilinos' parameter validators are
+// not C++20.
 #pragma once
 
 #include <Eigen/Dense>
@@ -19,16 +19,16 @@ class RCP;
 
 namespace strut {
 
-// One vector a point that this rank owns.
+// A field: one vector for each point that this rank owns.
 using Field = std::vector<Eigen::Vector3d>;
 
 // Rows of 3×3 blocks, one for each point that this rank owns.
 struct BlockRows {
   std::vector<std::size_t> start{0};  // row i: entries start[i] … start[i + 1] − 1, its own column first
-  std::vector<std::int64_t> columns;  // points as Krylov::first() counts them
+  std::vector<std::int64_t> columns;  // global point numbers, as counted by Krylov::first()
   std::vector<Eigen::Matrix3d> blocks;
   std::vector<Eigen::Matrix3d>
-      elsewhere;  // of each row: of the springs to points of other ranks; for factors on each rank
+      elsewhere;  // of each row: springs to points of other ranks, for factors on each rank
 };
 
 class Krylov {
@@ -37,14 +37,14 @@ class Krylov {
   Krylov(const Teuchos::RCP<const Teuchos::Comm<int>>& ranks, int owned);
   ~Krylov();
 
-  std::int64_t first() const;  // of all points, the number of the first one here
+  std::int64_t first() const;  // the global number of this rank's first point
 
-  // Collective. A hierarchy of grids for a matrix that resembles the system. `kernel`: the fields that its stiffness
-  // does not see where nothing holds it, the rigid motions. Where its coarsest grid cannot be factorized (an aggregate
-  // with fewer unknowns than rigid motions makes it singular), that one is smoothed too; where no hierarchy can be
-  // made, or no point depends on another, there is none. Returns what went wrong, or nothing, on all ranks.
+  // Collective. Makes a multigrid hierarchy for a matrix that resembles the system. `kernel`: rigid motions, which have
+  // no stiffness where nothing holds the body. If the coarsest grid cannot be factorized (an aggregate with fewer
+  // unknowns than rigid motions makes it singular), it is smoothed, too; if no hierarchy can be made, or points are
+  // uncoupled, there is none. Returns an error message, or nothing, on all ranks.
   std::string precondition(const BlockRows& matrix, const std::vector<Field>& kernel);
-  // The same by what solves a system that resembles it, on each rank by itself or together.
+  // Preconditions by a given solver of a similar system, for each rank by itself or for all together.
   using Product = std::function<void(const Field&, Field&)>;
   void precondition_by(Product inverse);
   bool is_preconditioned() const;
@@ -53,10 +53,10 @@ class Krylov {
     int iterations;
     bool converged;
   };
-  // What is to become `tolerance` times what it is at x = 0: the residual, or roughly the error, which is the
-  // preconditioned residual. Beside a few springs far stiffer than the rest the residual says nothing.
+  // The quantity that must fall to `tolerance` times its value at x = 0: the residual, or an estimate of the error, the
+  // preconditioned residual. With a few springs far stiffer than the rest the residual is no measure.
   enum class Measure { residual, error };
-  // Collective. K x = right from x = 0. The best x found, also where it did not converge in `most` iterations.
+  // Collective. Solves K x = right from x = 0. x is the best one found, even if `most` iterations did not converge.
   Outcome solve(const Product& K, const Field& right, Measure measure, double tolerance, int most, Field& x);
 
  private:

@@ -7,16 +7,16 @@ namespace strut {
 
 namespace {
 
-constexpr double enough = 0.5;      // of the power at the start, of either sign
-constexpr int most_places = 12;     // an evaluation costs a hundredth of the step
-constexpr double margin = 0.02;     // of the interval that is left: places are no closer to its ends
-constexpr double of_failure = 1e3;  // of the power at the start, uphill, where a point was turned inside out
+constexpr double enough = 0.5;      // fraction of the power at the start, of either sign, that ends the search
+constexpr int most_places = 12;     // evaluations at most; one costs a hundredth of the step
+constexpr double margin = 0.02;     // fraction of the remaining interval: least distance from its ends
+constexpr double of_failure = 1e3;  // power assumed if a point inverts, uphill, times that at the start
 
-// The stretch in which the power changes its sign.
+// The interval of the step in which the power changes its sign.
 struct Bracket {
   double low, high, power_low, power_high;
 
-  // The secant's zero; every third time the middle, for a kink holds the secant's back on one side.
+  // The zero of the secant; every third time the middle, because a kink keeps the secant on one side.
   double next(bool middle) const {
     const double secant = low + (high - low) * power_low / (power_low - power_high);
     const double wanted = middle ? 0.5 * (low + high) : secant;

@@ -1,4 +1,4 @@
-// How far to go along a step, by the power of the residual forces.
+// Line search along a step, by the power of the residual forces.
 #pragma once
 
 #include "integrators/quasi_static/equilibrium.hpp"
@@ -7,7 +7,7 @@ namespace strut {
 
 void move_by(Body& body, double factor, const Field& step);
 
-// Collective. The work of the forces that are left, along a step as long as this one, J.
+// Collective. The work of the residual forces along another step as long as this one, J.
 double power_along(const Equilibrium& equilibrium, const Body& body, const Field& step);
 
 struct Stop {
@@ -15,9 +15,9 @@ struct Stop {
   Imbalance left;
 };
 
-// Collective. From the end of the whole step, where `left` is what is left; `power` is that at its start, positive.
-// Goes to where it has fallen to a half of that, with `drag` · fraction taken off: beyond a kink, a point that begins
-// to touch or to flow, the norm of the forces says nothing, for stiff springs have most of it.
+// Collective. Starts at the end of the whole step, with the imbalance `left`; `power`: at the start, positive. Goes to
+// where the power, minus `drag` · fraction, has fallen to half: beyond a kink, where a point begins to touch or to
+// flow, the norm of the forces is no measure, because stiff springs dominate it.
 Stop search_downhill(Equilibrium& equilibrium, const Field& step, double power, double drag, const Imbalance& left);
 
 }  // namespace strut

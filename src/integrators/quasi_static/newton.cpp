@@ -12,32 +12,32 @@ namespace strut {
 
 namespace {
 
-// Of the linear systems. Near the solution Newton's own convergence is the limit of what is worth solving for: the
-// residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
+// Relative accuracies of the linear systems. Near the solution, Newton's own convergence limits the useful accuracy:
+// the residual after a step is of the order of its square (Eisenstat & Walker 1996, choice 2).
 constexpr double of_first = 1e-3, coarsest = 3e-2, finest = 1e-4;
 
-// Of the error, where a point begins to touch a tool: the residual is then that of a stiff spring, and what the body
-// will carry a small part of it.
+// Accuracy of the error when a point begins to touch a tool: the residual is then that of a stiff spring, and the force
+// on the body a small part of it.
 constexpr double of_touch = 1e-2;
 constexpr int most_products = 400;
 
-// Damping: where it begins, and below which it ends; factors where the tangent is not positive along the step, where
-// only a short part of the step is downhill, and where the forces fall, quickly or at all.
+// Damping: its first value, and the least before it ends; factors on it if the tangent is not positive along the step,
+// if only a short part of the step is downhill, and if the forces decrease quickly, or at all.
 constexpr double first_damping = 1e-2, least_damping = 1e-5;
 constexpr double where_unstable = 10, where_short = 4, where_quick = 0.1, where_slow = 0.4;
 constexpr double short_part = 0.1, long_part = 0.5;  // of a step
-constexpr int most_damped = 8;                       // iterations: what takes more is left to relaxation
-constexpr int most_products_damped = 200;            // directions are not worth more, and GMRES not a restart
+constexpr int most_damped = 8;                       // iterations; beyond these relaxation takes over
+constexpr int most_products_damped = 200;            // better directions are not worth more, nor a restart of GMRES
 
-// Products with multigrid, of one system, after which thin bodies have factors for the rest of the run: the strut that
-// flows, or rubs, is not in multigrid's springs. Below, multigrid is the faster (docs/decisions.md).
+// Number of multigrid products for one system after which thin bodies use factors for the rest of the run: the springs
+// of multigrid do not show a strut that flows or slides. Below it multigrid is faster (docs/decisions.md).
 constexpr int most_of_multigrid = 200;
 
-// A hierarchy is kept until systems take so much longer than just after it was made, factors until they take so much
-// longer than others would take to make.
+// A hierarchy is kept until systems take this much longer than just after it was made; factors until they take this
+// much longer than making others would.
 constexpr double wear = 1.5;
 
-// Whether anything of the way is left but the round-off of times.
+// True if a displacement increment is left besides the round-off of times.
 bool is_a_way(const Field& way, const Body& body) {
   double farthest = 0;  // in spacings
   for (std::size_t i = 0; i < way.size(); ++i) {
@@ -53,7 +53,7 @@ Newton::Newton(Equilibrium& equilibrium, const Observer& observer)
       observer_(observer),
       krylov_(equilibrium.body().domain.communicator.teuchos(), equilibrium.body().owned()) {}
 
-// Of a point alone.
+// The mean stiffness of a point alone, N/m.
 double Newton::mean_spring(const BlockRows& matrix) const {
   double sums[] = {0, static_cast<double>(matrix.start.size() - 1)};
   for (std::size_t i = 0; i + 1 < matrix.start.size(); ++i) sums[0] += matrix.blocks[matrix.start[i]].trace() / 3;
@@ -61,7 +61,7 @@ double Newton::mean_spring(const BlockRows& matrix) const {
   return sums[0] / sums[1];
 }
 
-// Without what is not the body's own: contact would keep points from sliding, too.
+// Without the stiffness that is not the body's own: contact would prevent sliding, too.
 void Newton::renew_drag(const BlockRows& matrix, const std::vector<Tensor>& extra) {
   drag_.resize(extra.size());
   for (std::size_t i = 0; i < extra.size(); ++i) {
@@ -117,7 +117,7 @@ void Newton::renew_preconditioner() {
   products_when_new_ = 0;
 }
 
-// What is solved once, or again with factors where multigrid took too long.
+// Solves once, and again with factors if multigrid took too long.
 Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::Outcome()>& solve) {
   const Krylov::Outcome first = solve();
   if (wants_factors_ || first.iterations < most_of_multigrid) return first;
@@ -130,7 +130,7 @@ Krylov::Outcome Newton::with_another_preconditioner(const std::function<Krylov::
 
 void Newton::serialize(Archive& archive) { archive.number("with_factors", wants_factors_); }
 
-// The step that takes the forces away by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
+// The step that cancels the forces by the tangent, with `way` along held directions: Π K Π v = Π (r − K way).
 int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) {
   equilibrium_.linearize();
   const bool changed = equilibrium_.contact_has_changed();
@@ -168,9 +168,9 @@ int Newton::correct(const Field& way, bool moves, double accuracy, Field& step) 
   return outcome.iterations;
 }
 
-// The whole of the step where it leaves fewer forces, else as much of it as is downhill. A step that moves what is held
-// is taken whole: there is nothing to compare with. What damping keeps back is the motion that the tangent finds soft
-// or unstable: it is Levenberg's and Marquardt's, or an implicit step of a motion through something viscous.
+// Takes the whole step if it reduces the forces, else the part of it that is downhill. A step that moves held points is
+// taken whole, because there is nothing to compare with. Damping suppresses motion that the tangent finds soft or
+// unstable: it is that of Levenberg and Marquardt, or an implicit step through a viscous medium.
 Imbalance Newton::advance(const Imbalance& now, const Field& step, bool moves) {
   Body& body = equilibrium_.body();
   const double power = power_along(equilibrium_, body, step);

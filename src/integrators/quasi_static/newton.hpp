@@ -1,5 +1,5 @@
-// Equilibrium by Newton's method: the consistent tangent, GMRES, a search along the step; and damping where the tangent
-// leads nowhere.
+// Equilibrium by Newton's method: consistent tangent, GMRES, line search, and damping where the tangent gives no useful
+// direction.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@ class Newton {
  public:
   Newton(Equilibrium& equilibrium, const Observer& observer);
 
-  // The next search does not depend on earlier ones.
+  // Makes the next search independent of earlier ones.
   void begin_anew() { preconditioner_due_ = true; }
 
-  void serialize(Archive& archive);  // what a resumed run must know of the systems before
+  void serialize(Archive& archive);  // state of the earlier systems that a resumed run needs
 
-  // Collective. From the present places, within the step that the equilibrium has begun.
+  // Collective. Starts from the present positions, within the step that the equilibrium has begun.
   Search solve(const Tolerance& tolerance);
 
  private:
@@ -41,15 +41,15 @@ class Newton {
   Equilibrium& equilibrium_;
   const Observer& observer_;
   Krylov krylov_;
-  std::optional<TangentFactor> factor_;  // from the first system on
-  double spring_ = 1;                    // N/m, of held directions in the linear systems: as stiff as others
+  std::optional<TangentFactor> factor_;  // made for the first system
+  double spring_ = 1;                    // N/m, for held directions in the linear systems: as stiff as others
   int products_when_new_ = 0;
   bool preconditioner_due_ = true, wants_factors_ = false, is_factorized_ = false;
   bool told_trouble_ = false;
 
-  // A spring from each point to where the iteration begins, damping_ · drag_: none in the forces that must vanish.
+  // Damping: a spring damping_ · drag_ from each point to its start of the iteration; it does not enter the residual.
   double damping_ = 0, damping_when_new_ = 0;
-  std::vector<double> drag_;  // N/m: what a point's near neighbors hold it with
+  std::vector<double> drag_;  // N/m: stiffness of a point by its near neighbors
   int damped_ = 0;            // iterations with damping in this search
 };
 

@@ -6,23 +6,23 @@ namespace strut {
 
 namespace {
 
-// Neighbors up to the middle of an edge of the cube around a point are near.
+// Neighbors up to the middle of an edge of the cube around a point count as near.
 constexpr double reach = 1.5;  // spacings
 
-// A matrix of springs along bonds alone lets chains of points buckle freely.
-constexpr double across = 0.1;  // of a spring's stiffness along its bond
+// Transverse stiffness: springs along bonds alone would let chains of points buckle freely.
+constexpr double across = 0.1;  // of the spring's stiffness along its bond
 
-// The least that counts of the elastic shear modulus where a material flows: its bulk modulus stays. At 0.1 to 0.3 a
-// bar in flow takes the fewest iterations.
+// Lower limit of the shear modulus of flowing material, relative to the elastic one; the bulk modulus stays. With 0.1
+// to 0.3 a bar in flow takes the fewest iterations.
 constexpr double smallest_share = 0.1;
 
-// Of a point's own springs, from it to the ground: what nothing holds, a body that slides between plates or a piece
-// that has come off, would leave the coarsest grid singular.
+// Grounding stiffness, relative to a point's own springs, for parts without any constraint (a body that slides between
+// plates, a loose piece); without it the coarsest grid is singular.
 constexpr double to_ground = 1e-5;
 
-// What both ends of a spring are asked, of owned points and ghosts.
+// Data of the ends of a spring, for owned points and ghosts.
 struct End {
-  double number;     // of the point among those of all ranks
+  double number;     // global number of the point
   double stiffness;  // 15 μ/Σ V |ξ|² over near neighbors, Pa/m⁵ (isotropic springs of shear modulus μ)
   double spacing;    // m
   Tensor free_projection;
@@ -34,7 +34,7 @@ void reflect(const Reflection& by, End& end) {
 
 bool near(const End& a, const End& b, const Vector& xi) { return xi.norm() <= 0.5 * reach * (a.spacing + b.spacing); }
 
-// The shear modulus of the isotropic tensor that has the same two traces.
+// The shear modulus of the isotropic tensor with the same two traces.
 double shear_modulus(const PointTangent& tangent) {
   double bulk = 0;
   for (const int i : {0, 4, 8}) {
@@ -72,7 +72,7 @@ std::vector<End> ends_of(Body& body, const std::vector<PointTangent>& tangents, 
   return ends;
 }
 
-// Adds the block at (row, column) to the row that is the last one; several images of a point have one column.
+// Adds the block at (row, column) to the last row; several images of a point share one column.
 void add(std::int64_t column, const Tensor& block, BlockRows& rows) {
   const auto begin = rows.columns.begin() + static_cast<std::ptrdiff_t>(rows.start.back());
   const auto same = std::find(begin, rows.columns.end(), column);
@@ -93,7 +93,7 @@ BlockRows preconditioner_matrix(Body& body, const std::vector<PointTangent>& tan
   BlockRows rows;
   for (int i = 0; i < body.owned(); ++i) {
     Tensor diagonal = Tensor::Zero();
-    if (!extra.empty()) diagonal = 0.5 * (extra[i] + extra[i].transpose());  // Chebyshev's smoother asks for symmetry
+    if (!extra.empty()) diagonal = 0.5 * (extra[i] + extra[i].transpose());  // Chebyshev's smoother requires symmetry
     const std::size_t at = rows.columns.size();
     rows.columns.push_back(first + i), rows.blocks.emplace_back(Tensor::Zero());
     rows.elsewhere.emplace_back(Tensor::Zero());

@@ -11,20 +11,20 @@ namespace strut {
 
 namespace {
 
-constexpr double shortest = 1.0 / 1024;  // load step that is tried, of the longest
-constexpr double patience = 1.0 / 16;    // of the longest: below, relaxation is tried from the start of a step
-constexpr int most_turns = 6;            // of relaxation and Newton, where Newton stalls
-constexpr int turn = 125;                // iterations of relaxation in each, for one of Newton that the deck allows
-constexpr int most_rounds = 30;          // of the multipliers of tools, in a step
-constexpr int easily = 6;                // Newton's iterations of a round after which the next step may be longer
+constexpr double shortest = 1.0 / 1024;  // shortest load step that is tried, relative to the longest
+constexpr double patience = 1.0 / 16;    // relative to the longest: below it, relaxation is tried from the step's start
+constexpr int most_turns = 6;            // turns of relaxation and Newton if Newton stalls
+constexpr int turn = 125;                // iterations of relaxation in each turn, per iteration of Newton in the deck
+constexpr int most_rounds = 30;          // of the multipliers of tools, per step
+constexpr int easily = 6;                // iterations of Newton per round up to which the next step may be longer
 constexpr double round_off = 1e-9;
 
-// Energies below so much of the work of round-off are nothing to compare errors with: a body that is only carried along
-// has no others. Users are told of errors from 1 % on.
+// Energies below this multiple of the work of round-off are no scale for errors: a body that is only carried along has
+// no others. Users are told of errors from 1 % on.
 constexpr double above_round_off = 100;
 
-// A point: 4.8 kB of vectors of GMRES, 0.6 of the tangent, the rest of the near matrix and its hierarchy. Measured:
-// 222 MiB between bodies of 729 and 13,824 points. Beside this, the factors of thin bodies.
+// Memory per point: 4.8 kB of GMRES vectors, 0.6 kB of the tangent, the rest of the near matrix and its hierarchy.
+// Measured: 222 MiB between bodies of 729 and 13,824 points. The factors of thin bodies are not included.
 constexpr double newton_bytes = 17e3;
 
 }  // namespace
@@ -43,12 +43,12 @@ QuasiStatic::QuasiStatic(Body& body, Conditions conditions, contact::Contact con
       largest_energy_(energy_of_round_off(body)) {}
 
 double QuasiStatic::bytes(const Body& body, const QuasiStaticControl& control) {
-  const double committed = 400.0 * body.owned();  // with forces and trials of contact
+  const double committed = 400.0 * body.owned();  // includes forces and trials of contact
   if (!control.with_tangent) return committed + CriticalTimeStep::bytes(body);
   return committed + newton_bytes * body.owned() + TangentFactor(body).bytes();
 }
 
-// What moved over the last step goes on at its rate.
+// Extrapolates: points that moved in the last step continue at their rate.
 void QuasiStatic::extrapolate() {
   if (steps_ == 0) return;
   Body& body = equilibrium_.body();
@@ -57,11 +57,11 @@ void QuasiStatic::extrapolate() {
 }
 
 Search QuasiStatic::search_from_start(bool with_tangent) {
-  newton_.begin_anew();  // or a run that was cut would not go on as one that was not
+  newton_.begin_anew();  // else a resumed run would not continue like an uninterrupted one
   relaxation_.begin_anew();
   equilibrium_.begin(time_, dt_);
   extrapolate();
-  // Rounds of the multipliers of tools, each from the equilibrium of the last.
+  // Rounds of the multipliers of tools, each from the equilibrium of the previous one.
   Search whole;
   for (int round = 0; round < most_rounds; ++round) {
     const Search last = search(with_tangent);
@@ -78,8 +78,8 @@ Search QuasiStatic::search_from_start(bool with_tangent) {
   return whole;
 }
 
-// Where Newton stalls the body is about to jump, folding or crushed in layers: relaxation goes on from there, through
-// states where the tangent is of no use, and Newton ends what it leaves.
+// Where Newton stalls, the body is about to jump, fold or crush in layers: relaxation continues from there, through
+// states without a useful tangent, and Newton finishes what it leaves.
 Search QuasiStatic::search(bool with_tangent) {
   const Tolerance& tolerance = control_.tolerance;
   Search found = with_tangent ? newton_.solve(tolerance) : relaxation_.solve(tolerance, Relaxation::most(tolerance));
@@ -97,8 +97,8 @@ Search QuasiStatic::search(bool with_tangent) {
   return found;
 }
 
-// Where Newton turned points inside out there is nothing to go on from: relaxation is tried from the start, but it
-// takes many times as long as Newton, and is left for steps that could not be made by being cut.
+// If Newton inverted points, its state is useless: relaxation is tried from the start, but because it takes many times
+// as long as Newton, only for steps that cutting has not solved.
 Search QuasiStatic::attempt() {
   const Search search = search_from_start(control_.with_tangent);
   if (!search.left.failed || search.interrupted || !control_.with_tangent || dt_ > patience * longest_) return search;

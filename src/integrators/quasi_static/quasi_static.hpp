@@ -1,4 +1,4 @@
-// Slow loading: a series of equilibria, without inertia. Time is that of the loads.
+// Slow loading: a series of equilibria without inertia. Time is only the argument of the loads.
 #pragma once
 
 #include "integrators/ledger.hpp"
@@ -8,8 +8,8 @@
 namespace strut {
 
 struct QuasiStaticControl {
-  bool with_tangent = true;  // Newton, and relaxation where it fails; else relaxation alone
-  int load_steps = 10;       // of equal length; shorter ones where one of these finds no equilibrium
+  bool with_tangent = true;  // Newton, and relaxation if it fails; else relaxation alone
+  int load_steps = 10;       // of equal length; shorter if one of these finds no equilibrium
   Tolerance tolerance;
 };
 
@@ -18,23 +18,23 @@ class QuasiStatic {
   QuasiStatic(Body& body, Conditions conditions, contact::Contact contact, QuasiStaticControl control,
               double initial_time, double final_time, Observer observer, std::optional<Fracture> fracture = {});
 
-  // Bytes that the search for equilibria takes on this rank.
+  // Memory that the search for equilibria takes on this rank, bytes.
   static double bytes(const Body& body, const QuasiStaticControl& control);
 
   double time() const { return time_; }
   double dt() const { return dt_; }
   int steps() const { return steps_; }
-  int iterations() const { return iterations_; }    // of this run, those in vain too
+  int iterations() const { return iterations_; }    // of this run, including failed attempts
   int evaluations() const { return evaluations_; }  // of the forces, or of the tangent times a field
   const contact::Contact& contact() const { return equilibrium_.contact(); }
   const Conditions& conditions() const { return equilibrium_.conditions(); }
 
-  // Collective. One load step; false if the observer requested a stop before it was made. Throws Error on all ranks
-  // where none is found, however short. In both cases the body is at its last equilibrium.
+  // Collective. Makes one load step; false if the observer requested a stop before it was made. Throws Error on all
+  // ranks if no equilibrium is found, however short the step. In both cases the body is at its last equilibrium.
   bool advance();
 
-  // Collective; between load steps. All that the next ones depend on, of the body too. The run that restores it goes on
-  // to the last bit on as many ranks.
+  // Collective; between load steps. Saves or restores all that the next ones depend on, including the body. A restored
+  // run continues identically to the last bit on the same number of ranks.
   void serialize(Archive& archive);
 
   Ledger ledger();                                                                          // collective

@@ -8,10 +8,10 @@ namespace strut {
 
 namespace {
 
-constexpr int ramp = 40;      // iterations over which what is held is moved
-constexpr int renewal = 200;  // iterations after which the masses follow the deformation
+constexpr int ramp = 40;      // iterations over which held points are moved
+constexpr int renewal = 200;  // iterations after which the masses are adapted to the deformation
 
-// A step of 1 is so much of the stable one, which shrinks while masses are not renewed.
+// Unit step over stable step, which shrinks until the masses are renewed.
 constexpr double safety = 0.8;
 
 constexpr double most_damping = 1.9;  // 2 would stop a point within a step
@@ -24,8 +24,8 @@ double dot(const Field& a, const Field& b) {
 
 }  // namespace
 
-// m = ω²_max/(2 safety)² times what makes all frequency bounds alike: the body's by its elastic tangent, contact by its
-// springs, where two points of equal mass have twice the stiffness of one.
+// m = ω²_max/(2 safety)² times the factor that equalizes all frequency bounds: for the body by its elastic tangent, for
+// contact by its springs; two points of equal mass in contact have twice the stiffness of one.
 void Relaxation::renew_masses() {
   Body& body = equilibrium_.body();
   const std::vector<double> density = body.density;
@@ -35,7 +35,7 @@ void Relaxation::renew_masses() {
       body.density[block.points[k]] *= omega * omega;  // 1/s², so that frequency bounds are 1
     }
   }
-  // Points without stiffness have mass all the same.
+  // Points without stiffness get a mass, too.
   const double heaviest = body.domain.communicator.max(std::accumulate(
       body.density.begin(), body.density.end(), 0.0, [](double a, double b) { return std::max(a, b); }));
   for (double& d : body.density) d = std::max(d, 1e-6 * heaviest);
@@ -77,7 +77,7 @@ Search Relaxation::solve(const Tolerance& tolerance, int most) {
       search.converged = true;
       break;
     }
-    // Twice the frequency of the present motion: its Rayleigh quotient, with the stiffness that it has met.
+    // Twice the frequency of the present motion, from its Rayleigh quotient with the stiffness along it.
     double sums[] = {dot(velocity, before) - dot(velocity, equilibrium_.residual()), 0};
     for (int i = 0; i < body.owned(); ++i) sums[1] += masses_[i] * velocity[i].squaredNorm();
     ranks.sum(sums);

@@ -1,5 +1,5 @@
-// Equilibrium by dynamic relaxation: motion under the forces that are left, with masses by which all parts of the
-// body are as fast as each other, and a damping that adapts to the slowest of them. It needs no tangent.
+// Equilibrium by dynamic relaxation: motion under the residual forces, with masses that make all parts of the body
+// equally fast, and a damping that adapts to the slowest motion. It needs no tangent.
 #pragma once
 
 #include "integrators/explicit/critical_time_step.hpp"
@@ -11,10 +11,10 @@ class Relaxation {
  public:
   Relaxation(Equilibrium& equilibrium, const Observer& observer) : equilibrium_(equilibrium), observer_(observer) {}
 
-  // Of iterations, which are some thousand times Newton's.
+  // Largest number of iterations, a thousand times Newton's.
   static int most(const Tolerance& tolerance) { return 1000 * tolerance.most_iterations; }
 
-  // Collective. From the present places, within the step that the equilibrium has begun.
+  // Collective. Starts from the present positions, within the step that the equilibrium has begun.
   Search solve(const Tolerance& tolerance, int most);
 
   void begin_anew() { critical_time_step_ = {}; }  // the next search does not depend on earlier ones
@@ -25,7 +25,7 @@ class Relaxation {
   Equilibrium& equilibrium_;
   const Observer& observer_;
   CriticalTimeStep critical_time_step_;
-  std::vector<double> masses_;  // N/m: of points, in a time whose unit is one iteration
+  std::vector<double> masses_;  // N/m: of points; the unit of time is one iteration
 };
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// What the methods that find an equilibrium are asked for, and what they answer.
+// Input and result of the methods that find an equilibrium.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +10,15 @@
 namespace strut {
 
 struct Tolerance {
-  double relative = 1e-6;    // the forces that are left, over reactions, loads and contact
-  int most_iterations = 20;  // Newton's
+  double relative = 1e-6;    // residual forces over reactions, loads and contact
+  int most_iterations = 20;  // of Newton
 };
 
 // Callbacks of an equilibrium search.
 struct Observer {
-  std::function<void(const std::string&)> load_steps;  // gets a line for each; on rank 0
-  std::function<void(const std::string&)> iterations;  // gets a line for each; may be empty
-  std::function<bool()> stop_requested;                // whether the run is to end: on any rank, at any time
+  std::function<void(const std::string&)> load_steps;  // called with a line for each load step, on rank 0
+  std::function<void(const std::string&)> iterations;  // called with a line for each iteration; may be empty
+  std::function<bool()> stop_requested;                // true if the run must end: on any rank, at any time
 };
 
 struct Search {

@@ -13,24 +13,24 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;  // by columns, lower triangle
 
-// Operations of a factorization for each point: as long as some sixty products take with factors, some two hundred
-// without. Struts 2 to 3 cells thick have 3e5 to 5e5.
+// Limit of the operations of a factorization per point: as long as some sixty products with factors take, or two
+// hundred without. Struts 2 to 3 cells thick need 3e5 to 5e5.
 constexpr double most_operations = 1e6;
 
-// What a product, with the factors once applied, takes: as long as so many of them for each point.
+// Cost of a product, with one application of the factors: as long as this many operations per point.
 constexpr double operations_of_product = 16000;
 
-// Of the resembling matrix, from each point to the ground: what nothing holds would have no factors.
+// Grounding stiffness, relative to the resembling matrix: unconstrained parts would have singular factors.
 constexpr double to_ground = 1e-5;
 
-// Pairs of coupled points on a rank: what has more is not ordered (some gigabytes, and as many as ten seconds).
+// Pairs of coupled points on a rank; larger matrices are not ordered (some gigabytes, and up to ten seconds).
 constexpr std::size_t most_coupled = 10'000'000;
 
-// Owned points in the place of their images.
+// Maps images of points to the owned points.
 class Originals {
  public:
   struct Original {
-    int point;  // −1: another rank's
+    int point;  // −1: owned by another rank
     Tensor turn;
   };
 
@@ -47,7 +47,7 @@ class Originals {
   std::vector<Original> of_ghosts_;
 };
 
-// Which owned points share a family, each point itself first. Nothing where they are too many.
+// The owned points that share a family with each point, itself first. Empty if there are too many.
 std::vector<std::vector<int>> coupled_points(const Body& body, const Originals& originals) {
   std::vector<std::vector<int>> coupled(body.owned());
   std::vector<int> seen_by(body.owned(), -1);
@@ -68,7 +68,7 @@ std::vector<std::vector<int>> coupled_points(const Body& body, const Originals& 
   return coupled;
 }
 
-// Entries at the places of a matrix of points, without values.
+// A matrix with the pattern of the coupled points.
 Sparse pattern_of(const std::vector<std::vector<int>>& coupled) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < coupled.size(); ++i) {
@@ -81,7 +81,7 @@ Sparse pattern_of(const std::vector<std::vector<int>>& coupled) {
 
 }  // namespace
 
-// Point i is number place[i].
+// Point i has the number place[i].
 struct TangentFactor::Matrix {
   Originals originals;
   std::vector<int> place;
@@ -97,7 +97,7 @@ struct TangentFactor::Matrix {
 
   void add(int i, int j, const Tensor& block) { factors->add(place[i], place[j], block); }
 
-  // The part of a point's stiffness that is this rank's, along what is free.
+  // Adds this rank's part of a point's stiffness, along free directions.
   void add(const PointStiffness& stiffness, const Constraints& held) {
     for (std::size_t a = 0; a < stiffness.points.size(); ++a) {
       for (std::size_t b = 0; b < stiffness.points.size(); ++b) {
@@ -110,7 +110,7 @@ struct TangentFactor::Matrix {
     }
   }
 
-  // What holds point i besides: `extra`, bonds to other ranks, the ground, and along held directions a spring.
+  // Adds the other supports of point i: `extra`, bonds to other ranks, the ground, and a spring along held directions.
   void add_supports(int i, const Tensor& extra, const Constraints& held, const BlockRows& resembling) {
     const double spring = resembling.blocks[resembling.start[i]].trace() / 3;
     const Tensor diagonal = extra + to_ground * spring * Tensor::Identity() + resembling.elsewhere[i];

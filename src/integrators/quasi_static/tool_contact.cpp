@@ -9,15 +9,15 @@ namespace strut {
 
 namespace {
 
-// ε in units of M s, the stiffness of a cube of the material as large as a spacing. A stiffer one would leave less
-// penetration in a round, but struts that begin to touch would jump on it: with 20 Newton's method stalled in a foam.
+// ε in units of M s, the stiffness of a cube of the material as large as a spacing. A larger one would leave less
+// penetration per round, but struts that begin to touch would jump on it: with 20 Newton's method stalled in a foam.
 constexpr double penalty_factor = 1;
 
-// Of ε, along the surface.
+// Tangential penalty, relative to ε.
 constexpr double tangential_share = 0.5;
 
 constexpr double most_penetration = 1e-4;  // spacings
-constexpr double most_softness = 2e-2;     // of the largest friction, of multipliers behind it where a point sticks
+constexpr double most_softness = 2e-2;     // softness of sticking points, relative to the largest friction
 
 constexpr double just_touching = 1e-9;  // spacings
 
@@ -151,7 +151,7 @@ void ToolContact::add_reactions(std::vector<Vector>& by_condition) const {
 }
 
 void ToolContact::serialize(Archive& archive, const Body& body) {
-  std::size_t first = 0;  // contact point of the tool
+  std::size_t first = 0;  // first contact point of the tool
   for (std::size_t t = 0; t < tools_.size(); first += tools_[t].points.size(), ++t) {
     const auto traction = [this, first](std::size_t k) -> Traction& { return contact_points_[first + k].at_start; };
     archive.points("tool " + std::to_string(t), ids_of(body, tools_[t].points));

@@ -1,9 +1,9 @@
-// What rigid tools do to the points of a body in equilibrium: unilateral contact with Coulomb friction by an augmented
-// Lagrangian (Simo & Laursen 1992). With the gap g, the sliding s over the tool in the step, and the multipliers λ:
+// Forces of rigid tools on a body in equilibrium: unilateral contact with Coulomb friction by an augmented Lagrangian
+// (Simo & Laursen 1992). With the gap g, the slip s over the tool in the step, and the multipliers λ:
 //   t_n = max(0, λ_n − ε g),  t_t = λ_t − ε s, cut to |t_t| ≤ μ t_n
-// Where a point slides the tangent is not symmetric. An equilibrium at given multipliers leaves penetrations of the
-// order t/ε; then λ ← t, and so on until they are below a tolerance. So ε is no constant of the material: it only
-// decides how many rounds there are.
+// While a point slides, the tangent is unsymmetric. An equilibrium at given multipliers leaves penetrations of the
+// order t/ε; then λ ← t, and so on until they are below a tolerance. So ε is no material constant: it only decides the
+// number of rounds.
 #pragma once
 
 #include <vector>
@@ -20,29 +20,29 @@ class ToolContact {
 
   bool any() const { return !tools_.empty(); }
 
-  // A step from t over dt (s); points are where it begins.
+  // Begins a step from t over dt (s); points are at their positions at its start.
   void begin(const Body& body, double t, double dt);
 
-  // Adds the forces at the present places, N.
+  // Adds the forces at the present positions, N.
   void add_forces(const Body& body, Field& forces);
-  // Adds minus their derivative at the places of the last forces, times a field.
+  // Adds minus their derivative at the positions of the last forces, times a field.
   void add_stiffness(const Field& field, Field& result) const;
   void add_springs(std::vector<Tensor>& springs) const;
 
-  // How far the last forces are from contact, above 1 where another round is due; of this rank's points, by the largest
-  // pressure on any rank (N).
+  // Distance of the last forces on this rank's points from exact contact, relative to the largest pressure on any rank
+  // (N); another round is due above 1.
   double largest_pressure() const;
   double violation(double largest_pressure) const;
-  // Whether other points touch here than when this was asked last.
+  // True if other points of this rank touch than at the last call.
   bool has_changed();
   void augment();  // λ ← t
-  void commit();   // the last forces are where the next step begins
+  void commit();   // the next step begins with the last forces
 
-  void go_back();  // the last forces are those where the step begins
+  void go_back();  // resets the last forces to those at the start of the step
 
-  // The forces of the last trial by condition.
+  // Adds the forces of the last trial by condition, N.
   void add_reactions(std::vector<Vector>& by_condition) const;
-  // What the forces at the start of the next step are.
+  // Saves or restores the forces at the start of the next step.
   void serialize(Archive& archive, const Body& body);
 
   // J on this rank, by the mean of the forces at both ends of the step.
@@ -59,17 +59,17 @@ class ToolContact {
     double spacing = 0;                  // m
     double multiplier = 0;               // λ_n, N
     Vector tangential = Vector::Zero();  // λ_t, N
-    Vector start = Vector::Zero();       // where the step begins, m
-    Traction at_start, now;              // at the last places
+    Vector start = Vector::Zero();       // position at the start of the step, m
+    Traction at_start, now;              // at the last positions
     double gap = 0;                      // m
     bool sticks = false;
-    bool touched = false;               // when has_changed() was asked last
+    bool touched = false;               // at the last call of has_changed()
     Tensor stiffness = Tensor::Zero();  // N/m
   };
   void press(const Surface& at, const Vector& sliding, ContactPoint& contact) const;
 
   std::vector<RigidTool> tools_;
-  std::vector<Vector> offsets_, travels_;  // of tools: at the end of the step, over it; m
+  std::vector<Vector> offsets_, travels_;  // of tools: at the end of the step; over the step; m
   std::vector<ContactPoint> contact_points_;
 };
 

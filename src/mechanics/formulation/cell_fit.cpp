@@ -33,7 +33,7 @@ double least_square(const Tensor& spread) {
 
 void set_cell(const CellShape& shape, QuadraticFit& fit) {
   Tensor moments = to_tensor(shape.moments);
-  moments.diagonal().array() += 1e-9 * moments.trace();  // a flat cell has a square root, too
+  moments.diagonal().array() += 1e-9 * moments.trace();  // so that a flat cell has a Cholesky factor, too
   const Tensor L = moments.llt().matrixL();
   Eigen::Map<Vector>{fit.offset} = shape.offset;
   const double factor[] = {L(0, 0), L(1, 0), L(1, 1), L(2, 0), L(2, 1), L(2, 2)};
@@ -47,13 +47,13 @@ Vector place_of(const QuadraticFit& fit, int q) {
 
 namespace {
 
-// The penalty on H decides where a family cannot tell F from H (its bonds across a surface are all of one length), and
-// fades where it can. A smaller one is more accurate and asks for a shorter time step; so each point has the smallest
-// penalty with which V h² κ is at most the bound, h the spacing and κ the steepness: 1.2 to 3 are usual inside of a
-// body.
+// The penalty on H decides where a family cannot tell F from H (its bonds across a surface all have one length), and
+// has little effect elsewhere. A smaller penalty is more accurate but requires a shorter time step; so each point has
+// the smallest penalty for which V h² κ is at most the bound, with the spacing h and the steepness κ. Inside a body,
+// 1.2 to 3 are usual.
 constexpr double largest_penalty = 0.1, steepness_bound = 8;
 
-// (M + penalty)⁻¹. The penalty is on |H|², in which xy counts as yx does, too: alike in all directions.
+// (M + penalty)⁻¹. The penalty acts on |H|², which contains xy and yx, so it is isotropic.
 Matrix9 inverse_with(const FamilySums& sums, double penalty) {
   Matrix9 M = sums.moments;
   M.diagonal().segment<3>(3).array() += penalty * sums.weight;
@@ -61,8 +61,8 @@ Matrix9 inverse_with(const FamilySums& sums, double penalty) {
   return M.ldlt().solve(Matrix9::Identity());
 }
 
-// V h² κ of a point of so much volume whose fit has this inverse: V Σ |∂F_q/∂y_j|²/V_j, the point itself counted, mean
-// over the places.
+// V h² κ of a point with this volume (m³) and inverse: V Σ |∂F_q/∂y_j|²/V_j over the family and the point itself, mean
+// over the integration points.
 double steepness_with(const FamilySums& sums, const Matrix9& inverse, double volume, const QuadraticFit& fit,
                       double h) {
   const Matrix9 squares = inverse * sums.squares * inverse;

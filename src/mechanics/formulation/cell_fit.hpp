@@ -8,10 +8,10 @@
 
 namespace strut {
 
-// The penalty on H beside the mean square of the bonds, in spacings, where metal has not flowed.
+// The penalty on H before plastic flow, relative to the mean square of the bonds, in spacings.
 inline constexpr double least_penalty = 1e-4;
 
-// The least mean square of a family's bonds in any direction, in spacings²: below it F is not known, and the point
+// The least mean square of a family's bonds in any direction, in spacings². Below it F is undetermined, and the point
 // carries no stress.
 inline constexpr double least_for_stress = 0.02;
 
@@ -21,19 +21,19 @@ using Matrix9 = Eigen::Matrix<double, 9, 9>;
 CellShape cube_of(double volume);  // m³
 CellShape shape_of(const Body& body, int i);
 Basis basis(const Vector& xi, double h);    // ξ and q, in spacings h
-double least_square(const Tensor& spread);  // the least eigenvalue: in the direction in which it is the least
+double least_square(const Tensor& spread);  // the least eigenvalue
 
 void set_cell(const CellShape& shape, QuadraticFit& fit);
-Vector place_of(const QuadraticFit& fit, int q);  // of the cell, from the point, m
+Vector place_of(const QuadraticFit& fit, int q);  // position of integration point q relative to the point, m
 
-// Sums over a family, in spacings: of (1, b bᵀ) with ω V_j, and of g gᵀ/V_j, g = ω V_j b being what y_j gives to the
-// fit; the point itself, which gives −Σ g, is counted.
+// Sums over a family, in spacings: weight = Σ ω V_j, moments = Σ ω V_j b bᵀ, squares = Σ g gᵀ/V_j, where g = ω V_j b is
+// the weight of y_j in the fit. squares includes the point itself, whose weight is −Σ g.
 struct FamilySums {
   double weight = 0;
   Matrix9 moments = Matrix9::Zero(), squares = Matrix9::Zero();
 };
 
-// Of a point with the spacing h; over(visit) calls visit(ω V_j, V_j, ξ).
+// `h`: spacing of the point, m; over(visit) calls visit(ω V_j, V_j, ξ) for each bond.
 template <class Over>
 FamilySums sums_of_family(double h, double volume, const Over& over) {
   FamilySums sums;
@@ -50,12 +50,12 @@ FamilySums sums_of_family(double h, double volume, const Over& over) {
   return sums;
 }
 
-// P, B, Q of a point with the spacing h (m) and a volume (m³), whose cell is set, by the least penalty or a larger one.
-// False where its neighbors do not span space.
+// Sets P, B, Q of a point with the spacing h (m) and a volume (m³), whose cell is set; the penalty is `least` or
+// larger. Returns false if its neighbors do not span space.
 bool fit_motion(const FamilySums& sums, double h, double volume, double least, QuadraticFit& fit);
 bool fit_motion(const Body& body, int i, double least, QuadraticFit& fit);
 
-// What y_j gives to F at a place of the cell of i, as a vector, 1/m: ∂F_rb/∂y_jr. `w`: ω V_j; `mu`: μ_j.
+// Derivative of F, at a position in the cell of i, by y_j as a vector, 1/m: ∂F_rb/∂y_jr. `w`: ω V_j; `mu`: μ_j.
 Vector weight_of_bond(const QuadraticFit& fit, double volume, double w, const Vector& xi, const Eigen::Array4d& mu,
                       const Vector& place);
 

@@ -1,5 +1,5 @@
-// How the stresses of a cell change with its deformation gradients: of quadratic correspondence, with what its places
-// share.
+// The derivative of a cell's stresses by its deformation gradients (quadratic correspondence), with the coupling of the
+// integration points by their shared volume.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace strut {
 
-// δP at a law point for δF by the elastic moduli, without the geometric stiffness: J C:sym(δF F⁻¹) F⁻ᵀ.
+// δP at an integration point for δF by the elastic moduli, without the geometric stiffness: J C:sym(δF F⁻¹) F⁻ᵀ.
 inline Tensor elastic_change(const MaterialPoint& point, const materials::Moduli& moduli, const Tensor& dF) {
   const Tensor inverse_F = point.deformation_gradient.inverse();
   const Symmetric D = symmetric_part(dF * inverse_F);
@@ -18,16 +18,16 @@ inline Tensor elastic_change(const MaterialPoint& point, const materials::Moduli
   return point.deformation_gradient.determinant() * to_tensor(stress) * inverse_F.transpose();
 }
 
-// Of the cell of block.points[k].
+// The tangent of the cell of block.points[k].
 class CellTangent {
  public:
-  // `tangents`: of law points (point_tangents), or null: the elastic ones.
+  // `tangents`: of the integration points (point_tangents), or null for the elastic moduli.
   CellTangent(const Body& body, const MaterialBlock& block, int k, const std::vector<PointTangent>* tangents)
       : body_(body), block_(block), k_(k), tangents_(tangents) {
     if (block.flowed[k]) shared_.emplace(block, k);
   }
 
-  // δP at the places of the cell, for δF there.
+  // δP at the integration points of the cell, for δF there.
   CellTensors change(CellTensors dF) const {
     if (shared_) shared_->share_gradients(dF);
     CellTensors dP;

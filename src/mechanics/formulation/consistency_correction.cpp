@@ -15,12 +15,12 @@ namespace {
 
 using RowsOfSix = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 
-// Of the consistency correction: what is asked for is met as far as it does not cost more than this, in units of the
-// operator's diagonal inside of a body; the iterations that bring the solution within 1e-4 at this regularization.
+// The regularization limits the correction where full consistency would cost more than this, in units of the operator's
+// diagonal inside a body. The iterations bring the solution within 1e-4 at this regularization.
 constexpr double regularization = 0.05, inner_diagonal = 23;
 constexpr int iterations = 28;
 
-// The state of a point under a stress that gives V (mean : ∂F + moments : ∂H) to the energy's change.
+// The state of a point whose stress changes the energy by V (mean : ∂F + moments : ∂H).
 QuadraticState state_of(const QuadraticFit& fit, const Tensor& mean, const Eigen::Matrix<double, 3, 6>& moments) {
   constexpr int by_rows = Eigen::RowMajor;
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, by_rows>> P(fit.linear);
@@ -36,7 +36,7 @@ QuadraticState state_of(const QuadraticFit& fit, const Tensor& mean, const Eigen
   return state;
 }
 
-// What a stress of 1 in all of a cell gives, by way of the second gradient: Σ over the places, s for each axis.
+// The moments of a uniform unit stress along each axis: `offset` is the mean position s of the integration points.
 Eigen::Matrix<double, 3, 6> moments_of_unit_stress(const Vector& offset) {
   Eigen::Matrix<double, 3, 6> m = Eigen::Matrix<double, 3, 6>::Zero();
   for (int a = 0; a < 3; ++a) m(a, a) = offset[a];
@@ -48,9 +48,9 @@ Eigen::Matrix<double, 3, 6> moments_of_unit_stress(const Vector& offset) {
 
 }  // namespace
 
-// Finds μ: of all corrections that make the forces of a uniform stress those on the surface, about the smallest one.
-// With r_j = ∂/∂y_j of Σ ∫ div u dV − ∮ n·u dA, which is to be zero, K μ = −r; K = Σ_i V_i² R_iᵀ W R_i with what is
-// left over by the linear fits, R_i. It is solved by Chebyshev's iteration: so many steps give the same bits on any
+// Finds μ: close to the smallest correction by which the forces of a uniform stress equal its tractions on the surface.
+// With r_j = ∂/∂y_j of Σ ∫ div u dV − ∮ n·u dA, which must vanish, K μ = −r; K = Σ_i V_i² R_iᵀ W R_i, where R_i is the
+// residual of the fits of the trend. Chebyshev's iteration with a fixed number of steps gives the same bits on any
 // number of ranks.
 class ConsistencyCorrection {
  public:
@@ -86,13 +86,13 @@ class ConsistencyCorrection {
   void apply_operator();
   void solve();
 
-  // A trend as others need it: c, C, Q, and V² of the point; nothing of points that carry no stress.
+  // The trend of a point, as its neighbors need it: c, C, Q, and V² of the point; zero for points that carry no stress.
   struct Share {
     double c[3], C[9], Q[18], weight;
 
     friend void reflect(const Reflection& by, Share& share) {
       turn(by, share.c);
-      reflect_rows(by, share.C);  // columns do as well
+      reflect_rows(by, share.C);  // C is stored by columns; the reflection is the same
       reflect_second(by, share.Q);
     }
   };
@@ -101,7 +101,7 @@ class ConsistencyCorrection {
   QuadraticFits& fits_;
   std::vector<int> points_;               // owned, by quadratic correspondence
   std::vector<Vector> missing_;           // −r, of owned points, m²
-  std::vector<Matrix10> moments_;         // of (ξ, q, 1) over the family and the point, of owned points; its inverse
+  std::vector<Matrix10> moments_;         // inverse moments of (ξ, q, 1) over the family and the point, of owned points
   std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularization, m⁹
   std::vector<Share> shares_;             // of owned points and ghosts
   std::vector<Vector> image_;             // K μ, of owned points
@@ -115,7 +115,7 @@ void ConsistencyCorrection::set_missing() {
     const Tensor mean = Tensor::Identity() - shapes[i].surface_moments / body_.domain.volume(i);
     const QuadraticFit fit = fits_[i];
     states[i] = state_of(fit, mean, moments_of_unit_stress(shapes[i].offset));
-    states[i].failed = 1;  // a mark, here of points by quadratic correspondence
+    states[i].failed = 1;  // here a mark of points by quadratic correspondence
   }
   halo().exchange(states);
   missing_.assign(body_.owned(), Vector::Zero());
@@ -126,7 +126,7 @@ void ConsistencyCorrection::set_missing() {
       const auto far =
           bonds::quadratic_far_force(family, body_.domain.sites.data(), fits_.multipliers(), states.data(), weight);
       const Vector force = Vector(far.c[0], far.c[1], far.c[2]) + bonds::quadratic_own_force(states[i], fits_[i]);
-      bool all = true;  // beside a block of another formulation the surface is not all of it
+      bool all = true;  // next to a block of another formulation the surface is incomplete
       body_.domain.families.for_each(i, [&](int j) { all = all && states[j].failed > 0; });
       if (all) missing_[i] = shapes[i].surface + body_.domain.volume(i) * force;
     });
@@ -182,7 +182,7 @@ void ConsistencyCorrection::apply_operator() {
   });
 }
 
-// (K + ridge) μ = missing, preconditioned by diagonal + ridge: its eigenvalues lie between a share of the ridge and 1.
+// Solves (K + ridge) μ = missing, preconditioned by diagonal + ridge; the eigenvalues then lie between `low` and 1.
 void ConsistencyCorrection::solve() {
   constexpr double ridge = regularization * inner_diagonal, largest_diagonal = 40;
   constexpr double low = ridge / (ridge + largest_diagonal), middle = 0.5 * (1 + low), half = 0.5 * (1 - low);

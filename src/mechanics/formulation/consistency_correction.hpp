@@ -1,4 +1,4 @@
-// Inside mechanics: the correction by which the forces of a uniform stress are those on the surface
+// Inside mechanics: the correction by which the forces of a uniform stress equal its tractions on the surface
 // (quadratic_fit.hpp).
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace strut {
 
-// Collective. Finds μ of all points where their surfaces are known, corrects their fits by its trends, and completes
+// Collective. Finds μ of all points whose surfaces are known, corrects their fits by the trend of μ, and completes
 // them.
 void make_consistent(Body& body, QuadraticFits& fits);
 

@@ -1,4 +1,4 @@
-// By correspondence, from the places of the points to the force state of each: F, rotation, law, first Piola–Kirchhoff
+// Correspondence: from the positions of the points to their force states, by F, rotation, law and first Piola–Kirchhoff
 // stress.
 #include "mechanics/formulation/correspondence.hpp"
 
@@ -14,7 +14,7 @@ LaneSymmetric shape_inverses(const LaneGroup& g, const Body& body) {
   return s;
 }
 
-// A = P K⁻¹ − C F, times the share of the step.
+// A = P K⁻¹ − C F, times the fraction of the step.
 LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric& shape_inverse, const Lanes& share) {
   LaneTensor A =
       small::product(piola_kirchhoff(now.stress, now.polar, now.inverse_stretch, now.J), small::full(shape_inverse));
@@ -24,17 +24,17 @@ LaneTensor force_states(const Deformed& now, const Lanes& C, const LaneSymmetric
   return A;
 }
 
-// Sums of a group over its families. Not in the update of a block, which is compiled for every law.
+// Sums of a group over its families. Not a part of Update, which is compiled for every law.
 bonds::Moments<Lanes> moments(const Body& body, const LaneGroup& group, bool with_springs) {
   return bonds::with_influence(
       body.influence, [&](auto weight) { return moments(group, {body.domain.sites.data()}, with_springs, weight); });
 }
 
-// All that the update of one block needs.
+// The stress update of one block.
 template <class L>
 struct Update {
   LawUpdate<L> law;
-  bool with_springs;    // on their own gradient, of any point of the scene
+  bool with_springs;    // some point of the scene has springs on its own gradient
   bool with_gradients;  // the block has springs on both ends' gradients
 
   Body& body() const { return law.body; }
@@ -53,8 +53,8 @@ struct Update {
     body().points[i].deformation_gradient = at(now.F, l);
   }
 
-  // A failed point goes on as a mass. F and R stay as they were; where bonds may break, as they were when it failed:
-  // what its springs held then is counted before they are gone (Fracture). Those on both ends' gradients go with its
+  // A failed point keeps its mass. F and R keep their values; if bonds may break, those at the time of failure, because
+  // Fracture counts the energy of its springs before they vanish. Springs on both ends' gradients vanish with its
   // bonds, in the next step.
   void store_failed(const LaneGroup& g, int l, const Deformed& now) const {
     const int i = g.i[l];
@@ -69,7 +69,7 @@ struct Update {
     if (block().material.damage) store_gradient(i, body().points[i].stabilization, body().share(i, law.pass.level));
   }
 
-  // A point that has lost bonds may be crushed between others: it only carries no stress meanwhile.
+  // A point with broken bonds may be crushed between others: it then carries no stress, which is no failure.
   void report(const LaneGroup& g, int l, double J, bool carries) const {
     if (std::isnan(J)) return law.failure.report(g.k[l], Failure::Kind::not_finite);
     if (carries && !body().has_lost_bonds(g.i[l])) law.failure.report(g.k[l], Failure::Kind::inverted);
@@ -82,7 +82,7 @@ struct Update {
     store_gradient(i, 0, body().share(i, law.pass.level));
   }
 
-  // What the springs on both ends' gradients read.
+  // Stores what the springs on both ends' gradients read.
   void store_gradient(int i, double C, double share) const {
     if (!with_gradients) return;
     body().force_states.gradients[i] =
@@ -98,13 +98,13 @@ struct Update {
   LaneTensor deformation_gradient(const LaneGroup& g, const LaneTensor& N, const LaneSymmetric& shape_inverse,
                                   const Lanes& carries) const {
     LaneTensor F = small::product(N, small::full(shape_inverse));
-    // On lattices N is of displacements. A point whose neighbors do not span space stays undeformed.
+    // On lattices N sums displacements: add I. Elsewhere add I where neighbors do not span space (it stays undeformed).
     const Lanes missing = g.cluster ? Lanes(1 - carries) : Lanes::Constant(1);
     for (int i = 0; i < 3; ++i) F.c[i][i] += missing;
     return F;
   }
 
-  // The largest frequency bound² of the points of a group.
+  // Advances a group; returns the largest frequency bound² of its points, 1/s².
   double advance(const LaneGroup& group) const {
     GroupTile<materials::state_size<L>, 1> state(*block().state, group.k, group.count);
     const LawPoints<PointRecords> g{group, group.k, members(group), state.rows()};
@@ -125,11 +125,11 @@ struct Update {
     const Lanes bound2 = share * share * per_density * steepened_modulus(now) * trace;
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
-      if (!(now.stiffness[l] > 0)) {  // has failed
+      if (!(now.stiffness[l] > 0)) {  // the point has failed
         store_failed(group, l, now);
         continue;
       }
-      if (!(now.J[l] > 0)) {  // NaN too
+      if (!(now.J[l] > 0)) {  // or NaN
         report(group, l, now.J[l], carries[l] > 0);
         drop_forces(group, l);
         continue;
@@ -158,7 +158,7 @@ void advance_stress(Body& body, MaterialBlock& block, const StressPass& pass, co
 
 namespace {
 
-// Of each point of a group.
+// Σ ω V |y_j − y_i − F ξ|² of each point of a group, m⁵.
 template <class Weight>
 Lanes squared_residuals(const Body& body, const LaneGroup& group, Weight weight) {
   if (group.cluster) {

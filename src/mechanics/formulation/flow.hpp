@@ -1,24 +1,24 @@
-// Inside mechanics and for integrators: cells of quadratic correspondence whose metal begins to flow.
+// Inside mechanics and for integrators: the onset of plastic flow in cells of quadratic correspondence.
 //
-// As long as a cell is elastic, its fit has the smallest penalty on H: accurate, and as stiff as the strut. Flow lets
-// strain gather in a hinge, which so steep a fit hinders: a strut three cells thick would bear 16 % too much
-// (tests/reference, bench_limit_load). From the first flow on the fit has a larger one.
+// While a cell is elastic, its fit has the smallest penalty on H, which makes the stiffness accurate. In plastic flow,
+// strain localizes in a hinge, which so steep a fit hinders: a strut three cells thick would bear 16 % too much
+// (tests/reference, bench_limit_load). So from the first flow on the fit has a larger penalty.
 #pragma once
 
 #include "mechanics/body.hpp"
 
 namespace strut {
 
-// Where block.points[k] has flowed for the first time, its cell shares its change of volume from now on
-// (shared_volume.hpp), and its motion is fitted anew. Its law points go on from the gradients that the new fit has at
-// the present places; their stress stays. Returns whether it did.
+// If block.points[k] has flowed for the first time, its integration points share their change of volume from now on
+// (shared_volume.hpp), and its motion is fitted anew. They go on from the gradients of the new fit at the present
+// positions; their stress stays. Returns true if flow began.
 bool begin_flow(Body& body, MaterialBlock& block, int k);
 
-// Does so for all owned cells and returns whether any cell began to flow. Ghosts must be at their present places. Steps
-// in time call the function above themselves; an equilibrium calls this one when it accepts a load step.
+// Does so for all owned cells and returns true if any cell began to flow. Ghosts must be at their present positions.
+// Time steps call the function above themselves; an equilibrium search calls this one when it accepts a load step.
 bool begin_flow(Body& body);
 
-// As a body has been restored: the fits of the cells that have flowed.
+// Refits the cells that have flowed, after a body has been restored from a checkpoint.
 void refit_flowed(Body& body);
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// The cell of a point in a lattice by quadratic correspondence (quadratic_fit.hpp), whatever bonds it has.
+// The cell of a point on a lattice by quadratic correspondence (quadratic_fit.hpp), for any set of bonds.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@ struct FitBond {
   double weight;  // ω V, m³
 };
 
-// What the far ends of a point's bonds give to F at the places of its cell: ∂F_rb/∂y_jr, of each place, 1/m; and its
-// steepness times its volume, 1/m². Without bonds where the point carries no stress.
+// Weights of the far ends of a point's bonds in F at the integration points of its cell, ∂F_rb/∂y_jr, 1/m; and its
+// steepness times its volume, 1/m². No bonds if the point carries no stress.
 struct CellWeights {
   std::vector<std::array<Vector, 4>> bonds;
   double steepness = 0;
 };
 
-// Of a cubic cell, without correction at surfaces.
+// The weights of a cubic cell of edge `spacing` (m), without correction at surfaces.
 CellWeights lattice_cell(double spacing, const std::vector<FitBond>& family);
 
 }  // namespace strut

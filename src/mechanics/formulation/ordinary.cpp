@@ -1,4 +1,4 @@
-// Ordinary points: from the places to the force state of each, t = ω (a |ξ| + b e), and what F would be.
+// Ordinary points: from the positions to the force state of each, t = ω (a |ξ| + b e), and an F for output.
 #include "mechanics/formulation/ordinary.hpp"
 
 #include <cmath>
@@ -24,14 +24,14 @@ void advance_points(Body& body, MaterialBlock& block, Weight weight, const LaneG
       const double m = point.weighted_volume;
       point.dilatation = 3 * moment[l] / m;
       body.force_states.scalars[group.i[l]] = scalar_state(moduli, point.dilatation, m);
-      body.force_density[group.i[l]].setZero();  // bonds turn: nothing is known of their sums before
+      body.force_density[group.i[l]].setZero();  // bonds rotate: their sums cannot be precomputed
       if (!std::isfinite(point.dilatation)) failure.report(group.k[l], Failure::Kind::not_finite);
     }
   });
 }
 
-// The unrotated Cauchy stress J⁻¹ T U of a family that deforms as one, T = λ tr(U − I) I + 2μ (U − I): what the bonds
-// carry, exactly for an isotropic stretch and to the first order in the strain for any other.
+// The unrotated Cauchy stress J⁻¹ T U of a homogeneously deformed family, T = λ tr(U − I) I + 2μ (U − I). It is the
+// stress that the bonds carry: exact for isotropic stretch, and to first order in the strain otherwise.
 Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
   const Tensor strain = U - Tensor::Identity();
   const double lambda = moduli.bulk - 2 * moduli.shear / 3;
@@ -39,7 +39,7 @@ Symmetric stress_of(const materials::Moduli& moduli, const Tensor& U) {
   return symmetric_part(T * U / U.determinant());
 }
 
-// Of the bonds that are left; zero where they do not span space.
+// K⁻¹ of the intact bonds; zero if they do not span space.
 Symmetric present_shape_inverse(const Body& body, int i) {
   return body.has_lost_bonds(i) ? inverse_of(shape_tensor(body, i)) : body.shape_inverse[i];
 }
@@ -57,7 +57,7 @@ void set_diagnostics(Body& body, MaterialBlock& block, Weight weight, const Lane
       ordinary.energy = ordinary_energy(block, ordinary, squares[l]);
       MaterialPoint& point = body.points[group.i[l]];
       const Symmetric shape_inverse = present_shape_inverse(body, group.i[l]);
-      if (!(trace(shape_inverse) > 0)) {  // its neighbors do not span space: nothing is known of its strain
+      if (!(trace(shape_inverse) > 0)) {  // its neighbors do not span space: its strain is undetermined
         point = {};
         continue;
       }
@@ -78,7 +78,7 @@ void advance_ordinary(Body& body, MaterialBlock& block, bool with_diagnostics, c
     advance_points(body, block, weight, groups, failure);
     if (with_diagnostics) set_diagnostics(body, block, weight, groups);
   });
-  // Bonds in compression become no stiffer than they were.
+  // Compressed bonds do not become stiffer than at rest.
   report.frequency_bound = std::max(report.frequency_bound, block.rest_frequency_bound);
   take_worse(failure.found(block), report.failure);
 }

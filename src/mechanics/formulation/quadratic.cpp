@@ -1,5 +1,5 @@
-// By quadratic correspondence, from the places of the points to the states of their bonds: F at four places of each
-// cell, rotation, law and first Piola–Kirchhoff stress there.
+// Quadratic correspondence: from the positions of the points to the states of their bonds, by F, rotation, law and
+// first Piola–Kirchhoff stress at the four integration points of each cell.
 #include "mechanics/formulation/quadratic.hpp"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace strut {
 
 namespace {
 
-// Sums of a group over its families. Not in the update of a block, which is compiled for every law.
+// Sums of a group over its families. Not a part of Update, which is compiled for every law.
 __attribute__((noinline)) bonds::QuadraticMoments<Lanes> moments(const Body& body, const LaneGroup& group) {
   return bonds::with_influence(body.influence, [&](auto weight) {
     return bonds::quadratic_gather(bonds::OfCluster{*group.cluster}, body.domain.sites.data(), body.fits->multipliers(),
@@ -21,7 +21,7 @@ __attribute__((noinline)) bonds::QuadraticMoments<Lanes> moments(const Body& bod
   });
 }
 
-// The law points of a group of cells at one place.
+// Integration point q of each cell of a group.
 template <class L>
 class CellsAtPlace {
  public:
@@ -54,7 +54,7 @@ class CellsAtPlace {
   GroupTile<materials::state_size<L>, 4> state_;
 };
 
-// All that the update of one block needs.
+// The stress update of one block.
 template <class L>
 struct Update {
   LawUpdate<L> law;
@@ -68,7 +68,7 @@ struct Update {
     return lanes_of([&](int l) { return block().flowed[group.k[l]] ? 1.0 : 0.0; });
   }
 
-  // The largest frequency bound² of the points of a group.
+  // Advances a group; returns the largest frequency bound² of its points, 1/s².
   double advance(const LaneGroup& group) const {
     QuadraticCells cells(group, *body().fits, body().domain.sites);
     cells.take(moments(body(), group));
@@ -79,7 +79,7 @@ struct Update {
     std::array<Deformed, 4> now;
     for (int q = 0; q < 4; ++q) {
       LaneTensor F = cells.gradient_at(q);
-      for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // those without stress stay undeformed
+      for (int i = 0; i < 3; ++i) F.c[i][i] += 1 - carries;  // cells without stress stay undeformed
       now[q] = law.deformed(at[q].numbers(), F, share, carries);
     }
     const std::array<Lanes, 4> J{now[0].J, now[1].J, now[2].J, now[3].J};
@@ -93,12 +93,12 @@ struct Update {
     const Lanes some_hold = small::where_positive(stiffest, present(group), Lanes::Zero());
     Lanes modulus = Lanes::Zero(), determinant = Lanes::Constant(1);
     for (int q = 0; q < 4; ++q) {
-      // A failed place of a metal beside others bears its share of their pressure, as their strains have it.
+      // While an integration point of a cell holds, its failed ones bear their fraction of the shared pressure.
       const Lanes holds = small::where_positive(J[q], some_hold, Lanes::Zero());
       at[q].numbers().set_motion(now[q].F, now[q].polar.rotation, holds);
       at[q].give_back();
       LaneTensor P = piola_kirchhoff(now[q].stress, now[q].polar, now[q].inverse_stretch, J[q]);
-      for (auto& row : P.c) {  // none where all have failed, of NaN, and where no stress is carried
+      for (auto& row : P.c) {  // zero if all have failed, for NaN, and if no stress is carried
         for (Lanes& number : row) number = small::where_positive(holds, number, Lanes::Zero());
       }
       determinant = small::where_positive(J[q], determinant, J[q] + 1 - carries);
@@ -121,9 +121,9 @@ struct Update {
  private:
   QuadraticState& state_of(const LaneGroup& group, int l) const { return body().force_states.quadratics[group.i[l]]; }
 
-  // A cell that begins to flow (only where `may` is 1) has the mean of two forces: those that end the step, by its old
-  // fit, and those that begin the next step, by its new fit. So the work over both steps is that of its stress, to the
-  // second order in the step.
+  // A cell that begins to flow (only where `may` is 1) gets the mean of two forces: by its old fit, at the end of this
+  // step, and by its new fit, at the start of the next. The work over both steps is then that of its stress, to second
+  // order in the step.
   void begin_flow_of(const LaneGroup& group, const std::array<Deformed, 4>& now, const Lanes& share,
                      const Lanes& may) const {
     Lanes begun = Lanes::Zero();
@@ -155,8 +155,8 @@ struct Update {
     }
   }
 
-  // Reports points that are turned inside out at a place, and returns the largest frequency bound² of the others. One
-  // that has lost bonds, or failed at a place, may be crushed between others: it only carries no stress meanwhile.
+  // Reports inverted points and returns the largest frequency bound² of the others, 1/s². A point with broken bonds or
+  // a failed integration point may be crushed between others; it then only carries no stress.
   double report(const LaneGroup& group, const Lanes& determinant, const Lanes& softest, const Lanes& bound2) const {
     double fastest = 0;
     for (int l = 0; l < group.count; ++l) {
@@ -168,7 +168,7 @@ struct Update {
         if (!is_number) law.failure.report(group.k[l], Failure::Kind::not_finite);
         if (is_number && !is_broken) law.failure.report(group.k[l], Failure::Kind::inverted);
         body().force_states.quadratics[group.i[l]] = {};
-        body().force_states.quadratics[group.i[l]].failed = is_broken;  // where points fail, crushed ones do
+        body().force_states.quadratics[group.i[l]].failed = is_broken;  // where points may fail, crushed ones do
         body().force_density[group.i[l]].setZero();
       }
     }
@@ -176,7 +176,7 @@ struct Update {
   }
 };
 
-// What a look at the body shows of a cell: F and R in its middle, and the mean of the stresses.
+// Sets what output shows of a cell: F and R in its middle, and the mean stress.
 void diagnose_cell(Body& body, const MaterialBlock& block, int k, const Tensor& F) {
   MaterialPoint& point = body.points[block.points[k]];
   point.deformation_gradient = F;

@@ -1,4 +1,4 @@
-// Inside mechanics: quadratic correspondence, from the places of the points of a block to the state of each.
+// Inside mechanics: quadratic correspondence, from the positions of a block's points to their force states.
 #pragma once
 
 #include "mechanics/formulation/stress_pass.hpp"
@@ -8,7 +8,7 @@ namespace strut {
 void advance_quadratic(Body& body, MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
                        StepReport& report);
 
-// F and R of each point, and its stress, from those of its cell.
+// Sets F, R and stress of each point, for output, from those of its cell.
 void diagnose_cells(Body& body, const MaterialBlock& block, const LaneGroups& groups);
 
 }  // namespace strut

@@ -1,5 +1,5 @@
-// SIMD: several cells, one per lane: from the sums over their families to the deformation gradients at their places,
-// and from the stresses there to the states of their bonds.
+// SIMD: several cells, one per lane: from the sums over their families to the deformation gradients at their
+// integration points, and from the stresses there to the states of their bonds.
 #pragma once
 
 #include "mechanics/formulation/quadratic_fits.hpp"
@@ -11,7 +11,7 @@ namespace strut {
 class QuadraticCells {
   using Lanes = small::Lanes;
   using LaneTensor = small::Tensor3<Lanes>;
-  using Row = Eigen::Map<const Lanes, Eigen::AlignedMax>;  // of a fit's numbers
+  using Row = Eigen::Map<const Lanes, Eigen::AlignedMax>;  // of the numbers of a fit
 
  public:
   QuadraticCells(const LaneGroup& group, const QuadraticFits& fits, const std::vector<Site>& sites)
@@ -22,7 +22,7 @@ class QuadraticCells {
     }
   }
 
-  // F and H of the motion with these sums; zero of cells that carry no stress, whatever the μ of their neighbors.
+  // Sets F and H of the motion from these sums; zero for cells that carry no stress, whatever μ their neighbors have.
   void take(const bonds::QuadraticMoments<Lanes>& N) {
     const Lanes volume = small::where_positive(steepness(), volume_, Lanes::Zero());
     for (int r = 0; r < 3; ++r) {
@@ -53,7 +53,7 @@ class QuadraticCells {
     return F;
   }
 
-  // Adds the Piola–Kirchhoff stress at place q (Pa) with its quarter of the volume.
+  // Adds the Piola–Kirchhoff stress (Pa) at integration point q, weighted with a quarter of the volume.
   void add_stress(int q, const LaneTensor& P) {
     const std::array<Lanes, 3> s = place(q);
     for (int r = 0; r < 3; ++r) {
@@ -66,7 +66,7 @@ class QuadraticCells {
     }
   }
 
-  // The states of the bonds of the points, times the share of the step, as QuadraticState has them.
+  // The bond states of the points, times the fraction of the step, in the layout of QuadraticState.
   std::array<Lanes, QuadraticState::size> states(const Lanes& share) const {
     std::array<Lanes, QuadraticState::size> numbers;
     Lanes *first = &numbers[0], *second_state = first + 9, *correction = second_state + 18, *offset = correction + 9;
@@ -87,8 +87,8 @@ class QuadraticCells {
     offset[3].setZero();
     return numbers;
   }
-  // What the points themselves give to the force on them: their states times the sums over their families, which stay
-  // as they are.
+  // The force of the points' own states: the states times the sums over their families, which are constants of the
+  // reference state.
   small::Vector3<Lanes> own_force(const std::array<Lanes, QuadraticState::size>& states) const {
     const auto sum = [this](int n) { return number(69 + n); };
     const Lanes *first = &states[0], *second_state = first + 9, *correction = second_state + 18,
@@ -103,7 +103,7 @@ class QuadraticCells {
     }
     return force;
   }
-  // Writes them to state_of(lane).
+  // Writes the states to state_of(lane).
   template <class StateOf>
   void store(const LaneGroup& group, const Lanes& share, const StateOf& state_of) const {
     small::store_numbers(states(share), group.count, [&](int l) { return state_of(l).first; });

@@ -19,8 +19,8 @@ bool spans_cell(const Domain& domain, int i) {
 
 namespace {
 
-// The least one of a cell whose metal has flowed, in material so many spacings thick (quadratic.md, flow), as
-// thickness_of_family() finds it: 2.0 and 2.8 in round bars of two and three spacings, 2.3 in a square one of two.
+// The least penalty of a cell whose metal has flowed, in a member so many spacings thick (quadratic.md, flow) by
+// thickness_of_family(): 2.0 and 2.8 in round bars of two and three spacings, 2.3 in a square one of two.
 double penalty_in_flow(double thickness) { return 0.025 * std::clamp(1 + 2.2 * (2.75 - thickness), 1.0, 2.0); }
 
 void set_sums(const Body& body, int i, const Eigen::Array4d* multipliers, QuadraticFit& fit) {
@@ -48,8 +48,8 @@ double steepness_of(const Body& body, int i, const Eigen::Array4d* multipliers, 
   return sum / 4;
 }
 
-// Four standard deviations of the family's material in the direction in which it is the least: of a round bar its
-// diameter, as far as families reach (spacings).
+// Four standard deviations of the family's material in its thinnest direction, in spacings: the diameter of a round
+// bar, up to the reach of a family.
 double thickness_of_family(const Body& body, int i) {
   const double h = body.domain.cloud.spacings[i];
   double volume = 0;
@@ -65,8 +65,8 @@ double thickness_of_family(const Body& body, int i) {
   return 4 * std::sqrt(least_square(second / volume - first * first.transpose() / (volume * volume))) / h;
 }
 
-// The largest thickness in the family of each owned point of a body that has cells, spacings, since a point at a
-// surface sees two layers in a thick body, too.
+// The largest thickness in the family of each owned point of a body with cells, in spacings: a point at a surface sees
+// only two layers even in a thick body.
 std::vector<double> thicknesses(const Body& body) {
   std::set<int> with_cells;
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -109,7 +109,7 @@ QuadraticFits::QuadraticFits(const Body& body)
       if (fit_motion(body, i, least_penalty, fit)) {
         fit.steepness = 1;
       } else {
-        fit = QuadraticFit{};  // carries no stress, and moves with the others
+        fit = QuadraticFit{};  // carries no stress and moves with the others
       }
       set(i, fit);
     }

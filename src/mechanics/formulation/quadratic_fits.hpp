@@ -11,28 +11,28 @@
 
 namespace strut {
 
-// Whether the neighbors of an owned point span space well enough for a deformation gradient over its cell.
+// True if the neighbors of an owned point span space well enough for a deformation gradient over its cell.
 bool spans_cell(const Domain& domain, int i);
 
 class QuadraticFits {
  public:
-  // Collective. Of all owned points of the blocks by quadratic correspondence, without correction: μ = 0.
+  // Collective. Fits all owned points of the blocks by quadratic correspondence, without correction: μ = 0.
   explicit QuadraticFits(const Body& body);
-  // Once μ is found, and the fits have what it adds to them: their sums and steepness.
+  // Sets sums and steepness of the fits, once μ is known and added to them.
   void complete(const Body& body);
 
-  // Fits an owned point that has lost bonds anew; its μ and those of its neighbors stay. `flows`: whether its metal has
-  // flowed. False where the bonds that are left do not span space, or only with a steepness times volume (1/m²) above
-  // `most`: the point carries no stress.
+  // Refits an owned point after bonds of it broke; its μ and those of its neighbors stay. `flows`: its metal has
+  // flowed. Returns false, and the point carries no stress, if the intact bonds do not span space or only with a
+  // steepness times volume above `most` (1/m²).
   bool refit(const Body& body, int i, bool flows, double most);
-  // Fits an owned point that carries stress and whose metal has flowed anew, to the bonds that it has.
+  // Refits an owned point that carries stress and whose metal has flowed, to its intact bonds.
   void refit_in_flow(const Body& body, int i);
-  void drop(int i) { set(i, {}); }  // it carries no stress
+  void drop(int i) { set(i, {}); }  // the point carries no stress from now on
 
-  // What the family of an owned point that carries stress gives to F at a place of its cell: calls visit(j, g) with
+  // Weights of the family of an owned point that carries stress in F at integration point q: calls visit(j, g) with
   // F = Σ (y_j − y_i) ⊗ g, g in 1/m.
   void for_each_weight(const Body& body, int i, int q, const std::function<void(int j, const Vector& g)>& visit) const;
-  // F at such a place, of points at place(j).
+  // F at integration point q, for points at place(j).
   Tensor gradient_at(const Body& body, int i, int q, const std::function<Vector(int j)>& place) const;
 
   QuadraticFit operator[](int i) const {
@@ -42,10 +42,10 @@ class QuadraticFits {
   }
   bool carries_stress(int i) const { return steepness(i) > 0; }
   double steepness(int i) const { return fits_.at(number_[i], QuadraticFit::size - 1); }
-  // In tiles, as QuadraticFit has its numbers, and where a point's are.
+  // The tiles of all fits, with the numbers in the order of QuadraticFit, and the index of a point in them.
   const small::Tiles& tiles() const { return fits_; }
   std::size_t place(int i) const { return number_[i]; }
-  // μ of owned points and ghosts, zero of other formulations.
+  // μ of owned points and ghosts; zero for other formulations.
   const Eigen::Array4d* multipliers() const { return multipliers_.data(); }
   double bytes() const;
 
@@ -60,9 +60,9 @@ class QuadraticFits {
   void change_all(const Set& set_numbers);
   void set_sums_of_all(const Body& body);
 
-  std::vector<int> number_;  // of owned points, in fits_; −1 of other formulations
-  small::Tiles fits_;        // as the cells of blocks (MaterialBlock::slot_of_cell), one block after the other
-  std::vector<double> penalties_in_flow_;  // of owned points: the least that a cell has once its metal has flowed
+  std::vector<int> number_;  // of owned points, the index in fits_; −1 for other formulations
+  small::Tiles fits_;        // in the order of the blocks' cells (MaterialBlock::slot_of_cell), block after block
+  std::vector<double> penalties_in_flow_;  // of owned points: the least penalty once the metal has flowed
   std::vector<Eigen::Array4d> multipliers_;
 };
 

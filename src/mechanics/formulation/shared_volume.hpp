@@ -1,8 +1,8 @@
-// Against volumetric locking. Plastic flow keeps the volume, and at the four law points of a cell that would be four
-// conditions on the motion of one point: what it cannot meet, pressures of opposite sign would take up, as energy that
-// never flows. So in a cell whose metal has flowed the rate of the volume is brought to its mean over the places
-// (B-bar: Hughes, Int. J. Numer. Methods Eng. 15, 1980), and so is the pressure in its forces. Both with J as weight:
-// the one is the other's adjoint, and the work of the forces stays what the law points take.
+// Prevents volumetric locking. Plastic flow conserves volume; at the four integration points of a cell, that is four
+// conditions on the motion of one point, and pressures of opposite sign would store the mismatch as energy that never
+// flows. So in a cell whose metal has flowed, the rate of volume is brought to its mean over the integration points
+// (B-bar: Hughes, Int. J. Numer. Methods Eng. 15, 1980), and so is the pressure. Both means have J as weight, so that
+// one is the adjoint of the other and the work of the forces equals the work that the integration points take.
 #pragma once
 
 #include <algorithm>
@@ -14,16 +14,16 @@
 
 namespace strut {
 
-// The part of the differences that is kept: none to speak of where the places shrink alike, all where one of them is
-// about to be turned inside out, which nothing else would hinder.
+// The fraction of the differences that is kept: almost none if the integration points shrink alike, all if one is about
+// to invert, which nothing else would resist.
 template <class T>
 T kept_part(const T& least, const T& most, const T& mean) {
   const T spread = (most - least) / mean;
   return spread * spread;
 }
 
-// Brings the traces of tensors (rates, or stresses) at the places of cells near their mean, weighted with J. `where`: 1
-// of cells that have flowed, 0 of others.
+// Brings the traces of tensors (rates or stresses) at the integration points of cells near their mean, weighted with J.
+// `where`: 1 for cells that have flowed, 0 for others.
 inline void share_traces(const std::array<small::Lanes, 4>& J,
                          const std::array<small::Symmetric3<small::Lanes>*, 4>& tensors, const small::Lanes& where) {
   using small::Lanes;
@@ -41,10 +41,10 @@ inline void share_traces(const std::array<small::Lanes, 4>& J,
   }
 }
 
-// A tensor at each place of a cell.
+// A tensor at each integration point of a cell.
 using CellTensors = std::array<Tensor, 4>;
 
-// The same for δF, and its adjoint for δP, with the deformation as it is: of a tangent.
+// The same for δF, and its adjoint for δP, at fixed deformation: for a tangent.
 class SharedVolume {
  public:
   SharedVolume(const MaterialBlock& block, int k) {

@@ -1,12 +1,12 @@
-// How steeply the deformation gradient of a point follows the places of its family.
+// How strongly the deformation gradient of a point depends on the positions of its family.
 #pragma once
 
 #include "mechanics/body.hpp"
 
 namespace strut {
 
-// V tr K⁻¹ of an owned point, 1/m²: its share in ω² by correspondence; by quadratic correspondence V κ of its cell. It
-// is 0 where the point carries no stress.
+// V tr K⁻¹ of an owned point, 1/m²: its factor in ω² by correspondence; by quadratic correspondence V κ of its cell. It
+// is 0 if the point carries no stress.
 double steepness(const Body& body, int i);
 
 // l² V tr S⁻¹ of an owned point, S = Σ V ξ ⊗ ξ over its family and l = V^⅓, V of the whole cell: 0.3 or less inside of

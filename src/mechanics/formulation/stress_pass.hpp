@@ -1,4 +1,4 @@
-// Inside mechanics: what the passes over the points of a block that end in their force states have in common.
+// Inside mechanics: what the passes over a block's points that set their force states have in common.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace strut {
 
-// The worst failure of a loop over the points of a block, the first of these in their order, whichever thread finds it.
+// The worst failure in a loop over the points of a block; between equal kinds the first point, for any thread count.
 class WorstFailure {
  public:
   void report(int k, Failure::Kind kind) {
@@ -34,7 +34,7 @@ class WorstFailure {
 struct StressPass {
   double dt;                 // s; of a step of the time-step level
   int level = 0;             // 0: a whole step
-  bool of_any_size = false;  // the step may turn a point far; its rotation is found to round-off
+  bool of_any_size = false;  // the step may rotate a point far; its rotation is found to round-off
   double time = 0;           // at the end of the step, s; for bonds that break
 };
 

@@ -1,5 +1,5 @@
-// SIMD: several law points, one per lane: from deformation gradients to rotations, stretches and stresses. A point by
-// correspondence is its own law point; the cell of a point with a linear strain has four.
+// SIMD: several integration points, one per lane: from deformation gradients to rotations, stretches and stresses. A
+// point by correspondence is its own integration point; the cell of a point by quadratic correspondence has four.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ inline Lanes present(const LaneGroup& group) {
   return lanes_of([&](int l) { return l < group.count ? 1.0 : 0.0; });
 }
 
-// F, R and stress of law points by correspondence, one a point. Number by number: transposed as in `numbers_of` they
-// take a tenth longer here, where they come from memory anyway.
+// F, R and stress of integration points by correspondence. They are read number by number: the transposition of
+// `numbers_of` takes a tenth longer here, where the numbers come from memory anyway.
 struct PointRecords {
   std::array<MaterialPoint*, LaneGroup::width> points;
 
@@ -45,7 +45,7 @@ struct PointRecords {
     for (int c = 0; c < 6; ++c) s[c] = lanes_of([&](int l) { return points[l]->stress[c]; });
     return s;
   }
-  // Of the lanes where `which` is above zero.
+  // Sets the stresses in the lanes where `which` is positive.
   void set_stresses(const LaneSymmetric& s, const Lanes& which) const {
     for (int l = 0; l < LaneGroup::width; ++l) {
       for (int c = 0; which[l] > 0 && c < 6; ++c) points[l]->stress[c] = s[c][l];
@@ -53,9 +53,9 @@ struct PointRecords {
   }
 };
 
-// The same of cells at one place, in a tile.
+// The same for integration point q of cells, in a tile.
 struct PointTile {
-  TileRow* rows;  // as CellPoints has them
+  TileRow* rows;  // in the layout of CellPoints
 
   LaneTensor deformation_gradients() const {
     LaneTensor t;
@@ -88,24 +88,24 @@ struct PointTile {
   }
 };
 
-// The law points of a group: one for each of its points.
+// The integration points of a group: one for each of its points.
 template <class Numbers>
 struct LawPoints {
   const LaneGroup& group;
-  std::array<int, LaneGroup::width> places;  // of their states
+  std::array<int, LaneGroup::width> places;  // indices of their states
   Numbers numbers;
   TileRow* state;
 };
 
-// The same numbers as laws take them.
+// The same numbers in the type that laws take.
 inline materials::SymmetricOf<small::RawLanes> raw(const LaneSymmetric& s) {
   materials::SymmetricOf<small::RawLanes> result;
   for (int c = 0; c < 6; ++c) result[c] = small::raw(s[c]);
   return result;
 }
 
-// The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹): exact up to the midpoint rule, because F is
-// linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
+// The unrotated rate of deformation, d dt = Rᵀ D R dt = sym(ΔU U_mid⁻¹). It is exact up to the midpoint rule, because F
+// is linear in y and the velocity constant over the step, and zero to round-off for a rigid motion.
 template <class Numbers>
 LaneSymmetric strain_rate(const Numbers& old_numbers, const LaneSymmetric& stretch, const Lanes& dt) {
   const LaneTensor R = old_numbers.rotations(), F = old_numbers.deformation_gradients();
@@ -118,7 +118,7 @@ LaneSymmetric strain_rate(const Numbers& old_numbers, const LaneSymmetric& stret
   return small::symmetric_part(small::product(small::full(difference), small::full(small::inverse(middle))));
 }
 
-// Each further update squares what the first one left.
+// Each further update squares the remaining error.
 inline Polar<Lanes> polar_of(const LaneTensor& old_rotation, const LaneTensor& F, bool of_any_size) {
   Polar<Lanes> polar = polar_update(old_rotation, F);
   for (int n = 0; of_any_size && n < 3; ++n) polar = polar_update(polar.rotation, F);
@@ -135,18 +135,18 @@ inline LaneTensor piola_kirchhoff(const LaneSymmetric& stress, const Polar<Lanes
   return P;
 }
 
-// Law points at the end of a step.
+// Integration points at the end of a step.
 struct Deformed {
   LaneTensor F;
   Polar<Lanes> polar;
   LaneSymmetric inverse_stretch;
-  Lanes J;               // 0 of those that carry no stress
-  LaneSymmetric rates;   // of a step of no length: zero
+  Lanes J;               // 0 for those that carry no stress
+  LaneSymmetric rates;   // zero if the step has no length
   LaneSymmetric stress;  // unrotated, with the viscous pressure
-  Lanes stiffness;       // M, Pa, 0 of those that have failed
+  Lanes stiffness;       // M, Pa; 0 for those that have failed
 };
 
-// The law of one block, called for law points side by side.
+// Calls the law of one block for several integration points, one per lane.
 template <class L>
 struct LawUpdate {
   Body& body;
@@ -155,9 +155,9 @@ struct LawUpdate {
   StressPass pass;
   WorstFailure& failure;
 
-  // Deformation gradients F at the end of the pass' step, with all but what follows from the law. `carries`: 1 of
-  // points that carry stress, 0 of others. These have no law, which may have a stress at rest (plastic strain,
-  // pressure).
+  // Deformation gradients F at the end of the pass's step, and what follows from them without the law. `carries`: 1 for
+  // points that carry stress, 0 for others, to which the law does not apply: it may have a stress at rest (plastic
+  // strain, pressure).
   template <class Numbers>
   Deformed deformed(const Numbers& old, const LaneTensor& F, const Lanes& share, const Lanes& carries) const {
     const Polar<Lanes> polar = polar_of(old.rotations(), F, pass.of_any_size);
@@ -197,7 +197,7 @@ struct LawUpdate {
     return materials::from_columns<L>(values);
   }
 
-  // Stress and state of one point.
+  // Advances stress and state of one integration point.
   template <class Numbers>
   void advance_law(const LawPoints<Numbers>& g, int l, const Deformed& now, double dt, double viscous_work,
                    LaneSymmetric& all) const {
@@ -213,7 +213,7 @@ struct LawUpdate {
     }
   }
 
-  // Stress and state of the points of a group at once.
+  // Advances stress and state of the integration points of a group at once.
   template <class Numbers>
   LaneSymmetric advance_side_by_side(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
                                      const Lanes& viscous_work) const {
@@ -243,7 +243,7 @@ struct LawUpdate {
     return result;
   }
 
-  // Below yield nothing changes: memory need not be written.
+  // Below yield the state does not change, and its memory need not be written.
   static void keep(TileRow& row, const small::RawLanes& after, const small::RawLanes& before) {
     if (materials::any(after != before)) small::lanes(row) = small::lanes(after);
   }
@@ -268,7 +268,7 @@ struct LawUpdate {
     Lanes pressure, work;  // Pa; of this step, J per m³ of reference volume
   };
 
-  // The viscous pressure of points that shrink at the rates of one step; what it takes from them is added up.
+  // The viscous pressure of points that are compressed in this step; adds up the work that it dissipates.
   template <class Numbers>
   Viscous add_viscosity(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
@@ -292,7 +292,7 @@ struct LawUpdate {
     return viscous;
   }
 
-  // M of law points, Pa; 0 of those that have failed.
+  // M of integration points, Pa; 0 for those that have failed.
   template <class Numbers>
   Lanes stiffness_of(const LawPoints<Numbers>& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
@@ -303,15 +303,15 @@ struct LawUpdate {
   }
 };
 
-// What a law point adds to ω²: M J |U⁻¹|²/3, Pa, over the density of its point.
+// An integration point's part of ω², times the density of its point: M J |U⁻¹|²/3, Pa.
 inline Lanes steepened_modulus(const Deformed& now) {
   return now.stiffness * now.J * small::square(now.inverse_stretch) / 3;
 }
 
-// The largest damping by viscosity of the points of a whole step.
+// Reports the largest viscous damping of the points of a whole step.
 inline void add_damping(const MaterialBlock& block, const StressPass& pass, const LaneGroups& groups,
                         StepReport& report) {
-  if (block.viscous.empty() || pass.level > 0) return;  // a whole step asks for it
+  if (block.viscous.empty() || pass.level > 0) return;  // only a whole step needs it
   const auto damping = [&block, &groups](int g) {
     const LaneGroup group = groups[g];
     double most = 0;
@@ -323,16 +323,16 @@ inline void add_damping(const MaterialBlock& block, const StressPass& pass, cons
   report.damping = largest(0, groups.count(), report.damping, damping);
 }
 
-// Calls what the compiler is to inline whole: what is not inlined into the loop over groups passes its lanes through
-// memory. Checking builds (debug, asan) go without: it would take the compiler many minutes.
+// Inlines all calls of a function: a call in the loop over groups that is not inlined passes its lanes through memory.
+// Debug and sanitizer builds go without, because the compiler would take many minutes.
 #ifdef NDEBUG
 #define STRUT_INLINE_ALL __attribute__((flatten))
 #else
 #define STRUT_INLINE_ALL
 #endif
 
-// Advances a block's groups of points by an update, which has its law and advances a group, and reports the largest
-// frequency bound, damping and the worst failure.
+// Advances a block's groups of points by `update`, which has its law and advances a group. Reports the largest
+// frequency bound, the largest damping and the worst failure.
 template <class Update>
 void advance_groups(const Update& update, const LaneGroups& groups, StepReport& report) {
   const auto advance = [&update, &groups](int g) STRUT_INLINE_ALL { return update.advance(groups[g]); };

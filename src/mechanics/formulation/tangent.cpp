@@ -35,10 +35,10 @@ Tensor cross(const Vector& w) {
   return W;
 }
 
-// Of a tensor's skew part, twice: the w of [w×] = A − Aᵀ.
+// Twice the axial vector of a tensor's skew part: the w of [w×] = A − Aᵀ.
 Vector twice_axial(const Tensor& A) { return {A(2, 1) - A(1, 2), A(0, 2) - A(2, 0), A(1, 0) - A(0, 1)}; }
 
-// The point at the end of the step, less its rotation.
+// The state of a point at the end of the step in its unrotated frame.
 struct Unrotated {
   Tensor U, inverse_U, Q, turning;  // turning: [(tr U) I − U]⁻¹
   double J;

@@ -9,7 +9,7 @@ namespace strut {
 
 namespace {
 
-// The penalty on the second gradient of μ where its trend over a family is found, beside the weight of the family.
+// The penalty on the second gradient of μ in its trend over a family, relative to the weight of the family.
 constexpr double trend_penalty = 0.01;
 
 using Basis10 = Eigen::Matrix<double, 10, 1>;

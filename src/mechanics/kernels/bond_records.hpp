@@ -1,4 +1,4 @@
-// Inside mechanics: the records by which bonds read a tensor and up to three numbers of an end.
+// Inside mechanics: packs a tensor and up to three scalars of a bond's end into a record.
 #pragma once
 
 #include "mechanics/body.hpp"

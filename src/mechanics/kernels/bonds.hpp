@@ -1,19 +1,19 @@
-// The sums over a family that correspondence peridynamics needs, and the choice of ω outside of them. The formula of a
-// bond stands here, for neighbor lists of whole steps and of substeps alike; on lattices the same sums are convolutions
-// (lattice_sums.hpp).
+// The sums over a family that correspondence peridynamics needs, and the choice of the influence function ω. The
+// formulas of a bond stand here, for the neighbor lists of whole steps and of substeps; on lattices the same sums are
+// convolutions (lattice_sums.hpp).
 // clang-format off
 //   gather:    N = Σ ω V_j (y_j − y_i) ⊗ ξ,  ξ = X_j − X_i                            (F = N K⁻¹)
-//              and Σ ω V_j (y_j − y_i), by which the springs of a point on its own gradient pull at it
+//              and Σ ω V_j (y_j − y_i), the pull of a point's springs on its own gradient
 //   far force: Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]
 //   residual:  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ, with the force t of a stabilization on
 //              z = (y_j − y_i) − ½ (F_i + F_j) ξ
 // clang-format on
-// The force of a bond is (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i). What a point's own state gives, A_i Σ ω V_j ξ and C_i
-// Σ ω V_j (y_j − y_i), takes no loop over bonds (own_force).
-// Each is written once for any kind of family: that of one point (OfPoint), or those of the points of a cluster side by
-// side (OfCluster, SIMD), where a far end is read once for all of them and 0 stands for those who do not have it in
-// their family. Terms are added in the order of the family, so that a sum does not depend on who else is in a cluster.
-// The sums of ordinary points: ordinary_bonds.hpp.
+// The force of a bond is (A_i + A_j) ξ + (C_i + C_j)(y_j − y_i). The part of the point's own state, A_i Σ ω V_j ξ
+// and C_i Σ ω V_j (y_j − y_i), needs no loop over bonds (own_force). Each sum is written once for any family: of
+// one point (OfPoint), or of the points of a cluster in SIMD lanes (OfCluster), which reads a far end once for all
+// its points; its weight is 0 in lanes whose point does not have it in the family. Terms are added in the order of
+// the family, so that a sum does not depend on the rest of the cluster. The sums of ordinary points:
+// ordinary_bonds.hpp.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ struct CubicDecay {
   }
 };
 
-// Calls work(ω) with the influence function as a type, so that a constant one costs nothing; returns what it returns.
+// Calls work(ω) with the influence function as a type, so that a constant one costs nothing; returns its result.
 template <class Work>
 auto with_influence(Influence influence, Work&& work) {
   switch (influence) {
@@ -66,15 +66,15 @@ auto with_influence(Influence influence, Work&& work) {
   return work(CubicDecay{});
 }
 
-// ---- Whose family --------------------------------------------------------------------------------------------------
+// ---- Families ------------------------------------------------------------------------------------------------------
 
-// Of one point.
+// The family of one point.
 struct OfPoint {
   using Scalar = double;
   const Families& families;
   int i;
 
-  // The `count` numbers that stand at of(local index).
+  // The `count` numbers of point i that start at of(i).
   template <int count, class Of>
   std::array<double, count> own(Of of) const {
     std::array<double, count> numbers;
@@ -87,7 +87,7 @@ struct OfPoint {
   }
 };
 
-// Of the points of a cluster; the first one stands in for those that it lacks.
+// The families of the points of a cluster; its first point fills the lanes that have none.
 struct OfCluster {
   using Scalar = Lanes;
   Cluster cluster;
@@ -102,11 +102,11 @@ struct OfCluster {
     return numbers;
   }
   template <class Visit>
-  void for_each(Visit&& visit) const {  // visit(j, 1 in the lanes of those who have j in their family, else 0)
+  void for_each(Visit&& visit) const {  // visit(j, 1 in the lanes that have j in their family, else 0)
     for_each(visit, [](int) {});
   }
-  // fetch(j): is called for each some places ahead of its visit. Far ends lie scattered: half of the time would go by
-  // waiting for them.
+  // fetch(j) is called some entries ahead of visit(j): far ends are scattered in memory, and waiting for them would
+  // take half of the time.
   template <class Visit, class Fetch>
   void for_each(Visit&& visit, const Fetch& fetch) const {
     constexpr std::size_t ahead = 16;
@@ -143,7 +143,7 @@ Tensor3<T> zero_tensor() {
   return {{{v.c[0], v.c[1], v.c[2]}, {v.c[0], v.c[1], v.c[2]}, {v.c[0], v.c[1], v.c[2]}}};
 }
 
-// u − v, of a far end and of the points.
+// u − v, with u of a far end and v of the points.
 template <class T>
 Vector3<T> apart(const Eigen::Array4d& far, const Vector3<T>& own) {
   return {{far[0] - own.c[0], far[1] - own.c[1], far[2] - own.c[2]}};
@@ -160,8 +160,8 @@ inline void fetch_record(const Record* record) {
   for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
 }
 
-// Calls visit(j, ω V_j, ξ, presence) over a family. `read`: records by j that the visits read besides, to be fetched
-// ahead.
+// Calls visit(j, ω V_j, ξ, presence) for each bond of a family. `read`: records by j that the visits read besides, to
+// be prefetched.
 template <class Family, class Weight, class Visit, class... Record>
 inline void over(const Family& family, const Site* sites, Weight, Visit&& visit,
                  [[maybe_unused]] const Record*... read) {
@@ -191,7 +191,7 @@ inline void over(const Family& family, const Site* sites, Weight, Visit&& visit,
 template <class T>
 struct Moments {
   Tensor3<T> tensor = zero_tensor<T>();  // N
-  Vector3<T> pull = zero_vector<T>();    // Σ ω V_j (y_j − y_i), where it is asked for
+  Vector3<T> pull = zero_vector<T>();    // Σ ω V_j (y_j − y_i), if asked for
 };
 
 template <bool with_pull, class Family, class Weight>
@@ -207,11 +207,11 @@ inline Moments<ScalarOf<Family>> gather(const Family& family, const Site* sites,
       for (int c = 0; c < 3; ++c) sums.tensor.c[r][c] += weighted * xi.c[c];
     }
   });
-  return Moments<T>(sums);  // a copy: kept in registers while it is added up
+  return Moments<T>(sums);  // a copy: the sums stay in registers while they are added up
 }
 
-// Σ ω V ξ of a point, added up in more digits: it acts with the same sign in every step, so that its round-off would be
-// a drift of the momentum.
+// Σ ω V ξ of a point, in extended precision: it acts with the same sign in every step, so that its round-off would make
+// the momentum drift.
 template <class Weight>
 inline Vector first_moment(const OfPoint& family, const Site* sites, Weight weight) {
   long double sum[3] = {0, 0, 0};
@@ -221,13 +221,13 @@ inline Vector first_moment(const OfPoint& family, const Site* sites, Weight weig
   return {static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])};
 }
 
-// Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]. with_springs: whether any point of the scene has C.
+// Σ ω V_j [ A_j ξ + C_j (y_j − y_i) ]. with_springs: some point of the scene has C > 0.
 template <bool with_springs, class Family, class Weight>
 inline Vector3<ScalarOf<Family>> far_force(const Family& family, const Site* sites, const ForceState* states,
                                            Weight weight) {
   using T = ScalarOf<Family>;
   const Vector3<T> y = own_place(family, sites, &Site::current);
-  Tensor3<T> by_axis = zero_tensor<T>();  // by the component of ξ: so many chains of additions are under way
+  Tensor3<T> by_axis = zero_tensor<T>();  // by the component of ξ, for independent chains of additions
   Vector3<T> springs = zero_vector<T>();
   over(
       family, sites, weight,
@@ -249,7 +249,7 @@ inline Vector3<ScalarOf<Family>> far_force(const Family& family, const Site* sit
   return sum;
 }
 
-// A Σ ω V ξ + C Σ ω V (y_j − y_i), of what the sums are known already.
+// A Σ ω V ξ + C Σ ω V (y_j − y_i), from sums that are known already.
 template <class T>
 inline Vector3<T> own_force(const Tensor3<T>& A, const T& C, const Vector3<T>& first_moment, const Vector3<T>& pull) {
   const Vector3<T>& S = first_moment;
@@ -276,14 +276,14 @@ inline ScalarOf<Family> squared_residual(const Family& family, const Site* sites
 
 // ---- The residual of both ends' gradients --------------------------------------------------------------------------
 
-// F, C and the share of the step of the points.
+// F, C and the fraction of the step of the points.
 template <class T>
 struct OwnGradient {
   Tensor3<T> F;
   T stiffness, step_share;
 };
 
-// C of a record, where its stabilization is the one at `kind`; where there is one only, none is asked.
+// C of a record if its stabilization is the one at `kind`, else 0; with only one bond stabilization there is no check.
 template <class T>
 T stiffness_of(std::size_t kind, const T& stiffness, const T& of_kind) {
   if constexpr (bond_stabilizations == 1) return stiffness;
@@ -305,8 +305,8 @@ OwnGradient<ScalarOf<Family>> own_gradient(const Family& family, const GradientS
   return own;
 }
 
-// Calls visit(ω V_j t less the share, z, ξ, share) over a family, with the force t of the stabilization S, which is the
-// one at `kind`. It acts at the steps of the end of the lower time-step level, so with the greater share of a step.
+// Calls visit(ω V_j t without the fraction, z, ξ, fraction) for each bond of a family, where t is the force of the
+// stabilization S at `kind`. It acts in the steps of the end of the lower time-step level, so with the larger fraction.
 template <class S, class Family, class Weight, class Visit>
 inline void over_residuals(std::size_t kind, const Family& family, const Site* places, const GradientState* gradients,
                            Weight weight, Visit&& visit) {
@@ -355,10 +355,10 @@ inline Residual<ScalarOf<Family>> residual(std::size_t kind, const Family& famil
                         for (int c = 0; c < 3; ++c) sums.moment.c[r][c] += t * xi.c[c];
                       }
                     });
-  return Residual<T>(sums);  // a copy: kept in registers while it is added up
+  return Residual<T>(sums);  // a copy: the sums stay in registers while they are added up
 }
 
-// ½ Σ ω V_j ½ z·t, a point's half of the energy, J/m³.
+// ½ Σ ω V_j ½ z·t, the point's half of the energy of the springs, J/m³.
 template <class S, class Family, class Weight>
 inline ScalarOf<Family> residual_energy(std::size_t kind, const Family& family, const Site* places,
                                         const GradientState* gradients, Weight weight) {

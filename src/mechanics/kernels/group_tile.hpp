@@ -1,4 +1,4 @@
-// SIMD: the records of a group that are kept in tiles, as kernels take them.
+// SIMD: the records of a group that are stored in tiles, as kernels take them.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@ namespace strut {
 
 using small::TileRow;
 
-// The tile of a group's records where they fill it in the order of the lanes, else a copy: the other records of a tile
-// are those of another group, which another thread may write. The tile of the next
-// group, so many tiles on, is fetched ahead: there are too many streams for the processor to see it coming. Row: const
-// where they are only read.
+// Gives the tile of a group's records if they fill it in the order of the lanes, else a copy, because the other records
+// of a tile belong to another group, which another thread may write. The tile `ahead` tiles further
+// on is prefetched: there are too many streams for the hardware prefetcher. Row: const if the records are only
+// read.
 template <std::size_t numbers, std::size_t ahead, class Row = TileRow>
 class GroupTile {
  public:
@@ -38,7 +38,7 @@ class GroupTile {
 
   Row* rows() const { return rows_; }
   Row& operator[](std::size_t n) const { return rows_[n]; }
-  // What has changed in a copy.
+  // Writes back what has changed in a copy.
   void give_back(small::Tiles& all, const Places& places, int count) const {
     if (rows_ != copy_.data()) return;
     for (int l = 0; l < count; ++l) {

@@ -1,5 +1,5 @@
-// SIMD: several points of a block, one per lane (side by side), and the sums over their families: by the list of their
-// cluster, or by the sums over their lattice.
+// SIMD: several points of a block, one per lane, and the sums over their families: from the neighbor list of their
+// cluster, or from the sums over their lattice.
 #pragma once
 
 #include <algorithm>
@@ -21,13 +21,13 @@ inline std::pair<int, int> range(const MaterialBlock& block, Part part) {
 struct LaneGroup {
   static constexpr int width = Cluster::width;
 
-  std::array<int, width> k;  // places in block.points; the last one stands in for those that are missing
+  std::array<int, width> k;  // indices in block.points; the last point fills the empty lanes
   Indices i;                 // the points
-  int count;                 // of those that are there
-  // Where their sums come from, one of both.
+  int count;                 // number of points
+  // The source of their sums: one of these two.
   std::optional<Cluster> cluster;
   const LatticeSums::Chunk* chunk;
-  bool side_by_side;  // in a pencil
+  bool side_by_side;  // adjacent cells of a pencil
 
   LaneIndices lane_indices() const { return {i, side_by_side}; }
 };
@@ -35,7 +35,7 @@ struct LaneGroup {
 // Points of a block, in groups.
 class LaneGroups {
  public:
-  // Those of a part, of a block that has lists.
+  // The points of one part of a block that has neighbor lists.
   LaneGroups(const Body& body, const MaterialBlock& block, Part part) : points_(&block.points) {
     const auto [begin, end] = range(block, part);
     if (begin == end) return;
@@ -44,8 +44,8 @@ class LaneGroups {
     first_ = lists_->holding(block.points[begin]);
     count_ = lists_->holding(block.points[end - 1]) + 1 - first_;
   }
-  // Those in some slots of a lattice, but not who have lost bonds: first who fill a group side by side in a pencil,
-  // whose sums stand so too.
+  // The points in some slots of a lattice, without those that have lost bonds: first full groups of adjacent cells of a
+  // pencil, whose sums are adjacent, too.
   LaneGroups(const MaterialBlock& block, const LatticeSums::Chunk& chunk) : points_(&block.points), chunk_(&chunk) {
     const std::vector<int>& off = block.off_stencil.places;
     for (const Part part : {Part::interior, Part::boundary}) {
@@ -79,7 +79,7 @@ class LaneGroups {
   }
 
  private:
-  // Of a chunk, the places from `at` up to `end`.
+  // Adds the indices from `at` up to `end` of a chunk, as full groups of adjacent cells and as others.
   void add_runs(int at, int end) {
     constexpr int apart = LaneGroup::width - 1;
     while (at < end) {
@@ -95,7 +95,7 @@ class LaneGroups {
   static int groups_of(const std::vector<int>& places) {
     return (static_cast<int>(places.size()) + LaneGroup::width - 1) / LaneGroup::width;
   }
-  // Of places that follow upon each other; of some.
+  // A group of consecutive indices; a group of given indices.
   LaneGroup of_run(int begin, int count, std::optional<Cluster> cluster) const {
     return group(count, cluster, chunk_ != nullptr, [begin](int l) { return begin + l; });
   }
@@ -113,25 +113,25 @@ class LaneGroups {
   }
 
   const std::vector<int>* points_;
-  // Places in block.points: on a lattice the first of each full group, and whoever is in none; those that are chosen.
+  // Indices in block.points: on a lattice the first of each full group, and those in no full group; selected points.
   std::vector<int> full_, others_;
   const std::vector<int>* selected_ = nullptr;
   const ClusterLists* lists_ = nullptr;
-  int begin_ = 0, first_ = 0, count_ = 0;  // place of the first point; its list; groups
+  int begin_ = 0, first_ = 0, count_ = 0;  // index of the first point; its list; number of groups
   const LatticeSums::Chunk* chunk_ = nullptr;
 };
 
-// ---- Sums over the families of a group, of places y or of a field in their stead -----------------------------------
+// ---- Sums over the families of a group, of positions y or of a field in their place --------------------------------
 
-// K = Σ ω V_j ξ ⊗ ξ, of sites in the reference state.
+// K = Σ ω V_j ξ ⊗ ξ in the reference state, m⁵.
 template <class Weight>
 small::Tensor3<small::Lanes> shapes(const LaneGroup& group, const Site* sites, Weight weight) {
   if (group.cluster) return bonds::gather<false>(bonds::OfCluster{*group.cluster}, sites, weight).tensor;
   return group.chunk->shapes(group.lane_indices());
 }
 
-// Σ ω V_j (v_j − v_i) ⊗ ξ of places or of a field v: F K; in a chunk of a lattice, of the places without the identity.
-// with_springs: whether any point of the scene has springs on its own gradient, whose pull is asked for.
+// Σ ω V_j (v_j − v_i) ⊗ ξ of positions or of a field v: F K; on a lattice of displacements, so without the identity.
+// with_springs: some point of the scene has springs on its own gradient, whose pull is then summed, too.
 template <class Weight>
 bonds::Moments<small::Lanes> moments(const LaneGroup& group, const Displacements& u, bool with_springs, Weight weight) {
   if (!group.cluster) return group.chunk->moments(group.lane_indices(), u);
@@ -139,7 +139,7 @@ bonds::Moments<small::Lanes> moments(const LaneGroup& group, const Displacements
   return with_springs ? bonds::gather<true>(family, u.sites, weight) : bonds::gather<false>(family, u.sites, weight);
 }
 
-// The residual of both ends' gradients, held down by the stabilization S.
+// The residual of both ends' gradients, penalized by the stabilization S.
 template <class S, class Weight>
 bonds::Residual<small::Lanes> residuals(std::size_t kind, const LaneGroup& group, const Site* places,
                                         const std::vector<GradientState>& gradients, Weight weight) {
@@ -149,7 +149,7 @@ bonds::Residual<small::Lanes> residuals(std::size_t kind, const LaneGroup& group
   return {group.chunk->residual_forces(group.lane_indices()), group.chunk->residual_moments(group.lane_indices())};
 }
 
-// What the far ends give.
+// The force of the far ends of the bonds.
 template <class Weight>
 small::Vector3<small::Lanes> far_forces(const LaneGroup& group, const Displacements& u,
                                         const std::vector<ForceState>& states, bool with_springs, Weight weight) {

@@ -1,4 +1,4 @@
-// Sums that a point gathers from the points near it: what these have is narrow, what comes of it wide.
+// Sums that each point gathers from its neighbors: few numbers per neighbor, many per result.
 #include "mechanics/kernels/lattice_sweep.hpp"
 
 namespace strut {
@@ -32,7 +32,7 @@ void LatticeSums::gather_planes(int inputs, int outputs, const Fill& fill, const
   });
 }
 
-// Pencil by pencil: gather(traversal, slot, z).
+// Calls gather(traversal, slot, z) for each pencil.
 template <class Fill, class Gather>
 void LatticeSums::gather_pencils(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take) {
   const auto plane = [&gather](Traversal& traversal, int z, const Strip&) {
@@ -49,9 +49,9 @@ constexpr int shape_outputs = 13;  // K by columns, S and W
 
 }  // namespace
 
-// Of eight points and one row of their stencils: Σ ω V, Σ ω dx V and Σ ω dx² V.
+// Sums over one row of the stencils of eight points: Σ ω V, Σ ω dx V and Σ ω dx² V.
 struct LatticeSums::Traversal::Shapes {
-  const std::array<const Pencil*, 3>& there;  // V of the row: before, here and after
+  const std::array<const Pencil*, 3>& there;  // V of the row: the pencils before, at and after
   const Kind& kind;
   double spacing;  // along x, m
   Pencil sum = kind.weight[0] * *there[1], first = {}, second = {};
@@ -91,14 +91,14 @@ void LatticeSums::Traversal::gather_shape(int slot, int z) {
 
 LaneTensor LatticeSums::Chunk::shapes(const LaneIndices& points) const { return OfGroup(*this, points).tensor(0); }
 
-// The constants come with the shapes.
+// Sets the constants together with the shapes.
 void LatticeSums::gather_shapes(const Body& body, const Take& take) {
   std::vector<Constants> constants(body.owned(), Constants::Zero());
   const double length = lattice_->frame().horizon;
   const auto set = [&](int i, const double* sums) {
     const auto constant = [sums](int c) { return sums[(9 + c) * pencil_width]; };
     const double W = constant(3);
-    // As round-off of their sums, and of alike families the same.
+    // Rounded above the round-off of their sums, so that identical families have identical constants.
     for (int c = 0; c < 4; ++c) constants[i][c] = rounded(constant(c), c < 3 ? W * length : W, 48);
   };
   const Displacements places{body.domain.sites.data()};
@@ -118,17 +118,17 @@ void LatticeSums::gather_shapes(const Body& body, const Take& take) {
 
 namespace {
 
-// What is gathered of a point, V u; of a column of cells along z, Σ ω V u and Σ ω dz V u; and of the columns at one
-// |dx| the sums of both and of dy times the first.
+// Numbers gathered: V u of a point; Σ ω V u and Σ ω dz V u of a column of cells along z; of the columns at one |dx|,
+// the sums of both and of dy times the first.
 constexpr int moment_inputs = 3, of_a_column = 6, of_columns = 9;
 
-// The sums of eight points over what lies dx = 0, ±1, … from them.
+// The sums of eight points over the columns at dx = 0, ±1, … from them.
 template <bool with_springs>
 struct MomentsOfPencil {
-  static constexpr int outputs = with_springs ? 12 : 9;  // H with u_i taken out, and with springs q = Σ ω V u
+  static constexpr int outputs = with_springs ? 12 : 9;  // H without the u_i term, and with springs q = Σ ω V u
   Pencil H[9] = {}, q[3] = {};
 
-  // `at`: the sums over columns of the pencils before, here and after.
+  // `at`: the sums over columns of the pencils before, at and after.
   MomentsOfPencil(const std::array<const Pencil*, 3>& at, int reach, double spacing) {
     for (int c = 0; c < 3; ++c) q[c] = at[1][c], H[6 + c] = at[1][3 + c], H[3 + c] = at[1][6 + c];
     add(at, reach, spacing, std::integral_constant<int, 1>{});
@@ -157,7 +157,7 @@ struct MomentsOfPencil {
 
 }  // namespace
 
-// Along z, of the columns at the places of a row: once for each kind.
+// Sums along z, of the columns at each x of a row: once for each kind of column.
 template <int reach>
 void LatticeSums::Traversal::sum_columns(int z, int y) {
   const int places = lattice_->shape()[0], plane = places * lattice_->shape()[1];
@@ -186,7 +186,7 @@ void LatticeSums::Traversal::sum_columns(int z, int y) {
   });
 }
 
-// Along y, at one place of the row at hand: for each |dx| the columns that a stencil has there.
+// Sums along y, at one x of the present row: for each |dx| over the columns of a stencil there.
 void LatticeSums::Traversal::sum_across(int x, Pencil* to) const {
   for (const std::vector<ColumnOfSums>& columns : columns_near_) {
     Pencil sum[3] = {}, along_z[3] = {}, along_y[3] = {};
@@ -204,7 +204,7 @@ void LatticeSums::Traversal::sum_across(int x, Pencil* to) const {
   }
 }
 
-// Along x, of the pencils in a row.
+// Sums along x, of the pencils in a row.
 template <bool with_springs>
 void LatticeSums::Traversal::gather_row(int z, int y) {
   const int places = lattice_->shape()[0], row = (z * lattice_->shape()[1] + y) * places;
@@ -217,7 +217,7 @@ void LatticeSums::Traversal::gather_row(int z, int y) {
     }
   }
   const auto across = [&](int x) { return &across_[(x % 4) * of_columns * columns_near_.size()]; };
-  int next = 0;  // place to be summed along y
+  int next = 0;  // next x to be summed along y
   for_each_bit(all_.row_of(all_.owned_, z, y), all_.words_, [&](int x) {
     for (next = std::max(next, x - 1); next <= x + 1; ++next) sum_across(next, across(next));
     const std::array<const Pencil*, 3> at{across(x - 1), across(x), across(x + 1)};
@@ -231,7 +231,7 @@ void LatticeSums::Traversal::gather_moments(int z, const Strip& strip) {
   ring_.open(lattice_->rows_across(), static_cast<int>(all_.column_kinds_.size()) * of_a_column, lattice_->shape()[0]);
   column_bits_.resize(static_cast<std::size_t>(ring_.rows) * all_.words_);
   across_.resize(4 * of_columns * columns_near_.size());
-  int next = strip.y0 - far_y();  // row whose columns are to be summed
+  int next = strip.y0 - far_y();  // next row whose columns are to be summed
   for (int y = strip.y0; y < strip.y1; ++y) {
     const std::uint64_t* owned = all_.row_of(all_.owned_, z, y);
     if (std::all_of(owned, owned + all_.words_, [](std::uint64_t word) { return word == 0; })) continue;
@@ -240,7 +240,7 @@ void LatticeSums::Traversal::gather_moments(int z, const Strip& strip) {
   }
 }
 
-// `fill`: V u of points.
+// `fill`: gives V u of the points.
 template <bool with_springs, class Fill>
 void LatticeSums::gather_moments(const Fill& fill, const Take& take) {
   with_constant(far_z(), [&](auto far) {
@@ -260,7 +260,7 @@ void LatticeSums::moments(const Displacements& u, const Take& take) {
   has_springs_ ? gather_moments<true>(fill, take) : gather_moments<false>(fill, take);
 }
 
-// The pull is S + q − W u_i over the family and the point itself, of a field without S.
+// The pull is S + q − W u_i over the family and the point itself; for a field, without S.
 bonds::Moments<Lanes> LatticeSums::Chunk::moments(const LaneIndices& points, const Displacements& u) const {
   const OfGroup group(*this, points);
   const LaneVector ui = u.of(records(u.sites, points.i)).u;
@@ -282,7 +282,7 @@ bonds::Moments<Lanes> LatticeSums::Chunk::moments(const LaneIndices& points, con
 
 namespace {
 
-constexpr int residual_outputs = 12;  // M, a force
+constexpr int residual_outputs = 12;  // M and a force
 
 }  // namespace
 
@@ -302,12 +302,12 @@ void LatticeSums::gather_residuals_of(std::size_t kind, const Displacements& u,
   gather_pencils(residual_inputs, residual_outputs, fill, gather, take);
 }
 
-// The bonds of eight points with one row of their stencils.
+// The bonds of eight points to one row of their stencils.
 template <class S>
 struct LatticeSums::Traversal::Residuals {
-  const Pencil* own;           // columns of the points
-  const Pencil* const* there;  // columns of the row: before, here and after
-  const Pencil* fitted;        // u − ½ (H_y dy + H_z dz) of the row: before, here and after, three each
+  const Pencil* own;           // numbers of the points, by column
+  const Pencil* const* there;  // numbers of the row: the pencils before, at and after
+  const Pencil* fitted;        // u − ½ (H_y dy + H_z dz) of the row: before, at and after, three each
   const Pencil* base;          // u + ½ (H_y dy + H_z dz) of the points
   const Kind& kind;
   double spacing;                     // along x, m

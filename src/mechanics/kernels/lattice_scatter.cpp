@@ -1,4 +1,4 @@
-// Sums that a point hands over to the points near it: what it gives is wide, what comes of it narrow.
+// Sums that each point hands over to its neighbors: many numbers per point, few per result.
 #include "mechanics/kernels/lattice_sweep.hpp"
 
 namespace strut {
@@ -7,7 +7,7 @@ using namespace lattice;
 
 // ---- Sweeps --------------------------------------------------------------------------------------------------------
 
-// A Sweep says what is summed: its `inputs` a point, its `columns` a row and kind, row_sums(pencils, to) along x,
+// A Sweep defines a sum: its `inputs` per point, its `columns` per row and kind, row_sums(pencils, to) along x,
 // add(sums of a row, dy) along y, and hand(to, dz) along z, to the `outputs` of a point. Points are at least as far
 // from the first and last plane and row as a stencil reaches.
 template <class Sweep, class Fill>
@@ -36,7 +36,7 @@ void LatticeSums::Traversal::sweep_strip(const Strip& strip, const Fill& fill, c
 template <class Sweep, class Fill>
 void LatticeSums::Traversal::sum_plane(int z, const Strip& strip, const Fill& fill) {
   if (all_.slots_before(z, strip.y0 - far_y()) == all_.slots_before(z, strip.y1 + far_y())) return;
-  int next = strip.y0 - far_y();  // row to be summed along x
+  int next = strip.y0 - far_y();  // next row to be summed along x
   for (int y = strip.y0; y < strip.y1; ++y) {
     for (; next <= y + far_y(); ++next) sum_row<Sweep>(z, next, fill);
     hand_over_row<Sweep>(z, y);
@@ -60,7 +60,7 @@ void LatticeSums::Traversal::sum_row(int z, int y, const Fill& fill) {
   });
 }
 
-// What the rows about row y of plane z give to the pencils above and below it.
+// Adds the sums of the rows around row y of plane z to the pencils above and below it.
 template <class Sweep>
 void LatticeSums::Traversal::hand_over_row(int z, int y) {
   const int places = lattice_->shape()[0];
@@ -77,7 +77,7 @@ void LatticeSums::Traversal::hand_over_row(int z, int y) {
   });
 }
 
-// `first`: where the sums of the pencil's own x stand in each row. Inlined: as a call it costs a fifth of a sweep.
+// `first`: index of the pencil's own x in the sums of each row. Inlined, because a call costs a fifth of a sweep.
 template <class Sweep>
 __attribute__((always_inline)) inline void LatticeSums::Traversal::hand_over(int place, int z, int dz, int first) {
   const int away = dz * lattice_->shape()[0] * lattice_->shape()[1];
@@ -104,7 +104,7 @@ __attribute__((always_inline)) inline void add_pairs(const Pencil& before, const
   if constexpr (dx < reach) add_pairs<dx + 1>(before, here, after, pairs);
 }
 
-// Of the column of three pencils in a row, so many columns each.
+// The pairs of one column of three adjacent pencils with `inputs` columns each.
 template <int reach, int inputs>
 __attribute__((always_inline)) inline Pairs<reach> pairs_of(const Pencil* middle, int column) {
   const Pencil &before = middle[column - inputs], &here = middle[column], &after = middle[column + inputs];
@@ -145,7 +145,7 @@ void LatticeSums::squares(const Displacements& u, const Take& take) {
   with_constant(lattice_->reach(), [&](auto reach) { sweep<SquareSweep<reach>>(fill, take); });
 }
 
-// Σ ω V |u_j − u_i|² − H : (F − I), H = (F − I) K being the moments; the first sum is Σ ω V |u_j|² − 2 u_i·q + W
+// Σ ω V |u_j − u_i|² − H : (F − I), where H = (F − I) K are the moments; the first sum is Σ ω V |u_j|² − 2 u_i·q + W
 // |u_i|².
 double LatticeSums::Chunk::squared_residual(int i, const Displacements& u, const Tensor& F,
                                             const Symmetric& shape_inverse) const {
@@ -198,7 +198,7 @@ struct LatticeSums::ForceSweep {
   }
 };
 
-// Σ ω V_j (A_j ξ + C_j (ξ + u_j)) − u_i Σ ω V_j C_j, over the family and the point itself; of a field without C_j ξ.
+// Σ ω V_j (A_j ξ + C_j (ξ + u_j)) − u_i Σ ω V_j C_j, over the family and the point itself; for a field, without C_j ξ.
 void LatticeSums::forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take) {
   const auto fill = [&](const Cells& cells, const Put& put) {
     const auto [ui, V] = u.of(cells.of(u.sites));

@@ -15,7 +15,7 @@ LatticeSums::LatticeSums(const Body& body, const LatticeFamilies& lattice, const
   gather_shapes(body, take);
 }
 
-// The place of a kind among some, to which it is added.
+// Index of a kind in `kinds`, to which it is added if it is new.
 int LatticeSums::place_in(std::vector<Kind>& kinds, const Kind& kind) {
   const auto known = std::find(kinds.begin(), kinds.end(), kind);
   const auto place = static_cast<int>(known - kinds.begin());
@@ -23,7 +23,7 @@ int LatticeSums::place_in(std::vector<Kind>& kinds, const Kind& kind) {
   return place;
 }
 
-// Of a line of cells, so many m apart; `aside`: of the line, m.
+// The weights along a line of cells that are `spacing` (m) apart; `aside`: offset of the line, m.
 template <class Weight>
 LatticeSums::Kind LatticeSums::kind_of(int reach, double spacing, const Eigen::Array2d& aside, Weight weight) const {
   Kind kind{.reach = reach};
@@ -49,7 +49,7 @@ void LatticeSums::make_rows(Influence influence) {
   });
 }
 
-// A column reaches as high as the rows that it crosses.
+// A column reaches as far as the rows that it crosses.
 void LatticeSums::make_columns(Influence influence) {
   const Vector& h = lattice_->frame().spacing;
   columns_.resize(lattice_->reach() + 1);
@@ -91,7 +91,7 @@ void LatticeSums::mark_places() {
   }
 }
 
-// Of the bits of a row those that are set in any plane that a stencil reaches from plane z.
+// Sets the bits of a row that are set in any plane that a stencil reaches from plane z.
 void LatticeSums::set_bits_near(const std::vector<std::uint64_t>& bits, int z, int y, std::uint64_t* row) const {
   std::fill_n(row, words_, 0);
   for (int dz = -far_z(); dz <= far_z(); ++dz) {

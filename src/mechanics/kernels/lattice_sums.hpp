@@ -3,22 +3,22 @@
 // clang-format off
 //   shapes     K = Σ ω V_j ξ ⊗ ξ                                 (once)
 //   moments    H = Σ ω V_j (u_j − u_i) ⊗ ξ                       (F = I + H K⁻¹)
-//              Σ ω V_j (y_j − y_i), the pull of its own springs on a point, without the factor C_i
+//              Σ ω V_j (y_j − y_i), the pull of a point's own springs, without the factor C_i
 //   residuals  Σ ω V_j t and M = Σ ω V_j t ⊗ ξ                   (both ends' gradients, as in bonds.hpp)
-//   forces     Σ ω V_j [A_j ξ + C_j (y_j − y_i)], what the far ends give
+//   forces     Σ ω V_j [A_j ξ + C_j (y_j − y_i)], the force of the far ends
 // clang-format on
-// They are those of bonds.hpp in another order of additions.
+// They equal those of bonds.hpp up to the order of additions.
 //
-// Method: with u_i taken out, Σ ω V_j u_j ⊗ ξ is a convolution of V u, zero in empty cells, and is done axis by axis
-// for pencils of eight cells (lattice_gather.cpp). A column of cells adds up Σ ω V u and Σ ω dz V u, once for each kind
-// of column that the stencil has (along z); those at one |dx| are added up, and dy times these (along y); and what lies
-// dx cells aside, and dx times that (along x). Of the 122 bonds of a point at three spacings 25 additions are left.
-// Forces go the other way round, along x, y and z (lattice_scatter.cpp): there it is what a point gives that is wide,
-// and its sum is narrow. Residuals are not linear in what a point has (C_ij is the lesser of two), and go bond by
-// bond; and so do shapes, which as moments of places would lose digits far from the origin.
+// Method: without the u_i term, Σ ω V_j u_j ⊗ ξ is a convolution of V u, which is zero in empty cells. It is evaluated
+// axis by axis for pencils of eight cells (lattice_gather.cpp). Along z, each column of cells sums Σ ω V u and
+// Σ ω dz V u, once for each kind of column in the stencil; along y, these and dy times them are summed over the columns
+// at one |dx|; along x, these and dx times them. The 122 bonds of a point at three spacings become 25 additions. Forces
+// are evaluated in the opposite order, along x, y and z (lattice_scatter.cpp), because there a point gives many numbers
+// and receives few. Residuals are not linear in a point's values (C_ij is the lesser of two) and are evaluated bond by
+// bond; so are shapes, which as moments of positions would lose digits far from the origin.
 //
-// The lattice is gone through in strips of rows, and these plane by plane; what a plane of a strip has added up is
-// handed out as soon as it is complete. So only the planes that a stencil reaches are kept, in the cache, and nothing a
+// The lattice is traversed in strips of rows, and these plane by plane; the sums of a plane of a strip are handed out
+// as soon as they are complete. So only the planes that a stencil reaches are stored, in the cache, and nothing per
 // point. A sum has the order of the cells, so that results are the same on any number of ranks.
 #pragma once
 
@@ -36,7 +36,7 @@ namespace strut {
 
 using small::Indices;
 
-// Points are taken in the order in which they stand in memory: what is read soon is a few records on.
+// Prefetches a record: points are visited in the order of memory, so the next ones are a few records further on.
 template <class Record>
 inline void fetch_ahead(const Record* records, int i) {
   constexpr int ahead = 24;
@@ -44,13 +44,13 @@ inline void fetch_ahead(const Record* records, int i) {
   for (std::size_t line = 0; line < sizeof(Record); line += 64) __builtin_prefetch(first + line);
 }
 
-// Some points, one a lane, and whether they stand side by side in one pencil, as their sums then do.
+// Some points, one per lane. side_by_side: they are adjacent in one pencil, and so are their sums.
 struct LaneIndices {
   Indices i;
   bool side_by_side = false;
 };
 
-// What is summed: u = y − X of sites, or a field that stands in the place of y.
+// The field that is summed: u = y − X of sites, or a field that is stored in place of y.
 struct Displacements {
   const Site* sites;
   bool is_field = false;
@@ -58,7 +58,7 @@ struct Displacements {
   Eigen::Array4d operator()(int i) const {
     return is_field ? sites[i].current : Eigen::Array4d(sites[i].current - sites[i].reference);
   }
-  // Of the sites that begin at(lane), and their volumes.
+  // Displacements and volumes of the sites that begin at at(lane).
   struct OfLanes {
     small::Vector3<small::Lanes> u;
     small::Lanes volume;
@@ -76,19 +76,19 @@ struct Displacements {
 
 class LatticeSums {
  public:
-  // The sums of a sweep over the points in the slots begin … end − 1. They last as long as a Take of them.
+  // The sums of a sweep for the points in the slots begin … end − 1. They are valid only during the call of a Take.
   class Chunk {
    public:
-    // Which of `points`, ascending local indices, from place `low` to `high`, are in these slots: first and end.
+    // The indices from `low` to `high` of `points` (ascending local indices) that are in these slots: first and end.
     std::pair<int, int> part_of(const std::vector<int>& points, int low, int high) const;
 
-    // Whether a point and the one `apart` places after it stand so far apart in one pencil.
+    // True if points i and j are `apart` cells apart in one pencil.
     bool are_side_by_side(int i, int j, int apart) const {
       const int cell = all->lattice_->cell(i), end = all->lattice_->cell(j);
       return end - cell == apart && cell / pencil_width == end / pencil_width;
     }
 
-    // After the sweep that is named alike: of some points.
+    // The sums of some points, after the sweep of the same name.
     small::Tensor3<small::Lanes> shapes(const LaneIndices& points) const;                           // K
     bonds::Moments<small::Lanes> moments(const LaneIndices& points, const Displacements& u) const;  // H
     small::Vector3<small::Lanes> residual_forces(const LaneIndices& points) const;
@@ -118,18 +118,18 @@ class LatticeSums {
   };
   using Take = std::function<void(const Chunk&)>;
 
-  // Keeps a pointer to the lattice, and hands the shapes of all owned points to `take`.
+  // Keeps a pointer to the lattice, and passes the shapes of all owned points to `take`.
   LatticeSums(const Body& body, const LatticeFamilies& lattice, const Take& take);
-  LatticeSums(const LatticeSums&) = delete;  // traversals know whose they are
+  LatticeSums(const LatticeSums&) = delete;  // traversals refer to their owner
   LatticeSums& operator=(const LatticeSums&) = delete;
 
   Vector first_moment(int i) const { return constants_[i].head<3>().matrix(); }  // Σ ω V ξ of an owned point, m⁴
 
-  // Each hands the sums of all owned points to `take`, some at a time, from fields that are current in ghosts too and
-  // stay as they are meanwhile.
+  // Each passes the sums of all owned points to `take`, chunk by chunk. The fields must be current on ghosts, too, and
+  // must not change meanwhile.
   void moments(const Displacements& u, const Take& take);
   void squares(const Displacements& u, const Take& take);
-  // Of the stabilization at `kind` of the variant. `gradients`: F, or δF of a field, and C.
+  // For the stabilization at `kind` of the variant. `gradients`: F, or δF of a field, and C.
   void residuals(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
                  const Take& take);
   void forces(const Displacements& u, const std::vector<ForceState>& states, const Take& take);
@@ -137,7 +137,7 @@ class LatticeSums {
   double bytes() const;
 
  private:
-  static constexpr int residual_inputs = 15;  // of a point: F − I, u, C̄, V and the share of the step
+  static constexpr int residual_inputs = 15;  // of a point: F − I, u, C̄, V and the fraction of the step
 
   // A row of the stencil.
   struct Row {
@@ -149,15 +149,15 @@ class LatticeSums {
     double y;  // m
     int dy, kind;
   };
-  // Rows or columns of the same weights: ω and ω times the way, 0 … reach cells along them.
+  // The weights of rows or columns that are alike: ω and ω times the distance, 0 … reach cells along them.
   struct Kind {
     int reach = 0;
     double weight[pencil_width + 1] = {}, first[pencil_width + 1] = {};
     bool operator==(const Kind&) const = default;
   };
-  // Of a point, over its family and itself: S = Σ ω V ξ, and in the fourth lane W = Σ ω V.
+  // Sums over the family of a point and itself: S = Σ ω V ξ, and in the fourth lane W = Σ ω V.
   using Constants = Eigen::Array4d;
-  // One thread's way through the lattice, and its workspaces (lattice_traversal.hpp).
+  // The traversal of the lattice by one thread, with its workspaces (lattice_traversal.hpp).
   class Traversal;
   template <int reach>
   struct SquareSweep;
@@ -183,7 +183,7 @@ class LatticeSums {
   template <class Work>
   void over_strips(int pencils, const Work& work);
 
-  // Gathered.
+  // Sums by gathering.
   template <class Fill, class Gather>
   void gather_planes(int inputs, int outputs, const Fill& fill, const Gather& gather, const Take& take);
   template <class Fill, class Gather>
@@ -194,26 +194,26 @@ class LatticeSums {
   void gather_residuals_of(std::size_t kind, const Displacements& u, const std::vector<GradientState>& gradients,
                            const Take& take);
 
-  // Handed over.
+  // Sums by handing over.
   template <class Sweep, class Fill>
   void sweep(const Fill& fill, const Take& take);
 
   const LatticeFamilies* lattice_;
   std::vector<Row> rows_;
-  std::vector<std::vector<Row>> above_;       // rows by dz = 0, 1, …; those below are alike
+  std::vector<std::vector<Row>> above_;       // rows by dz = 0, 1, …; those below are mirror images
   std::vector<Kind> kinds_;                   // of rows
   std::vector<std::vector<Column>> columns_;  // by |dx| = 0, 1, …
   std::vector<Kind> column_kinds_;
-  // A bit for each place of the grid: whether there is a slot; one with points of this rank's own.
+  // A bit for each position in the grid: it has a slot; the slot has points that this rank owns.
   std::vector<std::uint64_t> filled_, owned_;
-  int words_ = 0;                // of these bits a row
-  std::vector<int> row_begins_;  // the first slot of each row of the grid, and of the next ones if it has none
-  std::vector<int> slots_at_;    // of the rows at each y
+  int words_ = 0;                // of these bits per row
+  std::vector<int> row_begins_;  // the first slot of each row of the grid, or of the next row if it has none
+  std::vector<int> slots_at_;    // number of slots in the rows at each y
   int rows_with_slots_ = 0;
   Deduplicated<Constants> constants_;  // of owned points
   bool has_springs_ = false;
 
-  std::vector<std::shared_ptr<Traversal>> traversals_;  // of threads
+  std::vector<std::shared_ptr<Traversal>> traversals_;  // one per thread
 };
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// Inside the sums over lattices: what those that gather (lattice_gather.cpp) and those that hand over
+// Inside the sums over lattices: code that those that gather (lattice_gather.cpp) and those that hand over
 // (lattice_scatter.cpp) share.
 #pragma once
 
@@ -16,24 +16,24 @@ using small::Lanes;
 using LaneVector = small::Vector3<Lanes>;
 using LaneTensor = small::Tensor3<Lanes>;
 
-// Calls work(n) with the number as a type, 1 ≤ n ≤ a pencil's width.
+// Calls work(n) with the number n as a type, 1 ≤ n ≤ the width of a pencil.
 template <int n = 1, class Work>
 void with_constant(int value, const Work& work) {
   if (value <= n || n == pencil_width) return work(std::integral_constant<int, n>{});
   if constexpr (n < pencil_width) with_constant<n + 1>(value, work);
 }
 
-// Where the records of some points begin, for numbers_of.
+// Pointers to the records of some points, for numbers_of.
 template <class Record>
 auto records(const Record* all, const Indices& i) {
   return [all, &i](int l) { return reinterpret_cast<const double*>(all + i[l]); };
 }
 
-// The points in some cells side by side of a pencil; −1 where there is none.
+// The points in some adjacent cells of a pencil; −1 in an empty cell.
 struct Cells {
   Indices i;
 
-  // Where the records of these points begin; where there is no point, at zeros.
+  // Pointers to the records of these points; to zeros in an empty cell.
   template <class Record>
   auto of(const Record* records) const {
     alignas(64) static constexpr double zeros[sizeof(Record) / sizeof(double)] = {};
@@ -46,13 +46,13 @@ struct Cells {
   }
 };
 
-// Where a column of these cells is put.
+// Writes a column of these cells.
 struct Put {
   double* to;
   void operator()(int column, const Lanes& values) const { Eigen::Map<Lanes>(to + column * pencil_width) = values; }
 };
 
-// Calls visit(k) for the bits that are set in a row of words.
+// Calls visit(k) for each bit k that is set in a row of words.
 template <class Visit>
 inline void for_each_bit(const std::uint64_t* words, int count, const Visit& visit) {
   for (int w = 0; w < count; ++w) {
@@ -60,7 +60,7 @@ inline void for_each_bit(const std::uint64_t* words, int count, const Visit& vis
   }
 }
 
-// What lies 1 … reach places on either side of a column in some direction: sums and differences.
+// Sums and differences of the values 1 … reach positions to either side of a column.
 template <int reach>
 struct Pairs {
   Pencil here, plus[reach + 1], minus[reach + 1];
@@ -85,7 +85,7 @@ struct Pairs {
 struct LatticeSums::Chunk::OfGroup {
   const Chunk& chunk;
   const LaneIndices& points;
-  std::array<const double*, small::lane_count> at;  // the first alone, of points side by side
+  std::array<const double*, small::lane_count> at;  // only the first, if the points are side by side
 
   OfGroup(const Chunk& c, const LaneIndices& some) : chunk(c), points(some) {
     const int apart = points.side_by_side ? 1 : small::lane_count;
@@ -106,8 +106,8 @@ struct LatticeSums::Chunk::OfGroup {
   }
 };
 
-// Fills the columns of a pencil by fill(cells, put) with put(column, values). In empty cells V and C are 0, and all
-// else is finite.
+// Fills the columns of a pencil: fill(cells, put) calls put(column, values). In empty cells V and C are 0, and all
+// other numbers are finite.
 template <class Fill>
 void LatticeSums::pack(int slot, const Fill& fill, Pencil* to) const {
   for (int first = 0; first < pencil_width; first += small::lane_count) {

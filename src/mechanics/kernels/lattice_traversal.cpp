@@ -17,7 +17,7 @@ void Planes::open(int z, int begin, int end, int columns) {
   begins_[z % count_] = begin, ends_[z % count_] = end;
   std::vector<Pencil>& room = room_[z % count_];
   const std::size_t needed = static_cast<std::size_t>(end - begin) * columns;
-  room.reserve(needed);  // no more: what is forecast does not depend on the order of strips
+  room.reserve(needed);  // no more, so that the memory forecast does not depend on the order of strips
   room.resize(std::max(room.size(), needed));
 }
 
@@ -68,7 +68,7 @@ double LatticeSums::Traversal::bytes() const {
                              (row_.size() + ring_.room.size() + across_.size() + sums_.pencils() + sources_.pencils()));
 }
 
-// Which thread came to which strip is chance: as if each had come to the largest that any has.
+// Chance decides which thread runs which strip, so each counts with the largest workspace of any.
 double LatticeSums::bytes() const {
   const std::size_t rows = row_begins_.size() * sizeof(int) + 2 * filled_.size() * sizeof(std::uint64_t);
   double most = 0;

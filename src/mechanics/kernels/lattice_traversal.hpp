@@ -1,6 +1,6 @@
-// Inside the sums over lattices: how one thread goes through the lattice, strip by strip and each of them plane by
-// plane, and what it keeps meanwhile. Strips are independent of each other; what they are made of does not change a
-// sum.
+// Inside the sums over lattices: how one thread traverses the lattice, strip by strip and plane by plane, and its
+// workspaces. Strips are independent of each other, and a sum does not depend on how the rows are divided into
+// strips.
 #pragma once
 
 #include <algorithm>
@@ -19,25 +19,25 @@ struct Strip {
   int y0, y1;
 };
 
-// The sums of a row for one kind of rows, from x = 0; how far it is in the grid, and in m.
+// The sums of a row for one kind of row, from x = 0; the offset of the row in the grid; its distance, m.
 struct RowOfSums {
   const Pencil* sums;
   int offset;
   double y;
 };
 
-// The sums of the columns of a kind in a row, from x = 0; where any are; how far the row is, m.
+// The sums of the columns of one kind in a row, from x = 0; bits of the x that have any; the distance of the row, m.
 struct ColumnOfSums {
   const Pencil* sums;
   const std::uint64_t* filled;
   double y;
 };
 
-// Some numbers of each point for the slots of a strip, of as many planes as are kept.
+// Some numbers of each point in the slots of a strip, for as many planes as are kept.
 class Planes {
  public:
   void keep(int planes);
-  // For the slots from `begin` to `end` of a plane; whatever is in it.
+  // Opens plane z for the slots from `begin` to `end`; its values are undefined.
   void open(int z, int begin, int end, int columns);
   void clear(int z) { std::fill(of(z, begin(z)), of(z, end(z)), Pencil{}); }
   int begin(int z) const { return begins_[z % count_]; }
@@ -53,9 +53,9 @@ class Planes {
   std::vector<int> begins_, ends_;  // slots
 };
 
-// The sums along x or z at the places of the rows that a stencil reaches in a plane.
+// The sums along x or z at each x of the rows that a stencil reaches in a plane.
 struct Ring {
-  int rows = 1, columns = 0;  // of a place
+  int rows = 1, columns = 0;  // per x
   std::vector<Pencil> room;
   void open(int across, int of_a_place, int places) {
     rows = across, columns = of_a_place;
@@ -64,8 +64,8 @@ struct Ring {
   Pencil* row(int y, int places) { return room.data() + static_cast<std::size_t>(y % rows) * places * columns; }
 };
 
-// Of a lattice whose rows hold so many slots at each y: as many strips as asked for, in multiples of the threads, with
-// about as many slots each. Rows beside a strip are done once more for the next one.
+// Divides a lattice whose rows hold slots_at[y] slots into `count` strips or more, a multiple of the threads, with
+// about as many slots each. Rows beside a strip are summed again for the next one.
 std::vector<Strip> strips(const std::vector<int>& slots_at, int far_y, int count);
 
 }  // namespace lattice
@@ -74,8 +74,8 @@ class LatticeSums::Traversal {
  public:
   explicit Traversal(const LatticeSums& all);
 
-  // What is gathered: the sources, `inputs` a point, are packed plane by plane; gather(z) fills `outputs` of the
-  // strip's points in a plane as soon as all that a stencil reaches is there.
+  // Gathers: packs the sources, `inputs` per point, plane by plane; gather(z) computes the `outputs` of the strip's
+  // points in a plane as soon as all planes that a stencil reaches are packed.
   template <class Fill, class Gather>
   void gather_strip(const lattice::Strip& strip, int inputs, int outputs, const Fill& fill, const Gather& gather,
                     const Take& take);
@@ -91,7 +91,7 @@ class LatticeSums::Traversal {
   template <int reach, bool with_springs>
   void gather_moments(int z, const lattice::Strip& strip);
 
-  // What is handed over.
+  // Hands over.
   template <class Sweep, class Fill>
   void sweep_strip(const lattice::Strip& strip, const Fill& fill, const Take& take);
 
@@ -134,27 +134,27 @@ class LatticeSums::Traversal {
   lattice::Ring ring_;
   lattice::Planes sums_, sources_;
   std::vector<Pencil> nothing_;
-  // Of what is gathered: by |dx|; whether there are columns at the places of the rows of the ring; their sums at four
-  // places.
+  // For gathering: columns by |dx|; bits of the x at which the rows of the ring have columns; their sums at four
+  // positions.
   std::vector<std::vector<lattice::ColumnOfSums>> columns_near_;
   std::vector<std::uint64_t> column_bits_;
   std::vector<Pencil> across_;
-  // Of what is handed over: what is summed, of all places of a row, zero between rows; by |dz|; places that take
-  // something.
+  // For handing over: numbers of all positions of a row, zero between rows; rows by |dz|; bits of the positions that
+  // receive something.
   std::vector<Pencil> row_;
   std::vector<std::vector<lattice::RowOfSums>> near_;
   std::vector<std::uint64_t> targets_;
 };
 
-// work(traversal, strip) for strips of a megabyte: so many pencils a slot are kept of the planes. One for each thread
-// at least, even where they are then hardly higher than what is done twice beside them.
+// Calls work(traversal, strip) for strips whose planes take about a megabyte, at `pencils` pencils per slot. There is
+// at least one strip per thread, even if it is hardly higher than the rows beside it that are summed twice.
 template <class Work>
 void LatticeSums::over_strips(int pencils, const Work& work) {
   constexpr double room = 1 << 20;
   const int y_rows = static_cast<int>(slots_at_.size()) - 2 * far_y();
   const double a_row = sizeof(Pencil) * pencils * lattice_->slots() / (1.0 + rows_with_slots_);
   const int height =
-      std::max(4 * far_y() + 2, static_cast<int>(room / a_row));  // for what is beside a strip is done twice
+      std::max(4 * far_y() + 2, static_cast<int>(room / a_row));  // because the rows beside a strip are summed twice
   const std::vector<lattice::Strip> strips = lattice::strips(slots_at_, far_y(), (y_rows + height - 1) / height);
   while (traversals_.size() < static_cast<std::size_t>(threads())) {
     traversals_.push_back(std::make_shared<Traversal>(*this));

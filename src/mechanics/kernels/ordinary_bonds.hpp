@@ -1,8 +1,8 @@
 // The two sums over a family that ordinary points need. With ξ = X_j − X_i, η = y_j − y_i and e = |η| − |ξ|:
 //   extensions:  Σ ω V_j |ξ| e  (θ = 3/m of it),  Σ ω V_j e²
 //   force:       f_i = Σ ω V_j [ (a_i + a_j)|ξ| + (b_i + b_j) e ] η/|η|
-// For any kind of family, as in bonds.hpp. A square root or a division costs as much as ten other operations; as few as
-// can be are left:
+// For any kind of family, as in bonds.hpp. A square root or a division costs as much as ten other operations, so as few
+// as possible are used:
 //   |ξ| e = √(|ξ|² |η|²) − |ξ|²,  |ξ|/|η| = √(|ξ|²/|η|²),  e/|η| = 1 − |ξ|/|η|
 #pragma once
 
@@ -10,17 +10,17 @@
 
 namespace strut::bonds {
 
-// A bond, of the points of a family side by side.
+// A bond to point j, for one point or for several in lanes.
 template <class T>
 struct Stretched {
   int j;
   T weight;  // ω V_j; 0 where j is not in the family
-  T xi2;     // |ξ|², and 1 where j is not in the family, for the point itself has none
+  T xi2;     // |ξ|²; 1 where j is not in the family, because the point itself has ξ = 0
   Vector3<T> eta;
-  T eta2;  // |η|², alike
+  T eta2;  // |η|²; 1 likewise
 };
 
-// Calls visit(bond) over a family.
+// Calls visit(bond) for each bond of a family.
 template <class Family, class Weight, class Visit, class... Record>
 inline void over_stretched(const Family& family, const Site* sites, Weight weight, Visit&& visit,
                            const Record*... read) {
@@ -36,7 +36,7 @@ inline void over_stretched(const Family& family, const Site* sites, Weight weigh
       read...);
 }
 
-// What the extension e of a bond is: that of its places …
+// The extension e of a bond: from the positions …
 template <class Family>
 class OfPlaces {
  public:
@@ -49,7 +49,7 @@ class OfPlaces {
   T over_length(const Stretched<T>&, const T& shrinkage) const { return 1 - shrinkage; }  // e/|η|
 };
 
-// … or its change η·(v_j − v_i)/|η| along a field v, which stands in the current places of sites of its own.
+// … or its derivative η·(v_j − v_i)/|η| along a field v, which is stored as the current positions of other sites.
 template <class Family>
 class OfField {
  public:
@@ -78,7 +78,7 @@ inline ScalarOf<Family> extensions(const Family& family, const Site* sites, Weig
   return moment;
 }
 
-// Σ ω V (|η| − |ξ|)², of the difference of lengths: in that of squares nothing would be left of a small strain's.
+// Σ ω V (|η| − |ξ|)², from the difference of lengths: that of squares would lose the digits of a small strain.
 template <class Family, class Weight>
 inline ScalarOf<Family> squared_extensions(const Family& family, const Site* sites, Weight weight) {
   using T = ScalarOf<Family>;

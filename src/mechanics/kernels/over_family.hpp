@@ -1,4 +1,4 @@
-// The family of one point, one bond after the other: for what is not worth SIMD.
+// The family of one point, bond by bond, where SIMD is not worthwhile.
 #pragma once
 
 #include "mechanics/kernels/bonds.hpp"

@@ -1,4 +1,4 @@
-// The sums over a family that quadratic correspondence needs (quadratic_fit.hpp), of one point or of a cluster:
+// The sums over a family that quadratic correspondence needs (quadratic_fit.hpp), for one point or a cluster:
 //   gather: N = Σ ω V_j (y_j − y_i) ⊗ (ξ, q, μ_j, 1)
 //   force:  f_i = Σ ω V_j [ A_i ξ + B_i q + D_i (μ_j − c_i) ] + Σ ω V_j [ A_j ξ − B_j q − D_j (μ_i − c_j) ]
 // with the states A, B, D of the ends (QuadraticState: first, second, correction, offset = D c).
@@ -9,7 +9,7 @@
 
 namespace strut::bonds {
 
-// q of a bond.
+// The second-order terms q of a bond.
 template <class T>
 std::array<T, 6> squares(const Vector3<T>& xi) {
   const auto& [x, y, z] = xi.c;
@@ -24,7 +24,7 @@ struct QuadraticMoments {
   Vector3<T> sum = zero_vector<T>();
 };
 
-// In two loops: all sums at once do not fit into the registers.
+// Two loops, because all sums at once do not fit into the registers.
 template <class Family, class Weight>
 inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family, const Site* sites,
                                                            const Eigen::Array4d* multipliers, Weight weight) {
@@ -56,7 +56,7 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
   over(family, sites, weight, [&](int j, const T& w, const Vector3<T>& xi, const auto&) {
     const Vector3<T> eta = apart(sites[j].current, y);
     const auto& [x, y, z] = xi.c;
-    const std::array<T, 6> q{T(x * x), T(y * y), T(z * z), T(x * y), T(y * z), T(z * x)};  // the first three twice
+    const std::array<T, 6> q{T(x * x), T(y * y), T(z * z), T(x * y), T(y * z), T(z * x)};  // the first three are 2 q
     for (int r = 0; r < 3; ++r) {
       const T weighted = w * eta.c[r];
       for (int k = 0; k < 6; ++k) second[r][k] += weighted * q[k];
@@ -68,7 +68,7 @@ inline QuadraticMoments<ScalarOf<Family>> quadratic_gather(const Family& family,
   return N;
 }
 
-// Of what the far ends give: Σ ω V_j [ A_j ξ − B_j q − D_j (μ_i − c_j) ].
+// The force of the far ends: Σ ω V_j [ A_j ξ − B_j q − D_j (μ_i − c_j) ].
 template <class Family, class Weight>
 inline Vector3<ScalarOf<Family>> quadratic_far_force(const Family& family, const Site* sites,
                                                      const Eigen::Array4d* multipliers, const QuadraticState* states,
@@ -95,7 +95,7 @@ inline Vector3<ScalarOf<Family>> quadratic_far_force(const Family& family, const
   return sum;
 }
 
-// Of what the point itself gives: its state times the sums over its family, which stay as they are.
+// The force of the point's own state: the state times the sums over its family, which are constant.
 inline Vector quadratic_own_force(const QuadraticState& state, const QuadraticFit& fit) {
   Vector sum;
   for (int r = 0; r < 3; ++r) {

@@ -1,5 +1,5 @@
-// What a stabilization of zero-energy modes is: a type that says which residual of a bond it holds down, and how.
-// F does not see every motion of its family; a spring in each bond on a residual z holds the rest down. A type has
+// A stabilization of zero-energy modes is a type that says which residual of a bond it penalizes, and how.
+// F does not see every motion of its family; a spring in each bond on a residual z resists the rest. A type has
 // clang-format off
 //   name         as in the deck (Stabilization)
 //   coefficient  c, a number; the stiffness of a point is C = c (λ + 2μ)/(tr K/3), Pa/m⁵, so that c means the same for
@@ -21,8 +21,8 @@ namespace strut {
 
 enum class ResidualKind {
   none,
-  own_gradient,  // z = η − F_i ξ, each end its own, t = C_i z: no pass over bonds more, it goes with the force state
-  both_gradients  // z = η − ½ (F_i + F_j) ξ, one for both ends: one pass over bonds more
+  own_gradient,  // z = η − F_i ξ, each end its own; t = C_i z is part of the force state: no further pass over bonds
+  both_gradients  // z = η − ½ (F_i + F_j) ξ, the same for both ends: one further pass over bonds
 };
 
 template <class S>

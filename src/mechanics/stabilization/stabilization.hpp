@@ -32,7 +32,7 @@ void for_each_stabilization(const Visit& visit) {
   [&]<class... S>(std::type_identity<std::variant<S...>>) { (visit(S()), ...); }(std::type_identity<Stabilization>());
 }
 
-// The same for those that are sums over bonds, with their index in the variant.
+// The same for the types that are sums over bonds, with their index in the variant.
 template <class Visit>
 void for_each_bond_stabilization(const Visit& visit) {
   std::size_t index = 0;
@@ -42,7 +42,7 @@ void for_each_bond_stabilization(const Visit& visit) {
   });
 }
 
-// How many of the types are sums over bonds.
+// The number of types that are sums over bonds.
 inline constexpr int bond_stabilizations = []<class... S>(std::type_identity<std::variant<S...>>) {
   return (static_cast<int>(BondStabilization<S>) + ...);
 }(std::type_identity<Stabilization>());

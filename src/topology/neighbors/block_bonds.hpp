@@ -1,16 +1,16 @@
-// Which points are bonded to each other.
+// The rules by which points are bonded to each other.
 #pragma once
 
 #include "base/math/tensors.hpp"
 
 namespace strut {
 
-// What the families of a body become: a stencil where its points sit on a lattice and that is faster; or what is asked
-// for. Lists are for those who read them; a body of blocks that want different ones has lists.
+// The representation of the families of a body: a stencil if its points are on a lattice and that is faster, or the
+// kind that is asked for. Lists are for code that reads them; a body whose blocks want different kinds gets lists.
 enum class FamilyKind { fastest, stencil, lists };
 
-// How the points of a block are bonded: their horizon δ, and the body they belong to. Bodies are not bonded to each
-// other.
+// The bonds of a block's points: their horizon δ, and the body that they belong to. Different bodies are not bonded to
+// each other.
 struct BlockBonds {
   BlockBonds(double horizon, int body = 0) : horizon(horizon), body(body) {}
   static BlockBonds per_spacing(double factor, int body = 0) {
@@ -19,29 +19,29 @@ struct BlockBonds {
     return bonds;
   }
 
-  double horizon;  // of all points, m; or in local spacings of each
+  double horizon;  // of all points, m; or in local spacings of each point
   bool in_spacings = false;
   int body;
   FamilyKind families = FamilyKind::fastest;
-  // Bonds may break, or are left out for a crack: where families are a stencil, lists are kept beside it. Of the blocks
-  // of a body, one that says so is enough.
+  // Bonds may break, or are left out because of a crack: lists are then kept beside a stencil. One block of a body with
+  // this flag is enough.
   bool may_lose_bonds = false;
-  // Bonds run through material: a bond whose ends are not joined by points that touch (PointCloud::joints), all of them
-  // within the horizon of both ends, is left out. Needs joints, and lists. Of two blocks, one that asks is enough.
+  // Visibility: a bond is left out unless a chain of touching points (PointCloud::joints), all within the horizon of
+  // both ends, joins its ends. Needs joints and lists. For two blocks, one with this flag is enough.
   bool through_material = false;
-  // Families are of those that touch, whatever their distance: at a centroid or a node a cell does not show how far it
-  // reaches. Needs joints, and lists. Of two blocks, one that asks is enough.
+  // A family consists of the points that touch, whatever their distance: the centroid or node of a cell does not show
+  // its extent. Needs joints and lists. For two blocks, one with this flag is enough.
   bool touching = false;
 
   // δ of a point with this local spacing, m.
   double horizon_at(double spacing) const { return in_spacings ? horizon * spacing : horizon; }
-  // Those that touch are looked for within so many horizons: the middles of cells that share a corner, or have taken
-  // over what is in a neighbor, are up to 2.8 spacings apart.
+  // Touching points are searched for within this many horizons: the centers of cells that share a corner, or have
+  // absorbed parts of a neighbor, are up to 2.8 spacings apart.
   double search_factor() const { return touching ? 1.6 : 1; }
 };
 
-// Whether two points of one body, with these horizons (m) and the bond ξ, are in each other's families:
-// |ξ| ≤ (δ_i + δ_j)/2, which is symmetric.
+// True if two points of one body, with these horizons (m) and the bond ξ, are in each other's families: |ξ| ≤ (δ_i +
+// δ_j)/2, which is symmetric.
 inline bool bonded(double one_horizon, double other_horizon, const Vector& xi) {
   constexpr double tolerance = 1 + 1e-9;  // a neighbor at exactly the horizon stays in despite round-off
   const double horizon = 0.5 * (one_horizon + other_horizon) * tolerance;

@@ -22,7 +22,7 @@ std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBon
   for (int i = 0; i < static_cast<int>(cloud.size()); ++i) all.push_back({i, 0, cloud.positions[i]});
   for (std::size_t m = 0; m < mirrored.mirrors.size(); ++m) {
     const int body = mirrored.mirrors[m].body;
-    if (m > 0 && mirrored.mirrors[m - 1].body == body) continue;  // they are sorted by bodies
+    if (m > 0 && mirrored.mirrors[m - 1].body == body) continue;  // mirrors are sorted by body
     for (int i = 0; i < static_cast<int>(cloud.size()); ++i) {
       if (bonds[cloud.blocks[i]].body != body) continue;
       for (const int image : mirrored.images.of_body(body)) {
@@ -36,12 +36,12 @@ std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBon
 
 namespace {
 
-// A point that another rank may need, as it travels.
+// A point that another rank may need, in the form in which it is sent.
 struct Candidate {
   double position[3];
   double volume, horizon;
-  std::int64_t id;   // of an image: Images::id
-  int block, owner;  // the rank
+  std::int64_t id;   // for an image: Images::id
+  int block, owner;  // owner: the rank
 };
 
 std::vector<Candidate> candidates(const PointCloud& cloud, const std::vector<double>& horizons,

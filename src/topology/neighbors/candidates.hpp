@@ -1,5 +1,5 @@
-// The points that may be neighbors of this rank's points: its own, those of other ranks nearby, and images by symmetry
-// planes.
+// Candidates for neighbors of this rank's points: its own points, those of other ranks nearby, and mirror
+// images.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace strut {
 // The mirrors, and the images that they make.
 struct Mirrored {
   std::vector<Mirror> mirrors;
-  std::vector<Eigen::AlignedBox3d> boxes;  // of each mirror: that of its body
+  std::vector<Eigen::AlignedBox3d> boxes;  // for each mirror: the box of its body
   Images images;
 };
 
@@ -26,17 +26,17 @@ struct Mirrored {
 Mirrored mirrored(std::vector<Mirror> mirrors, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
                   double reach, const Communicator& communicator);
 
-// A place of a point that the families of other points may need: its own (image 0), or that of an image.
+// A position of a point that families of other points may need: its own (image 0), or that of an image.
 struct Offered {
   int point, image;
   Vector place;
 };
 
-// The places of the points of this rank. `reach`: the largest horizon.
+// The positions of the points of this rank. `reach`: the largest horizon, m.
 std::vector<Offered> offered(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored,
                              double reach);
 
-// The records of what is offered to this rank, each of its place: what other ranks send, then images of its own points.
+// The records of all positions offered to this rank: first from other ranks, then of images of its own points.
 template <class Record>
 std::vector<Record> received(const PointCloud& cloud, std::span<const Vector> places,
                              const std::vector<Record>& records, const std::vector<char>& is_image, double reach,
@@ -57,11 +57,11 @@ struct CandidatePool {
   std::vector<std::int64_t> ids;
   std::vector<double> horizons;
   std::vector<int> bodies;
-  std::vector<char> asks;      // for bonds through material, or (2) for those that touch
-  std::vector<double> deltas;  // δ, m: horizons are those of the search
-  std::vector<int> owners;     // the ranks of the candidates
+  std::vector<char> asks;      // 1: for visibility; 2: for touching points
+  std::vector<double> deltas;  // δ, m; `horizons` are those of the search
+  std::vector<int> owners;     // ranks of the candidates
 
-  // A point on a symmetry plane, which has the half of its cell that is there, is where its image is.
+  // A point on a symmetry plane, with the computed half of its cell, coincides with its image.
   bool is_own_image(int i, int j, const Vector& xi) const {
     constexpr double round_off = 1e-8;  // of the horizon
     return ids[i] != ids[j] && Images::original(ids[i]) == Images::original(ids[j]) &&
@@ -72,13 +72,13 @@ struct CandidatePool {
 // The horizons of the search for each owned point, m.
 std::vector<double> horizons_of(const PointCloud& cloud, const std::vector<BlockBonds>& bonds);
 
-// Collective. This rank's points with these horizons, then points of other ranks and images that lie within `reach` of
-// the box of this rank's points.
+// Collective. This rank's points with these horizons, then points of other ranks and images within `reach` (m) of the
+// box of this rank's points.
 CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& horizons,
                             const std::vector<BlockBonds>& bonds, const std::vector<Offered>& offers, double reach,
                             const Communicator& communicator);
 
-// Calls visit(j) for all that is within the horizon of pool member i.
+// Calls visit(j) for all candidates within the horizon of pool member i.
 template <class Visit>
 void for_each_within(const CellGrid& grid, const CandidatePool& pool, int i, double reach, Visit&& visit) {
   const Vector here = pool.positions[i];

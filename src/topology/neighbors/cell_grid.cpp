@@ -10,8 +10,8 @@ CellGrid::CellGrid(const std::vector<Vector>& points, double reach, double width
   for (const Vector& x : points) box.extend(x);
   if (points.empty()) box.extend(Vector::Zero());
   origin_ = box.min();
-  // Sparse clouds in a large box get wider cells: memory stays in proportion to the points. In a long thin box, as of a
-  // point that has flown off, rows of single cells would still be too many.
+  // Sparse clouds in a large box get wider cells, so that memory stays proportional to the number of points. In a long
+  // thin box, as with a point that has flown off, rows of single cells would still be too many.
   const double volume = (box.sizes().array() + width).prod(), enough = 8.0 * points.size() + 64;
   width_ = std::max(width, std::cbrt(volume / enough));
   while (((box.sizes() / width_).array().floor() + 1).prod() > 8 * enough) width_ *= 2;

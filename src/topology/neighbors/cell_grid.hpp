@@ -10,17 +10,17 @@ namespace strut {
 
 class CellGrid {
  public:
-  // `reach`: the largest distance (m) that visit_near will be asked for.
-  // Cells of half of it: those looked at have 3.7 times the volume of the sphere, with the whole reach 6.4 times.
+  // `reach`: the largest distance (m) for visit_near.
+  // Cells of half the reach: those visited have 3.7 times the volume of the sphere; with the whole reach 6.4 times.
   CellGrid(const std::vector<Vector>& points, double reach) : CellGrid(points, reach, reach / 2) {}
-  // By whole cells; their width, m, is larger if there would be many times as many cells as points.
+  // For access by whole cells; the width (m) grows if there would be many times as many cells as points.
   static CellGrid of_width(const std::vector<Vector>& points, double width) { return {points, width, width}; }
 
-  // Calls visit(j, place of j) for every point in the cells within `reach` of x: a superset of the points that near.
+  // Calls visit(j, position of j) for every point in the cells within `reach` of x: a superset of the points in reach.
   template <class Visit>
   void visit_near(const Vector& x, Visit&& visit) const;
 
-  // By whole cells: the points of cell c, and visit(begin, end) for the rows of cells that meet a box.
+  // Access by whole cells: the points of cell c, and visit(begin, end) for the rows of cells that meet a box.
   int cells() const { return static_cast<int>(start_.size()) - 1; }
   std::span<const int> members(int c) const { return {members_.data() + start_[c], members_.data() + start_[c + 1]}; }
   template <class Visit>
@@ -36,7 +36,7 @@ class CellGrid {
   int cells_within_reach_ = 1;
   Eigen::Array3i shape_ = Eigen::Array3i::Ones();
   std::vector<int> start_, members_;
-  std::vector<Vector> places_;  // of members_: read in a row
+  std::vector<Vector> places_;  // of members_, contiguous for reading
 };
 
 template <class Visit>

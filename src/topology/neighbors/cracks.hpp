@@ -1,4 +1,4 @@
-// Flat cracks that a body has from the start: bonds do not cross them.
+// Flat initial cracks: no bond crosses them.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct RectangularCrack {
   }
 
  private:
-  // A bond may end on the rim, to round-off.
+  // A bond through the edge counts as crossing, to round-off.
   static bool within(double way, double most) { return way > -1e-12 * most && way < most * (1 + 1e-12); }
 };
 
@@ -30,13 +30,13 @@ struct DiskCrack {
   Vector center, normal;  // m; of length 1
   double radius;          // m
 
-  // A bond through the rim stays, to round-off: so does Peridigm's.
+  // A bond through the edge stays, to round-off, as in Peridigm.
   bool contains(const Vector& x) const { return (x - center).norm() < radius * (1 - 1e-12); }
 };
 
 using Crack = std::variant<RectangularCrack, DiskCrack>;
 
-// As a rotation keeps it: the side of a rectangle is `along` × `normal`, which a reflection turns round.
+// The side of a rectangle is `along` × `normal`, a cross product whose sign a reflection changes.
 inline Crack image_of(const Crack& crack, const Reflection& by) {
   if (const auto* one = std::get_if<RectangularCrack>(&crack)) {
     const double sign = by.turn.determinant() < 0 ? -1 : 1;
@@ -47,7 +47,7 @@ inline Crack image_of(const Crack& crack, const Reflection& by) {
   return DiskCrack{by(disk.center), by.turn * disk.normal, disk.radius};
 }
 
-// Where the segment from a to b meets the plane through `on`, if it does, its ends included.
+// Intersection of the segment from a to b, ends included, with the plane through `on`, if there is one.
 inline std::optional<Vector> crossing(const Vector& a, const Vector& b, const Vector& on, const Vector& normal) {
   const double way = (b - a).dot(normal);
   if (std::abs(way) < 1e-14 * (b - a).norm()) return std::nullopt;  // along the plane
@@ -55,7 +55,7 @@ inline std::optional<Vector> crossing(const Vector& a, const Vector& b, const Ve
   return part >= 0 && part <= 1 ? std::optional<Vector>(a + part * (b - a)) : std::nullopt;
 }
 
-// Symmetric in a and b.
+// True if the bond from a to b crosses the crack; symmetric in a and b.
 inline bool crosses(const Crack& crack, const Vector& a, const Vector& b) {
   const auto through = [&](const Vector& on, const auto& one) {
     const bool in_order = std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);

@@ -11,7 +11,7 @@ std::size_t Families::bonds() const {
     for (std::size_t n = 0; n < cluster.near.size(); ++n) count += std::popcount(cluster.mask[n]);
   }
   for (const LatticeFamilies& stencil : lattices) {
-    if (stencil.frame().loses_bonds) continue;  // they are in lists
+    if (stencil.frame().loses_bonds) continue;  // counted in the lists
     for (std::size_t i = 0; i < lattice_of.size(); ++i) {
       if (stencil.cell(static_cast<int>(i)) >= 0) count += stencil.family_size(static_cast<int>(i));
     }

@@ -1,4 +1,4 @@
-// Who is within the horizon of a point: families as neighbor lists, or as stencils of a lattice.
+// Families: the points within the horizon of a point, as neighbor lists or as stencils of a lattice.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace strut {
 
-// SIMD: points that kernels take side by side, one per lane, with one list for all of them: who is in the family of
-// any, and in whose. Points of a cluster lie close together, so that most bonds of most of them share their far ends,
-// each of which is read once.
+// SIMD: points that kernels process side by side, one per lane, with one list for all of them: the members of any of
+// their families, with a mask of whose. Points of a cluster lie close together, so that most bonds share their far
+// ends, each of which is read once.
 struct Cluster {
   static constexpr int width = small::lane_count;
 
-  std::span<const int> points;  // local indices; `width` at most
+  std::span<const int> points;  // local indices; at most `width`
   std::span<const int> near;
-  const std::uint8_t* mask;  // of near: bit l is set if it is in the family of points[l]
+  const std::uint8_t* mask;  // of near: bit l is set if near[n] is in the family of points[l]
 
   std::size_t family_size(std::size_t l) const {  // of points[l]
     std::size_t size = 0;
@@ -43,13 +43,13 @@ class ClusterLists {
                                first_.size() * (sizeof(int) + 2 * sizeof(std::size_t)));
   }
 
-  // Where points are numbered in a row: the cluster of point i.
+  // The cluster of point i, for points that are numbered consecutively.
   int holding(int i) const {
     const auto begins_after = [this](int point, int b) { return point < points_[b]; };
     const auto after = std::upper_bound(first_.begin(), first_.end() - 1, i, begins_after);
     return static_cast<int>(after - first_.begin()) - 1;
   }
-  // Calls visit(j) over the family of point i, of the same numbering.
+  // Calls visit(j) for the family of point i, with the same numbering.
   template <class Visit>
   void for_each(int i, Visit&& visit) const {
     const Cluster cluster = (*this)[holding(i)];
@@ -59,10 +59,10 @@ class ClusterLists {
     }
   }
 
-  // The place of the first point of a cluster among those of all.
+  // The index of the first point of a cluster among those of all clusters.
   int first(int b) const { return first_[b]; }
 
-  // Appends some members of a cluster of other lists, a bit each, with their families as they are there.
+  // Appends some members of a cluster of other lists, one bit each, with their families there.
   void append(const Cluster& cluster, unsigned members) {
     for (std::size_t l = 0; l < cluster.points.size(); ++l) {
       if (members >> l & 1) points_.push_back(cluster.points[l]);
@@ -79,9 +79,9 @@ class ClusterLists {
     close();
   }
 
-  // Takes the members of a cluster whose bits are set out of the families that its n-th neighbor is in.
+  // Removes the n-th neighbor of a cluster from the families of the members whose bits are set.
   void cut(int b, std::size_t n, std::uint8_t members) { mask_[start_[b] + n] &= static_cast<std::uint8_t>(~members); }
-  // Lets go of the neighbors that are in no family of a cluster any more; the others keep their order.
+  // Removes the neighbors that are in no family of a cluster any more; the others keep their order.
   void drop_cut(int b) {
     std::size_t kept = start_[b];
     for (std::size_t n = start_[b]; n < end_[b]; ++n) {
@@ -92,34 +92,34 @@ class ClusterLists {
     end_[b] = kept;
   }
 
-  // Room for so many entries, or more than there will be: what is not filled takes no memory.
+  // Reserves memory for this many entries or more; unused memory is not touched.
   void reserve(std::size_t entries) { near_.reserve(entries), mask_.reserve(entries); }
-  // Gives all points and neighbors their numbers in `numbers`.
+  // Renumbers all points and neighbors by `numbers`.
   void renumber(const std::vector<int>& numbers) {
     for (int& i : points_) i = numbers[i];
     for (int& j : near_) j = numbers[j];
   }
 
  private:
-  void close() {  // the last cluster
+  void close() {  // ends the last cluster
     first_.push_back(static_cast<int>(points_.size()));
     end_.push_back(near_.size());
     start_.push_back(near_.size());
   }
 
-  std::vector<int> points_, first_{0};  // of the points of a cluster
-  std::vector<std::size_t> start_{0};   // of the list of a cluster; after the last one, where the next would begin
-  std::vector<std::size_t> end_;        // of it
+  std::vector<int> points_, first_{0};  // first_: index of the first point of each cluster
+  std::vector<std::size_t> start_{0};   // start of the list of each cluster; last entry: start of the next
+  std::vector<std::size_t> end_;        // end of the list of each cluster
   std::vector<int> near_;
   std::vector<std::uint8_t> mask_;
 };
 
-// Adds one cluster after the other. `members`: how many points there are, neighbors included.
+// Adds clusters one by one. `members`: number of points, neighbors included.
 class ClusterLists::Builder {
  public:
   Builder(ClusterLists& clusters, std::size_t members) : lists_(clusters), mask_(members, 0) {}
 
-  // for_each(i, visit): calls visit(j) over the family of i. The list is in the order of key(j).
+  // for_each(i, visit) calls visit(j) for the family of i. The list is in the order of key(j).
   template <class ForEach, class Key>
   void add(std::span<const int> points, const ForEach& for_each, const Key& key) {
     near_.clear();
@@ -139,7 +139,7 @@ class ClusterLists::Builder {
     lists_.close();
   }
 
-  // The same of any number of points, so many at a time as a cluster holds.
+  // The same for any number of points, divided into clusters.
   template <class ForEach, class Key>
   void add_all(std::span<const int> points, const ForEach& for_each, const Key& key) {
     for (std::size_t at = 0; at < points.size(); at += Cluster::width) {
@@ -155,29 +155,29 @@ class ClusterLists::Builder {
 
 // Some points of a block, with lists of their own.
 struct SelectedPoints {
-  std::vector<int> places;  // in the block's points
+  std::vector<int> places;  // indices in the block's points
   ClusterLists lists;
 };
 
-// Local indices of owned or ghost points. Of points on a lattice the family is a stencil; all others are in clusters,
-// of one block and of the interior or the boundary each. The order is that of places in the lattice, or of global ids,
-// so that every sum over a family is the same on any number of ranks. Where a lattice may lose bonds its points are in
-// clusters, too: for those who look at bonds one by one, and as the family of those that have lost any.
+// Local indices of owned points or ghosts. The family of a point on a lattice is a stencil; all other points are in
+// clusters, each of one block and of the interior or the boundary. The order is that of the lattice, or of global ids,
+// so that every sum over a family is the same on any number of ranks. If a lattice may lose bonds, its points are in
+// clusters, too, for access to single bonds and as families of points with broken bonds.
 struct Families {
   ClusterLists lists;
   std::vector<LatticeFamilies> lattices;
-  std::vector<int> lattice_of;    // of owned points: which of lattices, −1 for lists; empty where there is no lattice
-  std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty where no lattice may lose any
-  // Of owned points: those whose bonds to them have broken, local indices. Empty where no bond may break.
+  std::vector<int> lattice_of;    // of owned points: index in lattices, −1 for lists; empty without a lattice
+  std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty if no lattice may
+  // Of owned points: the far ends of their broken bonds, local indices. Empty if no bond may break.
   std::vector<std::vector<int>> broken;
 
   bool is_off_stencil(int i) const { return !off_stencil.empty() && off_stencil[i]; }
-  // The stencil that is the family of point i; nullptr where a list is.
+  // The stencil that is the family of point i; nullptr if its family is a list.
   const LatticeFamilies* lattice(int i) const {
     return lattice_of.empty() || lattice_of[i] < 0 || is_off_stencil(i) ? nullptr : &lattices[lattice_of[i]];
   }
 
-  // Calls visit(j) over the family of point i.
+  // Calls visit(j) for the family of point i.
   template <class Visit>
   void for_each(int i, Visit&& visit) const {
     if (const LatticeFamilies* stencil = lattice(i)) return stencil->for_each(i, visit);
@@ -190,7 +190,7 @@ struct Families {
     lists.for_each(i, [&count](int) { ++count; });
     return count;
   }
-  std::size_t bonds() const;  // of all points, both ends counted
+  std::size_t bonds() const;  // of all points; both ends count
   double bytes() const;
 };
 

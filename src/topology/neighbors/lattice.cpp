@@ -12,14 +12,14 @@ namespace strut {
 
 namespace {
 
-constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths beside the horizon, as bonded() has it
+constexpr double tolerance = 1e-9;  // of coordinates, in spacings; of lengths relative to the horizon, as in bonded()
 
-// The farthest cell along one axis that a family can hold.
+// Largest distance along an axis, in cells, within a family.
 int cells_within(const LatticeFrame& frame, int axis) {
   return static_cast<int>(std::floor(frame.horizon * (1 + tolerance) / frame.spacing[axis]));
 }
 
-// ---- Is it a lattice? ----------------------------------------------------------------------------------------------
+// ---- Detection of lattices -----------------------------------------------------------------------------------------
 
 struct BodyPoints {
   std::vector<Vector> positions;
@@ -63,12 +63,12 @@ double common_step(const std::vector<Vector>& positions, int axis, double low, d
   }
 }
 
-// Whether all points are at cells of the frame.
+// True if all points are at cells of the frame.
 bool fits(const LatticeFrame& frame, const std::vector<Vector>& positions) {
   return std::all_of(positions.begin(), positions.end(), [&](const Vector& X) { return frame.has(X); });
 }
 
-// Whether a grid over the body takes less than lists would: 64 bytes a point are 16 neighbors.
+// True if a grid over the body takes less memory than lists: 64 bytes per point are 16 neighbors.
 bool is_compact(const LatticeFrame& frame, const Eigen::Array3d& size, double points) {
   Eigen::Array3d cells = (size + 2 * frame.horizon) / frame.spacing.array() + 1;
   cells[0] = cells[0] / LatticeFamilies::width + 4;
@@ -134,7 +134,7 @@ std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vec
 
 // ---- Slots ---------------------------------------------------------------------------------------------------------
 
-// The grid: pencils along x, then y, then z; wide enough for a stencil about every slot.
+// The grid: pencils along x, then y, then z; with a margin for the stencil around every slot.
 struct LatticeFamilies::Box {
   Eigen::Array3i low, shape;  // x in pencils
 

@@ -1,8 +1,8 @@
-// Bodies whose points sit on a lattice: who is near whom follows from the places in it, and no bond is written down.
+// Bodies whose points are on a lattice: neighbors follow from the positions in it, and no bond is stored.
 //
-// The lattice is cut into pencils of eight cells along x. Those that hold points of this rank, owned or ghosts, and the
-// next ones if their row reaches into them, are numbered by z, y, x: the slots, from 1 on; slot 0 stands for all that
-// is empty. A grid over the bounding box has the slot of each pencil. The family of a point is a stencil: rows (y, z)
+// The lattice is divided into pencils of eight cells along x. Slots number the pencils with points of this rank, owned
+// or ghosts, and the next ones in x that their rows reach into, by z, y, x from 1 on; slot 0 stands for all empty
+// pencils. A grid over the bounding box stores the slot of each pencil. The family of a point is a stencil: rows (y, z)
 // of cells with |x| ≤ the row's reach.
 #pragma once
 
@@ -19,33 +19,33 @@ namespace strut {
 
 struct PointCloud;
 
-// Where the lattice of a body is, the same on all ranks.
+// Position of the lattice of a body, the same on all ranks.
 struct LatticeFrame {
   Vector origin = Vector::Zero();   // m, the smallest coordinates
   Vector spacing = Vector::Ones();  // m
   double horizon = 0;               // m, of all points of the body
   int body = 0;                     // BlockBonds::body
-  bool wanted = false;              // whether or not lists were faster
-  bool loses_bonds = false;         // there are lists of its points, too
+  bool wanted = false;              // even if lists were faster
+  bool loses_bonds = false;         // lists of its points exist, too
 
   Eigen::Array3i cell_of(const Vector& X) const;
-  bool has(const Vector& X) const;  // it is at a cell
+  bool has(const Vector& X) const;  // the point is at a cell
   void make_room();                 // for images of points before the origin, within the horizon
 };
 
-// Collective. The bodies that sit on a lattice. Not on one: coordinates off by more than 1e-9 spacings, horizons that
-// differ or reach over more than a pencil, blocks that want lists, and so few points in so large a box that the grid
-// would take more memory than lists.
+// Collective. The bodies whose points are on a lattice. Excluded: coordinates off by more than 1e-9 spacings; horizons
+// that differ or exceed a pencil; blocks that want lists; too few points in a large box, so that the grid would take
+// more memory than lists.
 std::vector<LatticeFrame> lattice_frames(const PointCloud& cloud, const std::vector<double>& horizons,
                                          const std::vector<BlockBonds>& bonds, const Communicator& communicator);
 
 class LatticeFamilies {
  public:
-  static constexpr int width = pencil_width;  // cells of a pencil
+  static constexpr int width = pencil_width;  // cells per pencil
 
   struct Row {
     int y, z;    // of the neighbors, in cells from the point
-    int reach;   // their x lies in [−reach, reach]
+    int reach;   // their x is in [−reach, reach]
     int offset;  // in the grid
   };
 
@@ -60,7 +60,7 @@ class LatticeFamilies {
     for (const Row& row : rows_) {
       const int* slots = &grid_[place + row.offset];
       for (unsigned near = neighbors_in(row, slots, lane); near != 0; near &= near - 1) {
-        const int x = std::countr_zero(near);  // from the first cell of the pencil before
+        const int x = std::countr_zero(near);  // counted from the first cell of the pencil before
         const int j = points_[slots[x / width - 1] * width + x % width];
         if (j != i) visit(j);
       }
@@ -68,32 +68,32 @@ class LatticeFamilies {
   }
 
   std::size_t family_size(int i) const;
-  // Whether the family has a point beside i along each axis and another one, so that it spans space.
+  // True if the family has a neighbor along each axis and another point, so that it spans space.
   bool spans_space(int i) const;
 
   const LatticeFrame& frame() const { return frame_; }
   const std::vector<Row>& rows() const { return rows_; }
   int reach() const { return reach_; }              // of the longest row
-  int rows_across() const { return rows_across_; }  // the span of its rows along y
-  int cell(int i) const { return cell_[i]; }  // slot · width + place in the pencil; −1 of points of other bodies
+  int rows_across() const { return rows_across_; }  // extent of its rows along y
+  int cell(int i) const { return cell_[i]; }  // slot · width + position in the pencil; −1 for points of other bodies
   int point(int slot, int place) const { return points_[slot * width + place]; }  // −1: none
   int slots() const { return static_cast<int>(places_.size()); }
   int slot_at(int place) const { return grid_[place]; }  // 0: empty
   int place(int slot) const { return places_[slot]; }
-  bool is_owned(int slot) const { return owned_[slot] != 0; }  // holds a point of this rank's own
+  bool is_owned(int slot) const { return owned_[slot] != 0; }  // has a point that this rank owns
 
-  // A place in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of the
-  // body. Points are farther from its faces than a stencil reaches.
+  // A position in the grid is (z · shape()[1] + y) · shape()[0] + x, x in pencils; z = 0 is the plane first_plane() of
+  // the body. Points are farther from its faces than the reach of a stencil.
   const Eigen::Array3i& shape() const { return shape_; }
   int first_plane() const { return first_plane_; }
 
-  // The cell before it in x is empty: here a run of points begins.
+  // True if the cell before it in x is empty, so that a run of points begins here.
   bool begins_run(int i) const;
   double bytes() const;
 
  private:
-  // The cells of a row within its reach of the one at `lane` that hold points: a bit each, from the first of the pencil
-  // before. `slots`: of the pencil at the row, those beside it before and after.
+  // The cells with points within a row's reach of the cell at `lane`: a bit each, from the first cell of the pencil
+  // before. `slots`: of the pencil at the row; those before and after it are adjacent in memory.
   unsigned neighbors_in(const Row& row, const int* slots, int lane) const {
     const unsigned filled = filled_[slots[-1]] | filled_[slots[0]] << width | filled_[slots[1]] << 2 * width;
     return filled & ((2u << 2 * row.reach) - 1) << (width + lane - row.reach);

@@ -10,7 +10,7 @@ namespace strut {
 
 namespace {
 
-// For each block: whether a block of its body asks for bonds through material.
+// True for each block of a body in which a block asks for visibility.
 std::vector<char> concerned(const std::vector<BlockBonds>& bonds) {
   std::vector<char> blocks;
   for (const BlockBonds& block : bonds) {
@@ -40,18 +40,18 @@ void check_through_material(const PointCloud& cloud, const std::vector<BlockBond
   raise_together(communicator, problem);
 }
 
-// A joint of a candidate, as it travels.
+// A joint of a candidate, in the form in which it is sent.
 struct JointOf {
   std::int64_t id, joint;
 };
 
-// The joints of points and of their images.
+// The joints (shared nodes) of points and of their images.
 class Joints {
  public:
   Joints(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored)
       : cloud_(cloud), bonds_(bonds), mirrored_(mirrored) {}
 
-  // Calls visit(joint) for those of an image of point i. What lies on a symmetry plane is its own image.
+  // Calls visit(joint) for those of an image of point i. A joint on a symmetry plane is its own image.
   template <class Visit>
   void for_each(int i, int image, const Visit& visit) const {
     const int body = bonds_[cloud_.blocks[i]].body;
@@ -69,7 +69,7 @@ class Joints {
   }
 
  private:
-  // Visits the images that take X to the same place as `image` does.
+  // Calls visit for the images that map X to the same position as `image` does.
   template <class Visit>
   void for_each_image_at(int body, const Vector& X, int image, const Visit& visit) const {
     const Images& images = mirrored_.images;
@@ -79,7 +79,7 @@ class Joints {
     look_at(0);
     for (const int one : images.of_body(body)) look_at(one);
   }
-  // The first of those that differ from `image` by reflections about some planes.
+  // The first of the images that differ from `image` by reflections at some planes.
   int first_image(int body, std::int64_t planes, int image) const {
     std::vector<Reflection> alike{mirrored_.images[image]};
     int first = image;
@@ -94,7 +94,7 @@ class Joints {
     }
     return first;
   }
-  // `otherwise`: where it is out of reach.
+  // `otherwise`: result if it is out of reach.
   int number_of(int body, const Reflection& reflection, int otherwise) const {
     if (is_same(reflection, Reflection())) return 0;
     for (const int one : mirrored_.images.of_body(body)) {
@@ -113,8 +113,8 @@ class Joints {
   double size_ = mirrored_.boxes.empty() ? 0 : mirrored_.boxes.front().sizes().norm();
 };
 
-// Each joint with a pool member that has it, of some blocks. Collective: the candidates' come from their owners, which
-// go through the same offers in the same order as for the candidates themselves.
+// Collective. Each joint of some blocks with a pool member that has it. Those of candidates come from their owners,
+// which process the same offers in the same order as for the candidates themselves.
 std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, const std::vector<char>& blocks,
                                                     const CandidatePool& pool, const Joints& all,
                                                     const std::vector<Offered>& offers, double reach,
@@ -169,7 +169,7 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
     family.clear(), asked.clear();
     for_each_within(grid, pool, i, reach, [&](int j) {
       family.push_back(j);
-      if ((pool.asks[i] || pool.asks[j]) && j > i) asked.push_back(j);  // of two owned points one is enough
+      if ((pool.asks[i] || pool.asks[j]) && j > i) asked.push_back(j);  // one of two owned points is enough
     });
     apart.clear();
     const auto by_touch = std::stable_partition(asked.begin(), asked.end(),

@@ -1,5 +1,5 @@
-// Bonds through material: which points within each other's horizon are not bonded, for no material leads from one to
-// the other.
+// Visibility: points within each other's horizon that are not bonded, because no material connects
+// them.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace strut {
 
-// Whom an owned point is not bonded to although it is within the horizon. Empty where no block asks for it.
+// The points within the horizon of each owned point to which it is not bonded. Empty if no block asks for it.
 struct LeftOut {
   std::vector<std::size_t> start;
   std::vector<int> members;  // ascending for each point

@@ -8,7 +8,7 @@ namespace strut {
 
 namespace {
 
-// Points on lattices by their cells, after all others, which are by blocks.
+// Points by blocks; then those on lattices, by their cells.
 std::vector<int> by_blocks(const Stencils& stencils, const std::vector<int>& blocks) {
   std::vector<int> points(blocks.size());
   std::iota(points.begin(), points.end(), 0);

@@ -1,4 +1,4 @@
-// Families that are looked up by a search, for all but stencils of lattices.
+// Families found by a search, for all points without a stencil.
 #pragma once
 
 #include <utility>
@@ -9,11 +9,11 @@
 
 namespace strut {
 
-// Where families are looked up that are no stencils.
+// Data for a search of families that are no stencils.
 struct Search {
   const CellGrid& grid;
   const LeftOut& left_out;
-  const std::vector<std::vector<Crack>>& cracks;  // of each body
+  const std::vector<std::vector<Crack>>& cracks;  // by body
   double reach;
 
   bool is_cut(const CandidatePool& pool, int i, int j) const {
@@ -31,7 +31,7 @@ void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, V
   });
 }
 
-// Pairs of an owned point, in the order given, and a point to which it would be bonded but for a crack
+// Pairs of an owned point, in the order given, and a point to which only a crack prevents a bond
 // (Domain::parted).
 std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
                                                            const std::vector<int>& order);

@@ -23,14 +23,14 @@ Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<
 
 namespace {
 
-// What the bonds of a point take in a step, in ns, by tests/bench. A list costs by its entries, which the points of a
-// cluster share. `pencils`: of the lattice a point.
+// Time of a step for the bonds of a point, ns, measured with tests/bench. The cost of a list is that of its entries,
+// which the points of a cluster share. `pencils`: pencils of the lattice per point.
 double cost_of_list(double neighbors) { return 80 + 3.2 * std::pow(neighbors, 0.84); }
 double cost_of_stencil(double rows, double pencils) { return 35 + (280 + 8 * rows) * pencils; }
 
-// Whether sums by a lattice's stencil take less time than by lists. Of sums over the points of all ranks, so that all
-// decide alike however many they are. A run of n points fills (n + 7)/8 pencils on average; families are counted of
-// every 64th point.
+// True if sums by a lattice's stencil take less time than by lists. Decided by sums over the points of all ranks, so
+// that the result is the same for any number of ranks. A run of n points fills (n + 7)/8 pencils on average; families
+// are counted for every 64th point.
 bool is_faster(const LatticeFamilies& lattice, const CandidatePool& pool, int owned, const Communicator& communicator) {
   double counts[4] = {0, 0, 0, 0};  // points, runs, samples, their neighbors
   for (int i = 0; i < owned; ++i) {
@@ -51,7 +51,7 @@ bool is_faster(const LatticeFamilies& lattice, const CandidatePool& pool, int ow
 
 BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
                      const Communicator& communicator) {
-  constexpr double pencils = 1.0 / 6;  // of a lattice a point: between a full block's eighth and a foam's fifth
+  constexpr double pencils = 1.0 / 6;  // pencils per point: between a full block's eighth and a foam's fifth
   const std::vector<LatticeFrame> frames = lattice_frames(cloud, horizons_of(cloud, bonds), bonds, communicator);
   BondCosts costs;
   for (std::size_t b = 0; b < bonds.size(); ++b) {

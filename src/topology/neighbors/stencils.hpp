@@ -1,4 +1,4 @@
-// Bodies on a lattice: which are summed by a stencil, in the place of lists.
+// Bodies on a lattice that are summed by a stencil instead of lists.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace strut {
 
-// The bodies that sit on a lattice, over the pool: who owns which cell, until points have their order in memory.
+// The bodies on a lattice, over the pool: which member is in which cell, until points have their order in memory.
 struct Stencils {
   std::vector<LatticeFamilies> lattices;
   std::vector<int> of;  // of pool members; −1: lists
@@ -19,8 +19,8 @@ struct Stencils {
 Stencils stencils_of(const std::vector<LatticeFrame>& frames, const std::vector<Vector>& positions,
                      const std::vector<int>& bodies, int owned);
 
-// Collective. Those of lattices on which the images of their points are, too, with room for these; images on the cells
-// of points are none.
+// Collective. Those lattices that also contain the images of their points, extended to hold them; without lattices
+// whose images are on cells of points.
 std::vector<LatticeFrame> frames_with_images(const std::vector<LatticeFrame>& found, const CandidatePool& pool,
                                              int owned, const Mirrored& mirrored, const Communicator& communicator);
 
@@ -39,14 +39,14 @@ void for_each_neighbor(const Stencils& stencils, const Search& search, const Can
   }
 }
 
-// The time that a step takes for the bonds of a point of each block, in ns, roughly; whether any are summed by
+// The approximate time of a step for the bonds of a point of each block, ns; true if any are summed by
 // stencils.
 struct BondCosts {
   std::vector<double> of_block;
   bool by_stencils = false;
 };
 
-// Collective, for a partition. `spacings`: the mean one of each block, m; 0 where it has no points.
+// Collective, for a partition. `spacings`: mean spacing of each block, m; 0 if it has no points.
 BondCosts bond_costs(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const std::vector<double>& spacings,
                      const Communicator& communicator);
 

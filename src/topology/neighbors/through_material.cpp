@@ -10,7 +10,7 @@ namespace {
 
 using Joint = std::pair<std::int64_t, int>;
 
-// Joints counted from 0, as these points have them: of each joint its points, of each point its joints.
+// Joints renumbered from 0: the points of each joint, or the joints of each point.
 struct Table {
   std::vector<std::size_t> start{0};
   std::vector<int> entries;
@@ -79,7 +79,7 @@ bool ThroughMaterial::near(int i, int j) const {
   return bonded(points_.horizons[i], points_.horizons[j], points_.positions[j] - points_.positions[i]);
 }
 
-// In a solid body the paths of spread() reach all; a walk and a flood are for those that are apart, or around a corner.
+// In a solid body the paths of spread() reach all points; walk and flood are for those separated or around a corner.
 std::vector<int> ThroughMaterial::apart(int i, std::span<const int> family, std::span<const int> asked) {
   ++now_;
   for (const int j : family) mark_[j] = 2 * now_;
@@ -91,7 +91,7 @@ std::vector<int> ThroughMaterial::apart(int i, std::span<const int> family, std:
   return found;
 }
 
-// Paths from i, each one point longer than another one: one of them to a point, of many, so that some are missed.
+// Extends paths from i by one point each. It keeps one of many paths to a point, so that it misses some points.
 void ThroughMaterial::spread(int i, std::size_t family) {
   front_.clear();
   const auto join = [this](int j, int before) {
@@ -117,7 +117,7 @@ bool ThroughMaterial::is_near_path(int j, int end) const {
   return true;
 }
 
-// From i always to the one that is nearest to j, as long as that leads nearer.
+// Walks from i to the touching point nearest to j, as long as the distance decreases.
 bool ThroughMaterial::walks_straight(int i, int j) const {
   const auto distance = [&](int k) { return (points_.positions[j] - points_.positions[k]).squaredNorm(); };
   double left = distance(i);

@@ -1,4 +1,4 @@
-// Bonds that run through material: which members of a family are joined to the point by points that touch.
+// Visibility: the members of a family that a chain of touching points joins to the point.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace strut {
 
-// What is known of the points of a search, owned or of other ranks; they are named by their places in these columns.
+// The points of a search, owned or of other ranks; they are identified by their indices in these columns.
 struct Joined {
   std::span<const Vector> positions;
   std::span<const double> horizons;
@@ -19,11 +19,11 @@ struct Joined {
 
 class ThroughMaterial {
  public:
-  // `joints`: the number of a joint and a point that has it, in any order. Points of different bodies do not touch.
+  // `joints`: pairs of a joint and a point that has it, in any order. Points of different bodies do not touch.
   ThroughMaterial(const Joined& points, std::vector<std::pair<std::int64_t, int>> joints);
 
-  // Those of `asked` to which no path of points leads that touch and are bonded to both ends. `family`: all that is
-  // within the horizon of i; `asked`: some of it. Symmetric: i is apart from j where j is apart from i.
+  // Those of `asked` without a chain of touching points that are bonded to both ends. `family`: all points within the
+  // horizon of i; `asked`: some of them. Symmetric: i is apart from j if j is apart from i.
   std::vector<int> apart(int i, std::span<const int> family, std::span<const int> asked);
   bool touch(int i, int j) const;
 
@@ -41,13 +41,13 @@ class ThroughMaterial {
 
   Joined points_;
   std::vector<std::size_t> start_{0};
-  std::vector<int> touching_;  // of each point, ascending, without itself
-  // One a point. Where it holds twice the number of the present search the point is in its family, where it is one more
-  // it has been joined to i, too.
+  std::vector<int> touching_;  // touching points of each point, ascending, without itself
+  // One per point: twice the number of the present search if the point is in its family, one more if it has been joined
+  // to i, too.
   std::vector<std::int64_t> mark_;
-  std::vector<std::int64_t> seen_;  // the number of the last flood that was here
+  std::vector<std::int64_t> seen_;  // number of the last flood that reached the point
   std::int64_t now_ = 0, flood_ = 0;
-  std::vector<int> before_;  // of a joined point: the one before it on a path from i; −1 where it touches i
+  std::vector<int> before_;  // of a joined point: the previous one on a path from i; −1 if it touches i
   std::vector<int> front_;
 };
 
