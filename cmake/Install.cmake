@@ -5,7 +5,7 @@ set(STRUT_SHARE ${CMAKE_INSTALL_DATADIR}/strut)
 
 set(programs strut)
 if(STRUT_TOOLS)
-  list(APPEND programs strut-mesh strut-compare strut-point)
+  list(APPEND programs strut-mesh strut-compare strut-point strut-evaluate)
 endif()
 set_target_properties(${programs} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -1,13 +1,17 @@
-"""Quads -> shaded picture, in numpy alone: no screen, no graphics library, the same image on every machine.
+"""Surfaces -> what is seen of them, by VTK and without a screen: EGL draws, with Mesa in memory where there is no graphics card."""
+import ctypes
 
-Each quad is sampled more densely than the pixels are, and the sample nearest to the eye wins its pixel. Light only
-multiplies a color, so that its hue can be looked up in the scale.
-"""
 import numpy as np
+from scipy.ndimage import uniform_filter
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkObject
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
+from vtkmodules.vtkRenderingCore import vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingOpenGL2 import vtkGenericOpenGLRenderWindow
 
-FINER = 2  # pixels of the canvas for one of the picture, each way
-SAMPLES_AT_ONCE = 2_000_000
-TO_LIGHT = np.array([-0.42, 0.55, 0.72])  # right, up, towards the eye: from the upper left, behind the one who looks
+FINER = 2  # pixels that are drawn for one of the picture, each way
+TO_LIGHT = (-0.42, 0.55, 0.72)  # right, up, towards the eye: from the upper left, behind the one who looks
+MOST_POINTS = 2**24 - 1  # that colors can tell apart
 
 
 class Camera:
@@ -26,7 +30,7 @@ class Camera:
 
     def frame(self, low, high, width, height, zoom=1):
         """Fits the box from low to high (as seen) into width x height pixels, then nears by the zoom."""
-        self.middle, self.depth = 0.5 * (low + high), max(high[2] - low[2], 1e-30)
+        self.middle, self.depth = 0.5 * (low + high), max(high[2] - low[2], 1e-3 * np.max(high - low))
         size = 1.04 * np.maximum(high - low, 1e-9 * np.max(high - low))[:2]
         fit = max(size[0] / width, size[1] / height)
         self.width, self.height = max(16, int(np.ceil(size[0] / fit))), max(16, int(np.ceil(size[1] / fit)))
@@ -37,131 +41,166 @@ class Camera:
         right, up, _ = (self.seen(np.asarray(place)) - self.middle) / self.pixel
         return 0.5 * self.width + right, 0.5 * self.height - up
 
-
-class Canvas:
-    """What is seen at each fine pixel: the quad (-1: none), where on it, and how near."""
-
-    def __init__(self, camera):
-        self.shape = FINER * camera.height, FINER * camera.width
-        count = self.shape[0] * self.shape[1]
-        self.quad = np.full(count, -1, np.int32)
-        self.near = np.full(count, -np.inf, np.float32)
-        self.s, self.t = np.zeros(count, np.float32), np.zeros(count, np.float32)
-
-    def put(self, pixel, near, quad, s, t):
-        """Of several samples in one pixel the last is kept: again, until none is nearer than what is there."""
-        while len(pixel := pixel[wins := near > self.near[pixel]]):
-            near, quad, s, t = near[wins], quad[wins], s[wins], t[wins]
-            self.near[pixel], self.quad[pixel], self.s[pixel], self.t[pixel] = near, quad, s, t
+    def aim(self, camera):
+        """VTK's."""
+        focus = self.middle @ self.axes
+        camera.ParallelProjectionOn()
+        camera.SetFocalPoint(focus)
+        camera.SetPosition(focus + 2 * self.depth * self.axes[2])
+        camera.SetViewUp(self.axes[1])
+        camera.SetParallelScale(0.5 * self.height * self.pixel)
+        camera.SetClippingRange(self.depth, 3 * self.depth)
 
 
-def corner_weights(s, t):
-    return (1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t
+# The window
 
 
-def canvas_of(corners, quads, camera):
-    """corners as seen by the camera."""
-    canvas = Canvas(camera)
-    height, width = canvas.shape
-    scale = FINER / camera.pixel
-    fine = np.empty((len(corners), 3), np.float32)  # column, row, nearness
-    fine[:, 0] = 0.5 * width + scale * (corners[:, 0] - camera.middle[0])
-    fine[:, 1] = 0.5 * height - scale * (corners[:, 1] - camera.middle[1])
-    fine[:, 2] = scale * (corners[:, 2] - camera.middle[2])
-    x, y = (fine[:, i][quads.T] for i in (0, 1))
-    facing = (x[2] - x[0]) * (y[3] - y[1]) - (x[3] - x[1]) * (y[2] - y[0]) < 0  # rows go down
-    within = (x.max(axis=0) > 0) & (x.min(axis=0) < width) & (y.max(axis=0) > 0) & (y.min(axis=0) < height)
-    drawn = np.flatnonzero(facing & within)
-    x, y = x[:, drawn], y[:, drawn]
-    longest = np.sqrt(np.max((np.roll(x, 1, axis=0) - x)**2 + (np.roll(y, 1, axis=0) - y)**2, axis=0))
-    counts = np.ceil(1.35 * longest).astype(int) + 1  # samples along an edge: less than a pixel apart
-    counts = np.where(counts > 8, 4 * -(-counts // 4), counts)
-    for n in np.unique(counts):
-        group = drawn[counts == n]
-        group = group[np.argsort(-fine[quads[group, 0], 2])]  # the nearest first: most of the rest is refused at once
-        for start in range(0, len(group), max(1, SAMPLES_AT_ONCE // n**2)):
-            sample(canvas, fine, quads, group[start:start + max(1, SAMPLES_AT_ONCE // n**2)], n)
-    return canvas
+def make_current():
+    """A context of EGL that needs no display; whether there is one now."""
+    try:
+        egl = ctypes.CDLL("libEGL.so.1")
+    except OSError:
+        return False
+    pointer, found = ctypes.c_void_p, ctypes.c_int()
+    egl.eglGetPlatformDisplay.restype = egl.eglCreateContext.restype = pointer
+
+    def words(*numbers):
+        return (ctypes.c_int * len(numbers))(*numbers)
+    display = pointer(egl.eglGetPlatformDisplay(0x31DD, None, None))  # EGL_PLATFORM_SURFACELESS_MESA
+    config = pointer()
+    if not egl.eglInitialize(display, None, None) or not egl.eglBindAPI(0x30A2):  # EGL_OPENGL_API
+        return False
+    # EGL_SURFACE_TYPE: EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE: EGL_OPENGL_BIT; then version 3.2 with the core profile.
+    egl.eglChooseConfig(display, words(0x3033, 1, 0x3040, 8, 0x3038), ctypes.byref(config), 1, ctypes.byref(found))
+    context = pointer(egl.eglCreateContext(display, config, None, words(0x3098, 3, 0x30FB, 2, 0x30FD, 1, 0x3038)))
+    return bool(found.value and egl.eglMakeCurrent(display, None, None, context))
 
 
-def sample(canvas, fine, quads, group, n):
-    height, width = canvas.shape
-    middle = ((np.arange(n) + 0.5) / n).astype(np.float32)
-    s, t = (g.ravel() for g in np.meshgrid(middle, middle))
-    at = fine[quads[group]].transpose(0, 2, 1) @ np.stack(corner_weights(s, t))
-    column, row = at[:, 0].astype(np.int32).ravel(), at[:, 1].astype(np.int32).ravel()
-    inside = np.flatnonzero((at[:, 0].ravel() >= 0) & (column < width) & (at[:, 1].ravel() >= 0) & (row < height))
-    which, on = np.divmod(inside, n * n)
-    canvas.put(row[inside] * width + column[inside], at[:, 2].ravel()[inside], group[which].astype(np.int32), s[on], t[on])
+def new_window():
+    if not make_current():
+        window = vtkRenderWindow()  # of a display
+        window.SetOffScreenRendering(True)
+        return window
+    window = vtkGenericOpenGLRenderWindow()
+    for option in ("ReadyForRendering", "SupportsOpenGL", "IsDirect", "IsCurrent", "OffScreenRendering", "UseOffScreenBuffers"):
+        getattr(window, "Set" + option)(True)
+    window.SetOwnContext(False)
+    window.SetShowWindow(False)
+    vtkObject.GlobalWarningDisplayOff()  # its GLEW misses a display, and does without
+    window.OpenGLInit()
+    return window
+
+
+class Painter:
+    """Draws one surface at a time."""
+
+    def __init__(self):
+        self.window, self.renderer, self.light, self.actor = new_window(), vtkRenderer(), vtkLight(), vtkActor()
+        self.normals, self.mapper = vtkPolyDataNormals(), vtkPolyDataMapper()
+        self.normals.SplittingOff()
+        self.normals.ConsistencyOff()
+        self.mapper.SetScalarModeToUseCellData()
+        self.mapper.SetColorModeToDirectScalars()
+        self.actor.SetMapper(self.mapper)
+        self.light.SetLightTypeToCameraLight()
+        self.light.SetFocalPoint(0, 0, 0)
+        self.renderer.AutomaticLightCreationOff()
+        self.renderer.AddLight(self.light)
+        self.renderer.AddActor(self.actor)
+        self.renderer.SetBackground(0, 0, 0)
+        self.window.SetMultiSamples(0)
+        self.window.AddRenderer(self.renderer)
+
+    def take(self, data, camera):
+        """What the next images show."""
+        self.normals.SetInputData(data)
+        self.normals.Update()
+        self.mapper.SetInputData(self.normals.GetOutput())
+        self.window.SetSize(FINER * camera.width, FINER * camera.height)
+        camera.aim(self.renderer.GetActiveCamera())
+        self.camera, self.shape = camera, (FINER * camera.height, FINER * camera.width)
+
+    def image(self, numbers=None):
+        """Red, green and blue, 0 to 255; numbers: of its faces, to be told by their colors."""
+        self.mapper.SetScalarVisibility(numbers is not None)
+        self.actor.GetProperty().SetLighting(numbers is None)
+        if numbers is not None:
+            colors = numbers.astype("<u4").view(np.uint8).reshape(-1, 4)[:, :3]
+            self.mapper.GetInput().GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(colors), deep=True))
+        self.window.Render()
+        return self.grabbed("RGB")
+
+    def grabbed(self, kind):
+        grab = vtkWindowToImageFilter()
+        grab.SetInput(self.window)
+        getattr(grab, f"SetInputBufferTypeTo{kind}")()
+        grab.ReadFrontBufferOff()
+        grab.ShouldRerenderOff()
+        grab.Update()
+        found = grab.GetOutput()
+        width, height, _ = found.GetDimensions()
+        return vtk_to_numpy(found.GetPointData().GetScalars()).reshape(height, width, -1)[::-1]
+
+    def shade(self, light, ambient=0.0, diffuse=1.0):
+        """How bright a white surface is, 0 to 1, with light from there; and how near it is to the eye, -inf where there is none."""
+        self.light.SetPosition(light)
+        self.actor.GetProperty().SetAmbient(ambient)
+        self.actor.GetProperty().SetDiffuse(diffuse)
+        bright, depth = self.image()[..., 0] / 255, self.grabbed("ZBuffer")[..., 0]
+        return bright, np.where(depth < 1, self.camera.depth * (1 - 2 * depth), -np.inf)
 
 
 # Light
 
 
-def gathered(of_quad, sides, count):
-    """Sums at the corners of what the quads around have; sides is 4 x quads."""
-    ids = sides.ravel()
-    return np.stack([np.bincount(ids, np.tile(component, 4), count) for component in of_quad.T], axis=1)
-
-
-def unit(vectors):
-    return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-30)
-
-
-def corner_normals(corners, quads, rounds=1):
-    """Normals at corners, averaged with their neighbors'."""
-    sides = quads.T
-    p = corners[sides]
-    of_quad = np.cross(p[2] - p[0], p[3] - p[1])
-    for _ in range(1 + rounds):
-        of_corner = unit(gathered(of_quad, sides, len(corners)))
-        of_quad = unit(of_corner[sides].sum(axis=0))
-    return of_corner
-
-
-def blurred(image, radius):
-    """Two means over a square, by running sums; zero outside."""
-    for axis in (0, 1, 0, 1):
-        pad = [(0, 0), (0, 0)]
-        pad[axis] = (radius + 1, radius)
-        sums = np.cumsum(np.pad(image, pad), axis=axis)
-        n = image.shape[axis]
-        upper, lower = (sums[r:r + n] if axis == 0 else sums[:, r:r + n] for r in (2 * radius + 1, 0))
-        image = (upper - lower) / (2 * radius + 1)
-    return image
-
-
-def openness(near, seen):
+def openness(near, pixel):
     """1 where light comes from all sides, less for a pixel that lies behind its surroundings (Luft, Colditz and Deussen
     2006), at three sizes. At the body's outline, where the surroundings are on one side only, nothing is known."""
-    near, seen = (FINER**2 * coarser(a)[..., 0] for a in (np.where(seen, near, 0), 1.0 * seen))
-    near, share = near / np.maximum(seen, 1), np.minimum(seen, 1)
-    light = np.ones(near.shape)
+    seen = np.isfinite(near)
+    near, light = np.where(seen, near, 0), np.ones(near.shape)
     for part, strength in ((120, 0.35), (40, 0.4), (14, 0.35)):
-        radius = max(1, max(near.shape) // part // 2)
-        around = blurred(share, radius)
-        behind = blurred(near * share, radius) / np.maximum(around, 1e-9) - near
-        light *= 1 - strength * np.clip(behind / (2 * FINER * radius), 0, 1) * np.clip(2 * around - 1, 0, 1)
-    return light.repeat(FINER, axis=0).repeat(FINER, axis=1)
-
-
-def brightness(canvas, normals, quads, camera):
-    """Light from the upper left and from everywhere, less in what lies in hollows and farther away; and how steeply
-    each fine pixel faces the eye (0 to 1)."""
-    seen = (canvas.quad >= 0).reshape(canvas.shape)
-    hit = np.flatnonzero(canvas.quad >= 0)
-    weights = np.stack(corner_weights(canvas.s[hit], canvas.t[hit]), axis=1)
-    normal = unit(np.einsum("pk,pkc->pc", weights, normals[quads[canvas.quad[hit]]]))
-    light, facing = np.zeros(canvas.quad.shape), np.zeros(canvas.quad.shape)
-    light[hit] = 0.54 + 0.42 * np.maximum(0, normal @ unit(TO_LIGHT)) + 0.06 * normal[:, 1]
-    facing[hit] = np.clip(normal[:, 2], 0, 1)
-    light, near = light.reshape(canvas.shape), np.where(seen, canvas.near.reshape(canvas.shape), 0)
-    light *= openness(near, seen)
-    behind = 0.5 - near * camera.pixel / (FINER * camera.depth)
-    return light * (1 - 0.22 * np.clip(behind, 0, 1)), facing.reshape(canvas.shape)
+        size = 2 * max(FINER, max(near.shape) // part // 2) + 1
+        share, mean = (uniform_filter(uniform_filter(image, size, mode="constant"), size, mode="constant") for image in (1.0 * seen, near))
+        behind = mean / np.maximum(share, 1e-9) - near
+        light *= 1 - strength * np.clip(behind / (size * pixel / FINER), 0, 1) * np.clip(2 * share - 1, 0, 1)
+    return light
 
 
 def coarser(image):
     """FINER x FINER pixels -> one."""
     height, width = image.shape[0] // FINER, image.shape[1] // FINER
     return image.reshape(height, FINER, width, FINER, -1).mean(axis=(1, 3))
+
+
+class Solid:
+    """What is seen of a surface of points: the point at each fine pixel, its light, and how near it is."""
+
+    def __init__(self, painter, data, points, camera):
+        painter.take(data, camera)
+        self.light, self.near = painter.shade(TO_LIGHT, 0.54, 0.46)
+        self.light *= openness(self.near, camera.pixel) * (1 - 0.22 * np.clip(0.5 - self.near / camera.depth, 0, 1))
+        self.seen = np.isfinite(self.near)
+        numbers = painter.image(points).astype(np.uint32)
+        self.point = (numbers[..., 0] + (numbers[..., 1] << 8) + (numbers[..., 2] << 16))[self.seen]
+
+    def image(self, colors):
+        """Red, green, blue, alpha of the fine pixels; colors: of all points."""
+        image = np.zeros((*self.near.shape, 4))
+        image[self.seen, :3] = colors[self.point] * self.light[self.seen, None]
+        image[self.seen, 3] = 1
+        return image
+
+
+class Glass:
+    """Of a surface that is seen through, of one color; it is denser where it is seen at a slant."""
+
+    def __init__(self, painter, data, color, camera):
+        painter.take(data, camera)
+        facing, self.near = painter.shade((0, 0, 1))
+        self.share = np.where(np.isfinite(self.near), 0.22 + 0.5 * (1 - facing)**2, 0)[..., None]
+        self.color = color * (0.55 + 0.45 * facing[..., None])
+
+    def over(self, image, near):
+        """Laid over an image where it is nearer than what that shows; alpha has multiplied the colors."""
+        share = np.where(self.near > near, self.share[..., 0], 0)[..., None]
+        return np.concatenate([share * self.color, share], axis=2) + (1 - share) * image

@@ -1,14 +1,18 @@
 """The rigid tools of a deck: their surfaces near the bodies, and where they are at a time."""
+import itertools
+
 import numpy as np
 from decks import Deck, value_at, value_in
 from strut_tools import fail
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
+from vtkmodules.vtkFiltersCore import vtkTriangleFilter, vtkTubeFilter
+from vtkmodules.vtkFiltersSources import vtkCubeSource, vtkLineSource
 
 from . import history
-from .surface import FACES, Surface, joined
+from .surface import places_of
 
-ARC = 48       # quads around a cylinder
+ARC = 48       # sides of a cylinder
 MARGIN = 0.15  # of the bodies' size: how far beyond them the picture reaches for tools
-NO_POINT = -1  # the point that quads of a tool belong to
 
 
 class Tool:
@@ -59,11 +63,16 @@ class Tool:
 
     def surface(self, low, high):
         """What of it is near the box of the bodies (corners, m), before it travels."""
-        if self.kind == "Rigid Plane":
-            return slab(self.vector("Point"), self.vector("Normal"), low, high)
+        if self.kind == "Rigid Box":
+            return block(self.vector("Lower Corner"), self.vector("Upper Corner"))
+        point, axes = self.vector("Point"), axes_along(self.vector("Axis" if self.kind == "Rigid Cylinder" else "Normal"))
+        margin = MARGIN * np.max(high - low)
+        along = np.array(list(itertools.product(*zip(low, high))) - point) @ axes.T  # the corners of the box
+        lower, upper = along.min(axis=0) - margin, along.max(axis=0) + margin
         if self.kind == "Rigid Cylinder":
-            return roll(self.vector("Point"), self.vector("Axis"), self.number("Radius", 0), low, high)
-        return block(self.vector("Lower Corner"), self.vector("Upper Corner"))
+            return roll(point + lower[2] * axes[2], point + upper[2] * axes[2], self.number("Radius", 0))
+        lower[2], upper[2] = -0.2 * margin, 0  # the front of a half space: a thin plate behind its plane
+        return block(lower, upper, point, axes)
 
 
 def tools_of(path):
@@ -80,18 +89,6 @@ def integral(times, values):
     return np.concatenate([[0], np.cumsum(0.5 * np.diff(times) * (values[1:] + values[:-1]))])
 
 
-def flat(quads):
-    """Quads with corners of their own, so that light does not round their edges: an array of m x 4 x 3."""
-    quads = np.asarray(quads, float)
-    return Surface(quads.reshape(-1, 3), np.arange(4 * len(quads)).reshape(-1, 4), np.full(len(quads), NO_POINT))
-
-
-def block(lower, upper, origin=np.zeros(3), axes=np.eye(3)):
-    """A box along axes (rows, right-handed) through the origin."""
-    corners = np.array([face for _, face in FACES]) * (upper - lower) + lower
-    return flat(origin + corners @ axes)
-
-
 def axes_along(direction):
     """Three unit vectors, right-handed, of which the last is along the direction."""
     w = direction / np.linalg.norm(direction)
@@ -100,33 +97,29 @@ def axes_along(direction):
     return np.stack([u, np.cross(w, u), w])
 
 
-def box_along(axes, origin, low, high):
-    """What the box of the bodies, a margin around it, reaches along the axes from the origin."""
-    margin = MARGIN * np.max(high - low)
-    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    along = (corners - origin) @ axes.T
-    return along.min(axis=0) - margin, along.max(axis=0) + margin
+def block(lower, upper, origin=np.zeros(3), axes=np.eye(3)):
+    """A box along axes (rows) through the origin."""
+    cube = vtkCubeSource()
+    cube.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    cube.SetBounds(*np.stack([lower, upper], axis=1).ravel())
+    cube.Update()
+    places = places_of(cube.GetOutput())
+    places[:] = origin + places @ axes
+    return cube.GetOutput()
 
 
-def slab(point, normal, low, high):
-    """The front of a half space: a thin plate behind its plane."""
-    axes = axes_along(normal)
-    lower, upper = box_along(axes, point, low, high)
-    lower[2], upper[2] = -0.2 * MARGIN * np.max(high - low), 0
-    return block(lower, upper, point, axes)
-
-
-def roll(point, axis, radius, low, high):
-    axes = axes_along(axis)
-    lower, upper = box_along(axes, point, low, high)
-    angles = 2 * np.pi * np.arange(ARC) / ARC
-    ring = radius * np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
-    ends = [point + (ring + [0, 0, z]) @ axes for z in (lower[2], upper[2])]
-    after = np.roll(np.arange(ARC), -1)
-    sides = Surface(np.concatenate(ends), np.stack([np.arange(ARC), after, after + ARC, np.arange(ARC) + ARC], axis=1),
-                    np.full(ARC, NO_POINT))
-    caps = []
-    for end, z, turned in zip(ends, (lower[2], upper[2]), (True, False)):
-        middle = np.broadcast_to(point + z * axes[2], end.shape)
-        caps.append(flat(np.stack([middle, end[after], end, middle] if turned else [middle, end, end[after], middle], axis=1)))
-    return joined([sides, *caps])
+def roll(start, end, radius):
+    line, around = vtkLineSource(), vtkTubeFilter()
+    line.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    line.SetPoint1(start)
+    line.SetPoint2(end)
+    around.SetInputConnection(line.GetOutputPort())
+    around.SetOutputPointsPrecision(vtkAlgorithm.DOUBLE_PRECISION)
+    around.SetRadius(radius)
+    around.SetNumberOfSides(ARC)
+    around.CappingOn()
+    around.Update()
+    strips = vtkTriangleFilter()
+    strips.SetInputConnection(around.GetOutputPort())
+    strips.Update()
+    return strips.GetOutput()

@@ -1,62 +1,71 @@
-"""The surface of a cloud of material points: the free faces of their cubes, which move with the points.
-
-On a lattice, cubes that are neighbors share corners, and a corner moves by the mean of the points around it: the surface
-stays closed while the body deforms, and faces between two cubes are not drawn. Partly filled cells are joined by rods of such
-cubes. Elsewhere each point is a cube by itself.
+"""The surface of a cloud of material points, which moves with them: where a sum of round bumps, one a point, falls below the level
+that encloses the volume of the points. Points of very different distances, as of tetrahedra, are cubes by themselves.
 """
 import numpy as np
+from scipy.ndimage import gaussian_filter
+from scipy.spatial import cKDTree
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D, vtkWindowedSincPolyDataFilter
 
-from . import struts
-
-# The six faces of a cube: the step to the neighbor, and the corners, counter-clockwise as seen from outside.
-FACES = [((1, 0, 0), ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1))), ((-1, 0, 0), ((0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0))),
-         ((0, 1, 0), ((0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 1, 0))), ((0, -1, 0), ((0, 0, 0), (1, 0, 0), (1, 0, 1), (0, 0, 1))),
-         ((0, 0, 1), ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))), ((0, 0, -1), ((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))]
-
-
-TORN = 0.75  # spacings by which an edge of a face may be longer than it was; half of the gap is on either side
+TORN = 1.5        # spacings: points that have moved apart by more are not joined
+NEAR = 4          # points that a corner moves with
+BUMP = 0.7        # spacings: a bump falls as exp(-(distance/BUMP)^2)
+MANY, MOST = 2.4e7, 1e8  # places at which the sum is taken: usually, and at the most
+LEVELS = 0.8, 1.25  # within which the level is; the surface of a row of points that touch has 1
+INSIDE = 1.7      # at more than that in the sum bumps are lower: those of a row have no more, inside of a body they have 2.7
+EVEN = 1.7        # spacings to the nearest point from which on bumps do not join
+LONG = 1.5        # spacings over the usual distance to the nearest point: of cells that are longer elsewhere, whose bumps do not join
 
 
 class Surface:
-    """Corners (c x 3, in the reference), quads (m x 4 corners), the point that each quad belongs to, and the spacing of
-    points there."""
+    """Corners (c x 3, in the reference), quads (m x 4 corners; of triangles the last comes twice), the point that each quad
+    belongs to, and of each corner the points that it moves with (c x NEAR), their weights, and their spacing."""
 
-    def __init__(self, corners, quads, point, spacing=np.inf):
-        self.corners, self.quads, self.point = corners, quads, point
-        self.spacing = np.broadcast_to(spacing, len(quads))
+    def __init__(self, corners, quads, point, near, weights, spacing):
+        self.corners, self.quads, self.point, self.near, self.weights = corners, quads, point, near, weights
+        self.spacing = np.broadcast_to(spacing, len(corners))
 
     def moved(self, displacement):
-        """The corners, moved by the mean displacement of the points whose faces meet there."""
-        ids = self.quads.ravel()
-        count = np.bincount(ids, minlength=len(self.corners))
-        u = displacement[np.repeat(self.point, 4)]
-        return self.corners + np.stack([np.bincount(ids, u[:, c], len(self.corners)) / count for c in range(3)], axis=1)
-
-    def torn(self, displacement):
-        """The same where points have moved apart: faces between them, which would be drawn out to sheets, have corners of
-        their own."""
-        def edges(corners):
-            around = corners[self.quads]
-            return np.linalg.norm(around - np.roll(around, 1, axis=1), axis=2)
-        apart = (edges(self.moved(displacement)) - edges(self.corners) > TORN * self.spacing[:, None]).any(axis=1)
-        if not apart.any():
-            return self
-        own = self.corners[self.quads[apart]].reshape(-1, 3)
+        """Corners and quads by the displacement of the points. Where points have moved apart, faces between them, which would be
+        drawn out to sheets, go with their own point."""
+        u = displacement[self.near]
+        apart = np.linalg.norm(u - u[:, :1], axis=2) > TORN * self.spacing[:, None]
+        weights = np.where(apart, 0, self.weights)
+        corners = self.corners + np.einsum("ck,ckx->cx", weights / weights.sum(axis=1, keepdims=True), u)
+        across = np.linalg.norm(u[self.quads, 0] - displacement[self.point, None], axis=2)
+        torn = (across > TORN * self.spacing[self.quads]).any(axis=1)
+        own = (self.corners[self.quads[torn]] + displacement[self.point[torn], None]).reshape(-1, 3)
         quads = self.quads.copy()
-        quads[apart] = len(self.corners) + np.arange(len(own)).reshape(-1, 4)
-        used, quads = np.unique(quads, return_inverse=True)
-        return Surface(np.concatenate([self.corners, own])[used], quads.reshape(-1, 4), self.point, self.spacing)
+        quads[torn] = len(corners) + np.arange(len(own)).reshape(-1, 4)
+        return np.concatenate([corners, own]), quads
 
 
 def joined(surfaces):
     start = np.cumsum([0] + [len(s.corners) for s in surfaces])
-    return Surface(np.concatenate([s.corners for s in surfaces]),
-                   np.concatenate([s.quads + n for s, n in zip(surfaces, start)]),
-                   np.concatenate([s.point for s in surfaces]), np.concatenate([s.spacing for s in surfaces]))
+    quads = np.concatenate([s.quads + n for s, n in zip(surfaces, start)])
+    parts = ([getattr(s, name) for s in surfaces] for name in ("point", "near", "weights", "spacing"))
+    return Surface(np.concatenate([s.corners for s in surfaces]), quads, *map(np.concatenate, parts))
+
+
+def polydata(corners, quads):
+    """VTK's."""
+    points, cells, data = vtkPoints(), vtkCellArray(), vtkPolyData()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(corners), deep=True))
+    cells.SetData(*(numpy_to_vtkIdTypeArray(ids.astype(np.int64), deep=True) for ids in (np.arange(0, quads.size + 1, 4), quads.ravel())))
+    data.SetPoints(points)
+    data.SetPolys(cells)
+    return data
+
+
+def places_of(data):
+    """Of VTK's."""
+    return vtk_to_numpy(data.GetPoints().GetData())
 
 
 def edge_of(places, volumes):
-    """The mean edge of a cube: from the volumes where they are known, else from the box around all."""
+    """Of the mean point as a cube."""
     if volumes is not None:
         return np.cbrt(volumes.mean())
     sides = np.ptp(places, axis=0)
@@ -64,75 +73,76 @@ def edge_of(places, volumes):
     return (np.prod(sides) / len(places))**(1 / len(sides)) if len(sides) else 1.0
 
 
-def spacing_of(places, edge):
-    """Per axis the least distance of two layers; an axis with one layer has what is left of the volume."""
-    least = []
-    for x in places.T:
-        gaps = np.diff(np.sort(x))
-        gaps = gaps[gaps > 0.02 * edge]
-        # The span is known better than one gap, where the file has few digits.
-        least.append(np.ptp(x) / np.rint(np.ptp(x) / gaps.min()) if len(gaps) else np.nan)
-    least = np.array(least)
-    single = np.isnan(least)
-    if single.any():
-        least[single] = (edge**3 / np.prod(least[~single]))**(1 / single.sum())
-    return least
-
-
-def lattice_of(places, volumes):
-    """Integer coordinates and the spacing, or None where the points are not on a lattice of cells of their volume."""
+def spacing_of(places, volumes):
+    """Of points, along each axis, and the volume of each; None where bumps of one width do not join them."""
     edge = edge_of(places, volumes)
-    spacing = spacing_of(places, edge)
-    steps = (places - places.min(axis=0)) / spacing
-    cells = np.rint(steps).astype(np.int64)
-    off = np.abs(steps - cells).max() > 0.1
-    # Without volumes the edge is a guess, too large for a foam.
-    odd = volumes is not None and abs(np.prod(spacing) / edge**3 - 1) > 0.2
-    return None if off or odd else (cells, spacing)
+    layers = [np.diff(np.unique(np.round(x / edge, 2))) for x in places.T]
+    least = np.array([gaps.min() if len(gaps) else np.nan for gaps in layers])
+    least[np.isnan(least)] = np.nanprod(least)**(-1 / max(1, np.isnan(least).sum()))  # a single layer is as thick as the volume is
+    if abs(least.prod() - 1) < 0.2:  # a lattice
+        return least * edge
+    apart = cKDTree(places).query(places, 2)[0][:, 1] if len(places) > 1 else np.array([edge])
+    cell = max(np.median(apart), np.cbrt(np.quantile(volumes, 0.98))) if volumes is not None else np.median(apart)
+    return np.full(3, cell) if np.quantile(apart, 0.95) < EVEN * cell < EVEN * LONG * np.median(apart) else None
 
 
 def surface_of(places, volumes, points):
     """The surface of one block; points are their numbers in the result."""
-    found = lattice_of(places, volumes)
-    if found is not None:
-        cells, spacing = found
-        return surface_of_cells(cells, spacing, places.min(axis=0), points, np.max(spacing))
-    found = struts.voxels_of(places, volumes)
-    if found is None:
+    spacing = spacing_of(places, volumes)
+    size = None if spacing is None else np.ptp(places / spacing, axis=0) + 4
+    if size is None or size.prod() > MOST:
         return separate_cubes(places, volumes, points)
-    cells, edge, origin, owners = found
-    return surface_of_cells(cells, edge, origin + 0.5 * edge, points[owners], struts.FINE * edge)
+    fine = int(np.clip(np.cbrt(MANY / size.prod()), 1, 3))  # places of the sum along a spacing
+    origin, edge = places.min(axis=0) - 2 * spacing, spacing / fine
+    fills = np.ones(len(places)) if volumes is None else np.minimum(volumes / spacing.prod(), 1)
+    # A row of points, a spacing apart, has the volume of its points within the level 1.
+    height, at, size = np.exp(fills / (np.pi * BUMP**2)) / (np.sqrt(np.pi) * BUMP), (places - origin) / edge, np.ceil(size * fine).astype(int)
+    here = sum_of_bumps(at, height, size, fine)[tuple(at.astype(int).T)]
+    total = sum_of_bumps(at, height / np.maximum(1, here / INSIDE), size, fine)
+    inside = total.size - int(np.clip(fills.sum() * fine**3, 1, total.size))
+    corners, quads = contour(total, np.clip(np.partition(total, inside, axis=None)[inside], *LEVELS))
+    corners = origin + (corners + 0.5) * edge
+    tree = cKDTree(places / spacing)
+    apart, near = (found.reshape(len(corners), -1) for found in tree.query(corners / spacing, min(NEAR, len(places))))
+    near = np.pad(near, [(0, 0), (0, NEAR - near.shape[1])], mode="edge")
+    weights = np.pad(np.exp(-(apart**2 - apart[:, :1]**2) / BUMP**2), [(0, 0), (0, NEAR - apart.shape[1])])
+    point = tree.query(corners[quads].mean(axis=1) / spacing)[1]
+    return Surface(corners, quads, points[point], points[near], weights, np.max(spacing))
 
 
-def surface_of_cells(cells, spacing, first, points, apart):
-    """Of cubes at whole places; first: the center of that at 0 0 0; apart: the spacing of points."""
-    size = cells.max(axis=0) + 3
-    weights = np.array([size[1] * size[2], size[2], 1])
-    key = (cells + 1) @ weights
-    free = [np.flatnonzero(~np.isin(key + step @ weights, key)) for step in np.array([f[0] for f in FACES])]
-    ids = np.concatenate([key[f, None] + np.array(corners) @ weights for f, (_, corners) in zip(free, FACES)])
-    used, quads = np.unique(ids, return_inverse=True)
-    lower = np.stack(np.unravel_index(used, size), axis=1) - 1.5
-    quads = quads.reshape(-1, 4)
-    return Surface(first + smoothed(lower, quads) * spacing, quads, points[np.concatenate(free)], apart)
+def sum_of_bumps(at, height, size, fine):
+    """At places 0.5, 1.5, ... along each axis."""
+    width = fine * BUMP / np.sqrt(2)  # standard deviation
+    total, lower = np.zeros(np.prod(size)), np.floor(at - 0.5).astype(int)
+    part = at - 0.5 - lower
+    for corner in np.ndindex(2, 2, 2):  # each is shared out to the eight places around it
+        share = np.prod(np.where(corner, part, 1 - part), axis=1)
+        total += np.bincount(np.ravel_multi_index((lower + corner).T, size), height * share, len(total))
+    total = total.astype(np.float32).reshape(size)
+    return gaussian_filter(total, np.sqrt(width**2 - 1 / 6), mode="constant", truncate=3) * (2 * np.pi * width**2)**1.5
 
 
-def smoothed(corners, quads, rounds=5):
-    """Takes the staircase off a surface of unit cubes, as a net that relaxes while each corner stays within half a cube
-    of where it was (Gibson 1998); every second step outwards, so that thin struts keep their thickness (Taubin 1995)."""
-    sides = quads.T
-    ids = sides.ravel()
-    count = np.bincount(ids, minlength=len(corners))
-    now = corners
-    for step in (0.6, -0.62) * rounds:
-        middles = now[sides].mean(axis=0)
-        around = np.stack([np.bincount(ids, np.tile(m, 4), len(corners)) / count for m in middles.T], axis=1)
-        now = now + step * (around - now)
-    return corners + np.clip(now - corners, -0.5, 0.5)
+def contour(values, level):
+    """Corners and quads of the surface, outwards."""
+    image, data = vtkImageData(), numpy_to_vtk(values.ravel(order="F"), deep=True)
+    image.SetDimensions(values.shape)
+    image.GetPointData().SetScalars(data)
+    edges, smooth = vtkFlyingEdges3D(), vtkWindowedSincPolyDataFilter()
+    edges.SetInputData(image)
+    edges.SetValue(0, level)
+    edges.ComputeNormalsOff()
+    edges.ComputeScalarsOff()
+    smooth.SetInputConnection(edges.GetOutputPort())  # takes off what the places of the sum leave
+    smooth.SetPassBand(0.1)
+    smooth.Update()
+    found = smooth.GetOutput()
+    triangles = vtk_to_numpy(found.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return places_of(found).astype(float), triangles[:, [0, 1, 2, 2]]
 
 
 def separate_cubes(places, volumes, points):
     edges = np.cbrt(volumes) if volumes is not None else np.full(len(places), edge_of(places, volumes))
-    corners = np.array([c for _, face in FACES for c in face]) - 0.5
+    corners = np.array(list(np.ndindex(2, 2, 2)))[[4, 6, 7, 5, 0, 1, 3, 2, 2, 3, 7, 6, 0, 4, 5, 1, 1, 5, 7, 3, 0, 2, 6, 4]] - 0.5
     placed = places[:, None, :] + edges[:, None, None] * corners
-    return Surface(placed.reshape(-1, 3), np.arange(placed.size // 3).reshape(-1, 4), np.repeat(points, 6))
+    near = np.repeat(points, 24)[:, None].repeat(NEAR, axis=1)
+    return Surface(placed.reshape(-1, 3), np.arange(len(near)).reshape(-1, 4), np.repeat(points, 6), near, np.ones(near.shape), np.inf)

@@ -1,12 +1,16 @@
 """The three-dimensional picture of a result: a row per variable, a column per time."""
+import dataclasses
+
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 from strut_tools import fail, save_picture
 
-from . import painter, rigid
+from . import rigid
+from .painter import MOST_POINTS, Camera, Glass, Painter, Solid, coarser
 from .result import Result, clock_of, stem, title, unit_of
-from .surface import joined, surface_of
+from .surface import joined, places_of, polydata, surface_of
 
 USUAL = ("Equivalent_Plastic_Strain", "Von_Mises_Stress")
 GREY = np.array([0.72, 0.73, 0.75])
@@ -14,16 +18,23 @@ GREY = np.array([0.72, 0.73, 0.75])
 SCALE = matplotlib.colors.ListedColormap(plt.get_cmap("turbo")(np.linspace(0.1, 0.95, 256)))
 PANEL = 760, 620  # pixels at most
 DPI = 100
+PAUSE = 60  # ms between the pictures of a movie
 
 
+@dataclasses.dataclass
 class Wanted:
     """What the command line asks for."""
-
-    def __init__(self, variables=None, view=(1, -2.2, 0.6), zoom=1, times=None, frames=None, blocks=None, clip=None,
-                 glass=None, limits=None, hide=None, tools=()):
-        self.variables, self.view, self.zoom, self.times, self.frames = variables, view, zoom, times, frames
-        self.blocks, self.clip, self.glass, self.limits, self.hide = blocks, clip, glass, limits, hide
-        self.tools = tools  # of rigid.tools_of
+    variables: list = None
+    view: tuple = (1, -2.2, 0.6)
+    zoom: float = 1
+    times: list = None
+    frames: int = None
+    blocks: list = None
+    clip: tuple = None
+    glass: list = None
+    limits: list = None
+    hide: tuple = None
+    tools: tuple = ()  # of rigid.tools_of
 
 
 def variables_of(result, wanted):
@@ -89,13 +100,16 @@ class Row:
     """A variable: its values in the frames, and the scale."""
 
     def __init__(self, result, name, frames):
-        # The last one is no point's, but that of rigid tools.
-        self.name, self.values = name, [np.append(result.values(name, f), np.nan) for f in frames]
-        self.grey = np.zeros(len(result.reference) + 1, bool)
+        self.result, self.name, self.frames = result, name, frames
+        self.grey = np.zeros(len(result.reference), bool)
+
+    def values(self, column):
+        return self.result.values(self.name, self.frames[column])
 
     def idle(self, blocks):
         """Blocks in which it stays zero, as plastic strain does in an elastic plate; none where it does so in all."""
-        names = [b.name for b in blocks if not any(np.nan_to_num(v[b.nodes]).any() for v in self.values)]
+        columns = [self.values(column) for column in range(len(self.frames))]
+        names = [b.name for b in blocks if not any(np.nan_to_num(v[b.nodes]).any() for v in columns)]
         return names if len(names) < len(blocks) else []
 
     def scale(self, blocks, glass, limits):
@@ -104,7 +118,7 @@ class Row:
             self.grey[block.nodes] = block.name in glass or block.name in idle
         nodes = np.concatenate([b.nodes for b in blocks])
         nodes = nodes[~self.grey[nodes]]
-        found = [v[nodes][np.isfinite(v[nodes])] for v in self.values]
+        found = [v[np.isfinite(v)] for v in (self.values(column)[nodes] for column in range(len(self.frames)))]
         self.least, self.most = (f([f(v) for v in found if len(v)] or [0]) for f in (min, max))
         self.low, self.high = limits or self._usual_limits([v for v in found if len(v)])
         mega = unit_of(self.name) == "Pa"
@@ -117,11 +131,11 @@ class Row:
         low = 0 if 0 <= self.least and low < 0.3 * high else low
         return (self.least, self.most) if high - low > 0.85 * (self.most - self.least) else (low, high)
 
-    def colors(self, column, points):
-        value = self.values[column][points]
-        span = self.high - self.low
+    def colors(self, column):
+        """Of all points."""
+        value, span = self.values(column), self.high - self.low
         color = SCALE((value - self.low) / (span if span > 0 else 1))[:, :3]
-        color[self.grey[points] | ~np.isfinite(value)] = GREY
+        color[self.grey | ~np.isfinite(value)] = GREY
         return color
 
     def extend(self):
@@ -129,149 +143,116 @@ class Row:
         return ("both" if below else "max") if above else ("min" if below else "neither")
 
 
-class Drawn:
-    """One surface in one frame, as the camera sees it: everything but its colors."""
-
-    def __init__(self, surface, corners, camera):
-        self.canvas = painter.canvas_of(corners, surface.quads, camera)
-        normals = painter.corner_normals(corners, surface.quads)
-        self.light, self.facing = painter.brightness(self.canvas, normals, surface.quads, camera)
-        self.seen = (self.canvas.quad >= 0).reshape(self.canvas.shape)
-        self.point = surface.point[self.canvas.quad].reshape(self.canvas.shape)
-
-    def image(self, row, column):
-        """Red, green, blue, alpha of the fine pixels; alpha has multiplied the colors."""
-        image = np.zeros((*self.canvas.shape, 4))
-        image[self.seen, :3] = row.colors(column, self.point[self.seen]) * self.light[self.seen, None]
-        image[self.seen, 3] = 1
-        return image
-
-
-def with_glass(image, behind, glass, row, column):
-    """Lays a see-through surface over the image where it is nearer; it is denser where it is seen at a slant."""
-    front = glass.canvas.near > (behind.canvas.near if behind else -np.inf)
-    share = np.where(front.reshape(glass.seen.shape), 0.22 + 0.5 * (1 - glass.facing)**2, 0)[..., None]
-    over = glass.image(row, column)
-    return share * over + (1 - share * over[..., 3:]) * image
-
-
 # The figure
 
 
 class Scene:
-    """The variables and times, the camera and, for each time, what it sees."""
+    """The variables and times, the camera, and what it sees."""
 
     def __init__(self, result, wanted):
-        self.name, self.frames = stem(result.path), frames_of(result, wanted)
+        self.result, self.wanted, self.name, self.frames = result, wanted, stem(result.path), frames_of(result, wanted)
         self.times = result.times[self.frames]
+        if len(result.reference) > MOST_POINTS:
+            fail(f"{result.path} has {len(result.reference)} points, of which {MOST_POINTS} can be drawn")
         blocks, named = blocks_of(result, wanted.blocks), [b.name for b in blocks_of(result, wanted.glass)]
         self.rows = [Row(result, name, self.frames) for name in variables_of(result, wanted)]
         idle = {name for row in self.rows for name in row.idle(blocks)}
         glass = named if wanted.glass else idle if wanted.glass is None else []
         for row in self.rows:
             row.scale(blocks, glass, wanted.limits)
-        self._draw(result, [[b for b in blocks if (b.name in glass) == see_through] for see_through in (0, 1)], wanted)
+        self.layers = [[b for b in blocks if (b.name in glass) == see_through] for see_through in (False, True)]
+        self.camera, self.painter, self.surfaces = Camera(wanted.view), Painter(), {}
+        self._frame()
 
-    def _draw(self, result, layers, wanted):
-        frames = self.frames if wanted.hide else self.frames[:1] * len(self.frames)
-        found = {f: [surface_of_blocks(result, layer, wanted, f) for layer in layers] for f in set(frames)}
-        surfaces = [[s and s.torn(result.displacement(now)) for s in found[f]] for f, now in zip(frames, self.frames)]
-        if not all(any(both) for both in surfaces):
-            fail("nothing is left to draw: " + ("--hide hides all of it" if wanted.hide else
+    def moved(self, column):
+        """Corners and quads at that time of the solid blocks and of those of glass, and their points; None where there is none."""
+        frame = self.frames[column if self.wanted.hide else 0]
+        if frame not in self.surfaces:
+            self.surfaces = {frame: [surface_of_blocks(self.result, layer, self.wanted, frame) for layer in self.layers]}
+        if not any(self.surfaces[frame]):
+            fail("nothing is left to draw: " + ("--hide hides all of it" if self.wanted.hide else
                                                 "the plane of --clip cuts all away"))
-        self.camera = painter.Camera(wanted.view)
-        moved = [[s and self.camera.seen(s.moved(result.displacement(f))) for s in both]
-                 for f, both in zip(self.frames, surfaces)]
-        corners = np.concatenate([c for layers in moved for c in layers if c is not None])
-        tools = [self._tools(t, wanted.tools, corners @ self.camera.axes) for t in self.times]
-        framed = np.concatenate([corners, *(near for _, _, near in filter(None, tools))])
-        self.camera.frame(framed.min(axis=0), framed.max(axis=0), *PANEL, wanted.zoom)
-        self.drawn = [[s and Drawn(s, c, self.camera) for s, c in zip(*pair)] for pair in zip(surfaces, moved)]
-        self.tools = [found and Drawn(*found[:2], self.camera) for found in tools]
+        u = self.result.displacement(self.frames[column])
+        return [s and (*s.moved(u), s.point) for s in self.surfaces[frame]]
 
-    def _tools(self, t, tools, places):
-        """The surface of rigid tools at a time, its corners as they are seen, and these as far as the picture is to
-        reach: a margin around where the bodies are in any frame (places, m)."""
-        if not tools:
-            return None
-        low, high = places.min(axis=0), places.max(axis=0)
-        margin = rigid.MARGIN * np.max(high - low)
-        offsets = [tool.offset(t) for tool in tools]
-        parts = [tool.surface(low - u, high - u) for tool, u in zip(tools, offsets)]
-        moved = np.concatenate([part.corners + u for part, u in zip(parts, offsets)])
-        return joined(parts), self.camera.seen(moved), self.camera.seen(np.clip(moved, low - margin, high + margin))
+    def tools(self, column):
+        """Surfaces of the rigid tools at that time."""
+        for tool in self.wanted.tools:
+            offset = tool.offset(self.times[column])
+            surface = tool.surface(self.low - offset, self.high - offset)
+            places_of(surface)[:] += offset
+            yield surface
 
-    def image(self, row, column):
-        solid, glass = self.drawn[column]
-        image = solid.image(row, column) if solid else np.zeros((*glass.canvas.shape, 4))
-        for layer in filter(None, (glass, self.tools[column])):
-            image = with_glass(image, solid, layer, row, column)
-        return painter.coarser(image)
+    def _frame(self):
+        """The picture has the bodies in all frames, and of the tools what is within a margin around them."""
+        low, high, columns = np.full(6, np.inf), np.full(6, -np.inf), range(len(self.frames))
+        for column in columns:
+            corners = np.concatenate([corners for corners, *_ in filter(None, self.moved(column))])
+            both = np.hstack([corners, self.camera.seen(corners)])
+            low, high = np.minimum(low, both.min(axis=0)), np.maximum(high, both.max(axis=0))
+        self.low, self.high = low[:3], high[:3]
+        margin = rigid.MARGIN * np.max(self.high - self.low)
+        near = [np.clip(places_of(tool), self.low - margin, self.high + margin) for column in columns for tool in self.tools(column)]
+        framed = np.concatenate([low[None, 3:], high[None, 3:], *map(self.camera.seen, near)])
+        self.camera.frame(framed.min(axis=0), framed.max(axis=0), *PANEL, self.wanted.zoom)
+
+    def images(self, columns):
+        """By row and column."""
+        return {(row, column): image for column in columns for row, image in enumerate(self._column(column))}
+
+    def _column(self, column):
+        solid, glass = self.moved(column)
+        solid = solid and Solid(self.painter, polydata(*solid[:2]), solid[2], self.camera)
+        see_through = [polydata(*glass[:2])] if glass else []
+        see_through = [Glass(self.painter, data, GREY, self.camera) for data in (*see_through, *self.tools(column))]
+        return [coarser(self._image(row, column, solid, see_through)) for row in self.rows]
+
+    def _image(self, row, column, solid, see_through):
+        image = solid.image(row.colors(column)) if solid else np.zeros((*self.painter.shape, 4))
+        for glass in see_through:
+            image = glass.over(image, solid.near if solid else -np.inf)
+        return image
 
 
-def panels(camera, rows, columns):
-    """The figure's size and the place of each panel, from the upper left, in pixels."""
-    left, top, gap, bar, foot = 20, 66, 16, 120, 56
-    pitch = max(camera.width + gap, 120)  # the least for a title
-    places = {(r, c): (left + c * pitch + (pitch - gap - camera.width) // 2, top + r * (camera.height + gap))
-              for r in range(rows) for c in range(columns)}
-    width = left + columns * pitch + bar
-    return max(width, 420), top + rows * (camera.height + gap) + foot - gap, places
-
-
-def nice_length(most):
-    """The largest of 1, 2, 5 times a power of ten that is no longer."""
+def add_measure(panel, camera):
+    """A length and the directions of the axes, under a panel, whose coordinates are pixels."""
+    most, y = 0.35 * camera.width * camera.pixel, camera.height + 14
     power = 10.0**np.floor(np.log10(most))
-    return power * max(f for f in (1, 2, 5) if f * power <= most * (1 + 1e-9))
+    length = power * max(f for f in (1, 2, 5) if f * power <= most * (1 + 1e-9))
+    size, unit = next((p, u) for p, u in ((1, "m"), (1e-3, "mm"), (1e-6, "µm"), (0, "m")) if length >= 0.999 * p)
+    style, end = {"color": "0.15", "clip_on": False}, length / camera.pixel
+    panel.plot([0, end], [y, y], linewidth=2, **style)
+    panel.text(0, y + 6, f"{length / (size or 1):g} {unit}", va="top", fontsize=9, **style)
+    for name, (right, up) in zip("xyz", camera.axes[:2].T):
+        if np.hypot(right, up) > 0.05:
+            panel.plot([end + 60, end + 60 + 24 * right], [y + 12, y + 12 - 24 * up], linewidth=1, **style)
+            panel.text(end + 60 + 34 * right, y + 12 - 34 * up, name, ha="center", va="center", fontsize=9, **style)
 
 
-def add_measure(figure, camera, x, y, size):
-    """A length and the directions of the axes, under the first panel."""
-    width, height = size
-    length = nice_length(0.35 * camera.width * camera.pixel)
-    power, unit = next((p, u) for p, u in ((1, "m"), (1e-3, "mm"), (1e-6, "µm"), (0, "m")) if length >= 0.999 * p)
-    line = plt.Line2D([x / width, (x + length / camera.pixel) / width], [1 - y / height] * 2, color="0.15", linewidth=2)
-    figure.add_artist(line)
-    figure.text(x / width, 1 - (y + 6) / height, f"{length / (power or 1):g} {unit}", va="top", fontsize=9, color="0.15")
-    x += max(length / camera.pixel, 40) + 45
-    for name, axis in zip("xyz", camera.axes.T):
-        if np.hypot(*axis[:2]) < 0.05:
-            continue
-        dx, dy = 24 * axis[0], 24 * axis[1]
-        figure.add_artist(plt.Line2D([x / width, (x + dx) / width], [1 - (y + 8) / height, 1 - (y + 8 - dy) / height],
-                                     color="0.15", linewidth=1))
-        figure.text((x + 1.4 * dx) / width, 1 - (y + 8 - 1.4 * dy) / height, name, ha="center", va="center", fontsize=9)
-
-
-def add_bar(figure, row, place, camera, size, bar=14):
-    x, y = place
-    height = min(0.86 * camera.height, 420)
-    foot = y + 0.5 * (camera.height + height)
-    axes = figure.add_axes([x / size[0], 1 - foot / size[1], bar / size[0], height / size[1]])
+def add_bar(figure, row, panels):
     low, high = row.factor * row.low, row.factor * row.high
     norm = matplotlib.colors.Normalize(low, high if high > low else low + 1)
-    drawn = figure.colorbar(matplotlib.cm.ScalarMappable(norm, SCALE), cax=axes, extend=row.extend(), extendfrac=0.03)
-    drawn.outline.set_visible(False)
     more = f"\n(up to {row.factor * row.most:.3g})" if row.extend() in ("max", "both") else ""
-    drawn.set_label(row.label + more)
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, SCALE), ax=list(panels), extend=row.extend(), extendfrac=0.03,
+                          shrink=0.85, aspect=30, label=row.label + more)
+    bar.outline.set_visible(False)
 
 
-def figure_of(scene, rows):
-    """A figure of some of the scene's rows."""
+def figure_of(scene, images, rows, columns):
+    """A figure of some of the scene's rows and columns; images: by row and column."""
     camera, clock = scene.camera, clock_of(np.abs(scene.times).max())
-    width, height, places = panels(camera, len(rows), len(scene.frames))
-    figure = plt.figure(figsize=(width / DPI, height / DPI), dpi=DPI)
-    for (r, c), (x, y) in places.items():
-        axes = figure.add_axes([x / width, 1 - (y + camera.height) / height, camera.width / width, camera.height / height])
-        image = scene.image(rows[r], c)
-        axes.imshow(np.clip(image[..., :3] + 1 - image[..., 3:], 0, 1), interpolation="none")
-        axes.axis("off")
-        if r == 0:
-            axes.set_title(f"t = {clock[0] * scene.times[c]:.4g} {clock[1]}", fontsize=11)
-        if c == len(scene.frames) - 1:
-            add_bar(figure, rows[r], (x + camera.width + 24, y), camera, (width, height))
-    add_measure(figure, camera, places[0, 0][0] + 8, height - 40, (width, height))
-    figure.suptitle(scene.name, fontsize=12, y=1 - 10 / height, va="top")
+    size = max(len(columns) * camera.width, 240) + 160, len(rows) * camera.height + 110
+    figure, panels = plt.subplots(len(rows), len(columns), squeeze=False, layout="constrained", figsize=np.array(size) / DPI, dpi=DPI)
+    for (r, c), panel in np.ndenumerate(panels):
+        image = images[rows[r], columns[c]]
+        panel.imshow(np.clip(image[..., :3] + 1 - image[..., 3:], 0, 1))
+        panel.set(frame_on=False, xticks=[], yticks=[], autoscale_on=False)
+    for panel, column in zip(panels[0], columns):
+        panel.set_title(f"t = {clock[0] * scene.times[column]:.4g} {clock[1]}", fontsize=11)
+    for row, beside in zip(rows, panels):
+        add_bar(figure, scene.rows[row], beside)
+    add_measure(panels[-1, 0], camera)
+    figure.suptitle(scene.name, fontsize=12)
     return figure
 
 
@@ -281,14 +262,24 @@ def save(figure, out):
     return out
 
 
-def picture(path, out, wanted):
-    """One picture, a row for each variable."""
+def pictures(path, file_of, wanted, one=False):
+    """One picture, or one for each variable, file_of(its name); gives their names one by one."""
     scene = Scene(Result(path), wanted)
-    save(figure_of(scene, scene.rows), out)
+    columns, rows = range(len(scene.frames)), range(len(scene.rows))
+    images = scene.images(columns)
+    for part in [rows] if one else [[row] for row in rows]:
+        yield save(figure_of(scene, images, part, columns), file_of(scene.rows[part[0]].name))
 
 
-def pictures(path, file_of, wanted):
-    """A picture for each variable, file_of(its name); gives their names one by one."""
+def movie(path, out, wanted):
+    """A picture after the other, of all frames unless some are wanted."""
     scene = Scene(Result(path), wanted)
-    for row in scene.rows:
-        yield save(figure_of(scene, [row]), file_of(row.name))
+
+    def drawn():
+        for column in range(len(scene.frames)):
+            figure = figure_of(scene, scene.images([column]), range(len(scene.rows)), [column])
+            figure.canvas.draw()
+            yield Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3])
+            plt.close(figure)
+    first, *others = drawn()
+    first.save(out, save_all=True, append_images=others, duration=PAUSE, loop=0)

@@ -1,12 +1,13 @@
 """A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and form stay as they are."""
-import functools
 import math
 import os
 import re
 import xml.etree.ElementTree as tree
 
-from expressions import NoExpression, compiled, evaluated
+from expressions import NoExpression, evaluated
 from strut_tools import fail, nearest
+
+NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,2})?\s*"
 
 
 class Deck:
@@ -179,13 +180,10 @@ def value_at(expression, t):
 
 def value_of(expression, names):
     """The number that an expression of these names is; None where it is none."""
+    if re.fullmatch(NUMBER, expression):
+        return float(expression)
     try:
-        found = evaluated(parsed(expression, tuple(names)), names)
+        found = evaluated(expression, names)
     except NoExpression:
         return None
     return found if math.isfinite(found) else None
-
-
-@functools.lru_cache
-def parsed(expression, names):
-    return compiled(expression, names)

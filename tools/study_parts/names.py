@@ -4,7 +4,7 @@ import re
 import numpy as np
 from curve_parts import measures, options, shock
 from decks import is_true, value_in
-from expressions import NoExpression, compiled
+from expressions import NoExpression, evaluated
 from strut_tools import Parser, fail, nearest
 
 from .collect import FACTS
@@ -61,10 +61,10 @@ def check_beside(study, plot, known):
     if not plot.beside:
         return
     try:
-        compiled(plot.beside, known)
+        evaluated(plot.beside, dict.fromkeys(known, 1))
     except NoExpression as error:
-        word = re.match(r"'(\w+)' is not a variable", str(error))
-        fail(f"{study.path}: 'beside {plot.beside}': {error}{nearest(word[1], known) if word else ''}")
+        word = re.search(r"'(\w+)' is not a variable", str(error))
+        fail(f"{study.path}: 'beside {plot.beside}': {word[0] + nearest(word[1], known) if word else error}")
 
 
 def check_curve(study, columns):

