@@ -74,6 +74,6 @@ def page(found):
         lines.append(f"| {name} | {a_point * POINTS / 1e9:.1f} GB | | | {a_point:.0f} B n | |")
     lines.append(f"| reductions a step | {reductions:.2f} | | | any number of ranks | |")
     worst = max(strains, key=strains.get)
-    lines += ["", f"What breaks first: {worst}, {strains[worst]:.2g} times what a job bears."]
+    lines += ["", f"Tightest limit: {worst}, at {strains[worst]:.2g} of it."]
     print("\n".join(lines))
     return "\n".join(lines)
