@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fracture/critical_stretch.hpp"
+#include "fracture/separation.hpp"
 #include "mechanics/formulation/ordinary.hpp"
 
 namespace strut {

@@ -1,43 +1,9 @@
 // The critical stretch or bond energy for which a crack dissipates the given fracture energy, at a given spacing.
 #pragma once
 
-#include <vector>
-
 #include "mechanics/body.hpp"
 
 namespace strut {
-
-// A lattice whose halves are to be pulled apart.
-struct PulledLattice {
-  double spacing, horizon;  // m
-  Influence influence;
-  Formulation formulation;
-  materials::Moduli moduli;
-  ResidualKind springs = ResidualKind::none;  // residual that the springs act on
-  double coefficient = 0;                     // c of the springs
-};
-
-struct LatticeBond {
-  Vector xi;
-  double weight;     // ω V
-  double opening;    // at which it breaks if it crosses the plane and its critical stretch is 1
-  int layers_below;  // number of layers that its far end is below
-};
-
-// The family of an interior point. An opening Δ between the halves lengthens a bond across the plane by Δ |ξ_z|/|ξ|.
-std::vector<LatticeBond> family_of(const PulledLattice& lattice);
-
-// Energy dissipated per area of the plane between two halves of a lattice, J/m², that move apart along its normal
-// without deformation, by bonds whose critical stretch is 1, in small strains; for s_c multiply by s_c². Each break
-// dissipates the decrease of the energy of the points on both sides.
-double energy_of_separation(const PulledLattice& lattice);
-
-// The same for quadratic correspondence.
-double separation_of_cells(const PulledLattice& lattice);
-
-// The same for an ordinary lattice by bonds whose critical energy w_c is 1 J/m⁶, J/m² per J/m⁶; for another w_c
-// multiply by it.
-double separation_by_bond_energy(const PulledLattice& lattice);
 
 // Sets the critical stretch or bond energy of the blocks whose fracture energy is given, from a lattice of their
 // spacing and horizon.

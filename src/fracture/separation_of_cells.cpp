@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "fracture/critical_stretch.hpp"
+#include "fracture/separation.hpp"
 #include "fracture/strain_jump.hpp"
 #include "mechanics/formulation/lattice_cell.hpp"
 

@@ -9,7 +9,7 @@
 #include "base/archive.hpp"
 #include "contact/contact.hpp"
 #include "contract/polyurethane.hpp"
-#include "fracture/critical_stretch.hpp"
+#include "fracture/separation.hpp"
 #include "mechanics/energies.hpp"
 #include "mechanics/serialize.hpp"
 #include "verification/breaking.hpp"
