@@ -12,6 +12,7 @@
 #include "setup/conditions.hpp"
 #include "setup/contact.hpp"
 #include "setup/cuts.hpp"
+#include "setup/doubled_numbers.hpp"
 #include "setup/families.hpp"
 #include "setup/filled_tools.hpp"
 #include "setup/mass_scaling.hpp"
@@ -131,6 +132,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
   scene.highest_frequency = scale_masses(deck, scene.body, scene.warnings);
   scene.warnings += without_effect(deck, scene.body.domain);
+  scene.warnings += doubled_numbers(scene.body.domain);
   const double start = deck.solver.initial_time, duration = deck.solver.final_time - start;
   const std::vector<Trajectory> ways = trajectories(scene, start, duration);
   scene.outline = outline(scene, ways, start, duration);
