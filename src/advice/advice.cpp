@@ -2,6 +2,7 @@
 
 #include "advice/cracks.hpp"
 #include "advice/declared_contact.hpp"
+#include "advice/doubled_numbers.hpp"
 #include "advice/filled_tools.hpp"
 #include "advice/outline.hpp"
 #include "advice/overlaps.hpp"
@@ -21,10 +22,28 @@ namespace {
 // A check returns its warnings, a line each; collective. They are told in this order.
 using Check = std::string (*)(const Situation&);
 constexpr Check checks[] = {
-    without_effect, improbable_materials,  improbable_temperatures, improbable_scales,   large_elastic_strains,
-    overlaps,       flat_families,         contact_at_mirrors,      filled_tools,        thin_tools,
-    apart_tools,    meeting_tools,         overruled_motions,       thin_members,        sudden_failure,
-    noisy_cracks,   breaks_under_pressure, bonded_contacts,         undeclared_contacts, unheld_bodies,
+    without_effect,
+    doubled_numbers,
+    improbable_materials,
+    improbable_temperatures,
+    improbable_scales,
+    large_elastic_strains,
+    overlaps,
+    flat_families,
+    contact_at_mirrors,
+    filled_tools,
+    thin_tools,
+    apart_tools,
+    meeting_tools,
+    overruled_motions,
+    thin_members,
+    narrow_surfaces_of_nodes,
+    sudden_failure,
+    noisy_cracks,
+    breaks_under_pressure,
+    bonded_contacts,
+    undeclared_contacts,
+    unheld_bodies,
     weak_contacts,
 };
 

@@ -14,4 +14,8 @@ std::string thin_members(const Situation& situation);
 // Collective. The warnings of blocks with points whose families nearly lie in a plane.
 std::string flat_families(const Situation& situation);
 
+// Collective. A warning for the blocks with points at nodes that touch by surfaces and are so narrow that the contact
+// is weak everywhere.
+std::string narrow_surfaces_of_nodes(const Situation& situation);
+
 }  // namespace strut

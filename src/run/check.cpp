@@ -65,8 +65,7 @@ double measured_moving_step(const deck::Deck& deck, CentralDifference& solver, B
 std::string range(double least, double most) { return as_duration(least) + " to " + as_duration(most); }
 
 std::string check_steps(const deck::Deck& deck, Scene& scene) {
-  constexpr double most =
-      2;  // factor if the step shrinks by deformation, points touch and are subcycled
+  constexpr double most = 2;  // factor if the step shrinks by deformation, points touch and are subcycled
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time, std::move(scene.fracture));
   const double limit = solver.critical_time_step();

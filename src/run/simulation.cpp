@@ -166,8 +166,8 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   Scene& scene = *parts;  // stays at this address, also when another scene replaces it
   say(communicator, describe_scene(scene, advice(deck, scene)));
   std::optional<OutputWriters> writers;
-  writers.emplace(
-      deck, output_variables_of(deck, scene.body, scene.contact));  // checks all names before a file is replaced
+  writers.emplace(deck,
+                  output_variables_of(deck, scene.body, scene.contact));  // checks all names before a file is replaced
   Balance balance(deck);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,

@@ -27,8 +27,7 @@ struct BlockRows {
   std::vector<std::size_t> start{0};  // row i: entries start[i] … start[i + 1] − 1, its own column first
   std::vector<std::int64_t> columns;  // global point numbers, as counted by Krylov::first()
   std::vector<Eigen::Matrix3d> blocks;
-  std::vector<Eigen::Matrix3d>
-      elsewhere;  // of each row: springs to points of other ranks, for factors on each rank
+  std::vector<Eigen::Matrix3d> elsewhere;  // of each row: springs to points of other ranks, for factors on each rank
 };
 
 class Krylov {

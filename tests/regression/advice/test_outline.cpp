@@ -197,6 +197,20 @@ TEST(WithoutEffect, CracksModelsAndSetsThatChangeNothingAreToldOf) {
   EXPECT_EQ(told_with(disk("3e-3"), "z &lt; 3e-3").find("holds all"), std::string::npos);
 }
 
+// Of 96 elements, each two with one number: on any number of ranks.
+TEST(DoubledNumbers, AreToldOf) {
+  const RunFolder folder;
+  const deck::Deck deck = deck::read(folder.write("deck.xml", flying().text()), folder.world);
+  const auto warnings = [&](std::int64_t alike) {
+    deck::Problems problems;
+    PointCloud cloud = mesh_of(deck, folder.world, problems);
+    for (std::int64_t& number : cloud.element_ids) number = 7 + (number - 1) / alike;
+    return advice(deck, set_up(deck, std::move(cloud), folder.world)).warnings;
+  };
+  expect_told(warnings(2), {"gives the number 7 to more than one element, and so on, 48 times in all"});
+  EXPECT_EQ(warnings(1).find("more than one element"), std::string::npos);
+}
+
 std::string told_of_cubes(double spacing, const std::string& final_time) {
   const RunFolder folder;
   Parts parts = flying();

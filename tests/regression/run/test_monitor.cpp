@@ -362,6 +362,23 @@ TEST(Monitor, FacesOfNodesThatPressEachOtherDoNotPass) {
   }
 }
 
+// Blocks of four cells: near the rim of such a face the fraction of the other body's material is that of an edge.
+TEST(Monitor, NarrowSurfacesOfNodesAreToldOf) {
+  const RunFolder folder;
+  const std::string surfaces = section("Models", section("m", key("Contact Model", "Surface"))) +
+                               section("Interactions", section("General Contact", key("Contact Model", "m")));
+  const auto told = [&](Parts parts) {
+    const deck::Deck deck = deck::read(folder.write("deck.xml", parts.text()), folder.world);
+    return told_at_the_start(deck, folder.world).warnings.find("contact by surfaces is weak near edges") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(told(thrown_nodes(folder, 0, 1e-4, "z", surfaces)));
+  EXPECT_FALSE(told(thrown_nodes(folder, 0, 1e-4, "z", "")));
+  Parts elements = thrown_nodes(folder, 0, 1e-4, "z", surfaces);
+  elements.points = "Elements";
+  EXPECT_FALSE(told(elements));
+}
+
 // By half a spacing at the most, along each other or towards each other, and off the edge of the other one.
 TEST(Monitor, FacesOfNodesThatOnlyComeNearDoNotPass) {
   const RunFolder folder;
