@@ -106,13 +106,12 @@ std::string flat_families(const Body& body) {
   std::ostringstream text;
   for (std::size_t b = 0; b < found.size(); ++b) {
     if (found[b].count == 0) continue;
-    text
-        << "WARNING: block '" << body.blocks[b].name << "': the neighbors of " << found[b].count
-        << " points, one of them at " << place_text(found[b].one)
-        << ", nearly lie in one plane: the strain across it is noise of the mesh, and the steps of the run, or the "
-        << "substeps of these points, are several times shorter; where many substeps feed their vibrations, Subcycling "
-        << "'false' does not; expected two layers of points or more, also on each side of a crack "
-        << "(Discretization > Bond Filters)\n";
+    text << "WARNING: block '" << body.blocks[b].name << "': the neighbors of " << found[b].count
+         << " points, one of them at " << place_text(found[b].one)
+         << ", nearly lie in one plane: the strain across it is noise of the mesh, and the steps of the run, or the "
+         << "substeps of these points, are several times shorter (substeps may feed vibrations: Solver > Verlet > "
+         << "Subcycling false); expected two layers of points or more, also on each side of a crack (Discretization > "
+         << "Bond Filters)\n";
   }
   return text.str();
 }
