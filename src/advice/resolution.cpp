@@ -96,6 +96,7 @@ std::string thin_members(const Situation& situation) {
   return text.str();
 }
 
+// By the mean gradient; ordinary points have no F, and quadratic cells a penalty.
 std::string flat_families(const Situation& situation) {
   const Body& body = situation.scene.body;
   constexpr double very_flat = 20;  // `flatness`: a tenth of a spacing thick; two layers have 1.3
@@ -114,9 +115,10 @@ std::string flat_families(const Situation& situation) {
     if (found[b].count == 0) continue;
     text << "WARNING: block '" << body.blocks[b].name << "': the neighbors of " << found[b].count
          << " points, one of them at " << place_text(found[b].one)
-         << ", nearly lie in one plane: the strain across it is noise of the mesh, and the critical time step is "
-         << "several times shorter; expected two layers of points or more, also on each side of a crack "
-         << "(Discretization > Bond Filters)\n";
+         << ", nearly lie in one plane: the strain across it is noise of the mesh, and the steps of the run, or the "
+         << "substeps of these points, are several times shorter (substeps may feed vibrations: Solver > Verlet > "
+         << "Subcycling false); expected two layers of points or more, also on each side of a crack (Discretization > "
+         << "Bond Filters)\n";
   }
   return text.str();
 }

@@ -88,5 +88,4 @@ Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud
   }
 }
 
-// By the mean gradient; ordinary points have no F, and quadratic cells a penalty.
 }  // namespace strut

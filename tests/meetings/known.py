@@ -26,24 +26,32 @@ def changed_its_step(case, name, problem):
     return gains(case, name, problem) and not contact_models(case.scene) and step_fell(case)
 
 
-def pushed_between_substeps(case, name, problem):
-    """By contact, or by a tool with a mass: levels and step are chosen anew as they come. Without substeps the run keeps its energy."""
-    scene = case.scene
+def by_substeps(case, name, problem):
+    """Without substeps the run keeps its energy."""
     told = any("out of nothing" in line for line in case.base.warnings)
     if not (gains(case, name, problem) or name == "without subcycling" and told):
         return False
-    if not contact_models(scene) and not any("Mass" in one for one in scene.conditions.values()):
-        return False
-    other = scene.copy()
+    other = case.scene.copy()
     other.deck["Solver"].setdefault("Verlet", {})["Subcycling"] = False
     result = case.runner.run(written(other), name="other")
     return result.status == 0 and not any("out of nothing" in line for line in result.warnings)
+
+
+def pushed_between_substeps(case, name, problem):
+    """By contact, or by a tool with a mass: levels and step are chosen anew as they come."""
+    scene = case.scene
+    return (contact_models(scene) or any("Mass" in one for one in scene.conditions.values())) and by_substeps(case, name, problem)
+
+
+def flat_in_substeps(case, name, problem):
+    return any("nearly lie in one plane" in line for line in case.base.warnings) and by_substeps(case, name, problem)
 
 
 KNOWN = {
     "by a law of points far stiffer than the bodies a touch lasts a few steps, whose ends cost or give a part of its energy; told at the start": touched_by_a_stiff_law,
     "the step changes while the highest modes ring, which gives them energy": changed_its_step,
     "contact, or a tool with a mass, comes to points of many substeps while bodies vibrate: the step falls, which gives them energy": pushed_between_substeps,
+    "points whose neighbors nearly lie in one plane take some ten substeps or more, which feed their vibrations; told at the start": flat_in_substeps,
 }
 
 

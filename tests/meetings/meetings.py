@@ -113,7 +113,7 @@ class Worker:
         folder = Path(self.options.keep).resolve() / f"{case.seed}-{name.replace(' ', '-')}"
         shutil.rmtree(folder, ignore_errors=True)
         scene = case.scene
-        if self.options.shrink:
+        if self.options.shrink and problem != "hang":  # which takes minutes each time
             scene, problem = shrunk(case, name, problem, lambda one: Case(one, self.runner, case.seed), failure_of)
         written(scene).write(folder)
         (folder / "README").write_text(f"seed {case.seed}, {name}: {problem}\n{len(scene.mesh.sites())} points; the whole scene is in `whole`\n")
