@@ -1,5 +1,5 @@
-// strut-evaluate: the language of a deck's expressions for tools in Python. A line of standard input is four numbers, x y z t (nan: not
-// known), and an expression; the answer is a line with its value, or with "error" and what is wrong.
+// strut-evaluate: the language of a deck's expressions for tools in Python. A line of standard input is four numbers, x
+// y z t (nan: not known), and an expression; the answer is a line with its value, or with "error" and what is wrong.
 #include <cmath>
 #include <iostream>
 #include <limits>
