@@ -61,30 +61,18 @@ def named(path, prefixes):
     return [name for name in history(path) if name.startswith(prefixes)]
 
 
-def stack(count):
-    return plt.subplots(count, 1, sharex=True, figsize=(7, max(4.2, 1 + 1.7 * count)), layout="constrained", squeeze=False)
-
-
 def columns(paths, names, out):
-    """A panel for each column, of several histories."""
+    """A panel for each column: of several histories with a legend, of one with its name above."""
     tables = [history(path) for path in paths]
     clock = clock_of(max(np.abs(table["Time"]).max() for table in tables))
-    figure, panels = stack(len(names))
+    figure, panels = plt.subplots(len(names), 1, sharex=True, figsize=(7, max(4.2, 1 + 1.7 * len(names))), layout="constrained",
+                                  squeeze=False)
     for axes, name in zip(panels[:, 0], names):
         for path, table in zip(paths, tables):
             draw(axes, table, name, stem(path), clock)
-        axes.set_ylabel(title(name))
-    panels[0, 0].legend(frameon=False)
-    return finished(figure, panels[:, 0], clock, out)
-
-
-def panels(path, names, out):
-    """A panel for each column of one history."""
-    table = history(path)
-    clock = clock_of(np.abs(table["Time"]).max())
-    figure, axes_of = stack(len(names))
-    for axes, name in zip(axes_of[:, 0], names):
-        draw(axes, table, name, None, clock)
         axes.set_title(title(name), fontsize=10)
-    figure.suptitle(stem(path), fontsize=12)
-    return finished(figure, axes_of[:, 0], clock, out)
+    if len(paths) > 1:
+        panels[0, 0].legend(frameon=False)
+    else:
+        figure.suptitle(stem(paths[0]), fontsize=12)
+    return finished(figure, panels[:, 0], clock, out)

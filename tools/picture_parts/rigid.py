@@ -3,6 +3,7 @@ import itertools
 
 import numpy as np
 from decks import Deck, value_at, value_in
+from scipy.integrate import cumulative_trapezoid
 from strut_tools import fail
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkFiltersCore import vtkTriangleFilter, vtkTubeFilter
@@ -58,8 +59,8 @@ class Tool:
         # The column is what the bodies feel, means from row to row.
         impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(times, prepend=times[0]))
         if force:
-            impulse = impulse + integral(times, np.array([self._at(f"Force {c}", force, t) for t in times]))
-        return integral(times, speed + impulse / self.mass)
+            impulse = impulse + cumulative_trapezoid([self._at(f"Force {c}", force, t) for t in times], times, initial=0)
+        return cumulative_trapezoid(speed + impulse / self.mass, times, initial=0)
 
     def surface(self, low, high):
         """What of it is near the box of the bodies (corners, m), before it travels."""
@@ -82,11 +83,6 @@ def tools_of(path):
     if not found:
         fail(f"{path} has no rigid tools")
     return found
-
-
-def integral(times, values):
-    """From the first time on, by trapezoids."""
-    return np.concatenate([[0], np.cumsum(0.5 * np.diff(times) * (values[1:] + values[:-1]))])
 
 
 def axes_along(direction):
