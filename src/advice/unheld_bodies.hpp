@@ -1,4 +1,4 @@
-// Bodies of an equilibrium that nothing but contact holds.
+// Bodies of an equilibrium that only contact holds.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace strut {
 
-// Collective. A warning for each piece of a scene of equilibria that contact may push along, as neither conditions nor
-// what it is bonded to keep it from moving as a whole. Tools that touch it at the start hold it along their normals.
+// Collective. A warning for each piece of a scene of equilibria that contact may push along, because neither conditions
+// nor bonds prevent its rigid motion. Tools that touch it at the start hold it along their normals.
 std::string unheld_bodies(const Situation& situation);
 
 }  // namespace strut
