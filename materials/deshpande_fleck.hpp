@@ -132,7 +132,7 @@ struct DeshpandeFleck {
   static constexpr double tolerance = 1e-13;
   static constexpr int most_iterations = 200;  // bisection alone needs 60
 
-  // The trial's σ̂ after the return with Δε̂/Y, minus Y: positive at the left end of the bracket, negative at its right.
+  // The trial's σ̂ after the return with Δε̂/Y, minus Y: positive at the left end of the bracket, negative at the right
   Flow solve(const Invariants& trial, double equivalent, double strain, const Moduli& now) const {
     const double f = form(), per_mean = now.bulk * alpha * alpha / f, per_mises = 3 * now.shear / f;
     // The least stress per strain in any direction of flow, Pa; without the mean part if there is no volumetric flow.
