@@ -10,7 +10,7 @@ namespace strut::mesh {
 
 namespace {
 
-// n × m cells of which those with `keep(i, j)` stay, with nodes (i, j) at `position(i, j)`; only used nodes are numbered.
+// n × m cells; those with `keep(i, j)` stay, with nodes (i, j) at `position(i, j)`. Only their nodes are numbered.
 Section grid(int n, int m, const std::function<bool(int, int)>& keep, const std::function<Point(int, int)>& position) {
   Section section;
   std::vector<int> numbers(static_cast<std::size_t>(n + 1) * (m + 1), -1);

@@ -1,4 +1,4 @@
-"""A flat cut through the middle of a result, before and at the end: right for bars."""
+"""A flat cut through the middle of a result, at the start and at the end, for bars."""
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -14,7 +14,7 @@ def mean_edge(result):
 
 
 def stretched(reference, now, edge):
-    """The 2 x 2 matrix that best maps the bonds to the nearest points onto their images, for each point of the cut."""
+    """For each point of the cut, the 2 x 2 matrix that best maps the bonds to its nearest points onto their images."""
     count = reference.shape[1]
     maps = np.tile(np.eye(2), (count, 1, 1))
     for i in range(count):
@@ -27,7 +27,7 @@ def stretched(reference, now, edge):
 
 
 def cells(axes, reference, now, edge, colors, limits):
-    """A square of the spacing for each point, deformed with its surroundings."""
+    """A square of the spacing for each point, deformed with its neighborhood."""
     corners = 0.52 * edge * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
     outlines = now.T[:, None, :] + np.einsum("pij,cj->pci", stretched(reference, now, edge), corners)
     collection = PolyCollection(outlines, cmap="turbo", edgecolors="face", linewidths=0.2)
@@ -44,7 +44,7 @@ def picture(path, out, variable, axis):
     across, depth = (0, 1) if axis == "x" else (1, 0)
     reference, now = result.reference.T, (result.reference + result.displacement(-1)).T
     edge = mean_edge(result)
-    # The layer of points nearest to the middle, about one spacing thick; on its far side where the middle is between two.
+    # The layer of points nearest to the middle, about one spacing thick; the far one if the middle is between two.
     offset = reference[depth] - 0.5 * (reference[depth].min() + reference[depth].max())
     nearest = offset[np.abs(offset).argmin()]
     cut = np.abs(offset - abs(nearest)) <= 0.51 * edge

@@ -1,4 +1,4 @@
-"""Plots of histories (CSV) in time."""
+"""Plots of histories (CSV) over time."""
 import csv
 import os
 
@@ -40,12 +40,12 @@ def finished(figure, panels, clock, out):
 
 
 def energies(path, out):
-    """Energies, works and the balance error of one history."""
+    """Energies, work and the balance error of one history."""
     table = history(path)
     clock = clock_of(np.abs(table["Time"]).max())
     figure, panels = plt.subplots(2, 1, sharex=True, figsize=(7, 6), height_ratios=(3, 1), layout="constrained")
     for name in [n for n in table if n.endswith(("_Energy", "_Work"))]:
-        if np.abs(table[name]).max() > 0:  # a run without contact has no work of it
+        if np.abs(table[name]).max() > 0:  # skips terms that are zero, e.g. contact work without contact
             draw(panels[0], table, name, name.replace("_", " "), clock)
     panels[0].set_ylabel("J")
     panels[0].set_title(stem(path), fontsize=12)
@@ -57,7 +57,7 @@ def energies(path, out):
 
 
 def named(path, prefixes):
-    """The columns that the deck asked for and that begin so."""
+    """The columns of the deck's variables with these prefixes."""
     return [name for name in history(path) if name.startswith(prefixes)]
 
 
@@ -66,7 +66,7 @@ def stack(count):
 
 
 def columns(paths, names, out):
-    """A panel for each column, of several histories."""
+    """A panel for each column, with several histories."""
     tables = [history(path) for path in paths]
     clock = clock_of(max(np.abs(table["Time"]).max() for table in tables))
     figure, panels = stack(len(names))

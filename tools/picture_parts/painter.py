@@ -1,17 +1,17 @@
-"""Quads -> shaded picture, in numpy alone: no screen, no graphics library, the same image on every machine.
+"""Draws shaded quads with numpy alone: no screen, no graphics library, the same image on every machine.
 
-Each quad is sampled more densely than the pixels are, and the sample nearest to the eye wins its pixel. Light only
+Each quad is sampled more densely than the pixels, and the sample nearest to the eye determines its pixel. Light only
 multiplies a color, so that its hue can be looked up in the scale.
 """
 import numpy as np
 
-FINER = 2  # pixels of the canvas for one of the picture, each way
+FINER = 2  # fine pixels per pixel of the picture, along each axis
 SAMPLES_AT_ONCE = 2_000_000
-TO_LIGHT = np.array([-0.42, 0.55, 0.72])  # right, up, towards the eye: from the upper left, behind the one who looks
+TO_LIGHT = np.array([-0.42, 0.55, 0.72])  # right, up, toward the eye: light from the upper left, behind the viewer
 
 
 class Camera:
-    """Parallel projection. `towards` points from the body to the eye; z is up, unless one looks along it."""
+    """Parallel projection. `towards` points from the body to the eye; z is up, unless the view is along z."""
 
     def __init__(self, towards):
         d = np.array(towards, float) / np.linalg.norm(towards)
@@ -21,11 +21,11 @@ class Camera:
         self.axes = np.stack([right, np.cross(d, right), d])
 
     def seen(self, places):
-        """Coordinates to the right, up, and towards the eye."""
+        """Coordinates to the right, up, and toward the eye."""
         return places @ self.axes.T
 
     def frame(self, low, high, width, height, zoom=1):
-        """Fits the box from low to high (as seen) into width x height pixels, then nears by the zoom."""
+        """Fits the box from low to high (in view coordinates) into width x height pixels, then zooms."""
         self.middle, self.depth = 0.5 * (low + high), max(high[2] - low[2], 1e-30)
         size = 1.04 * np.maximum(high - low, 1e-9 * np.max(high - low))[:2]
         fit = max(size[0] / width, size[1] / height)
@@ -33,13 +33,13 @@ class Camera:
         self.pixel = fit / zoom
 
     def position(self, place):
-        """The pixel (column, row) at which a place is seen."""
+        """The pixel (column, row) of a position."""
         right, up, _ = (self.seen(np.asarray(place)) - self.middle) / self.pixel
         return 0.5 * self.width + right, 0.5 * self.height - up
 
 
 class Canvas:
-    """What is seen at each fine pixel: the quad (-1: none), where on it, and how near."""
+    """Content of each fine pixel: the quad (-1: none), the position on it, and its nearness."""
 
     def __init__(self, camera):
         self.shape = FINER * camera.height, FINER * camera.width
@@ -49,7 +49,7 @@ class Canvas:
         self.s, self.t = np.zeros(count, np.float32), np.zeros(count, np.float32)
 
     def put(self, pixel, near, quad, s, t):
-        """Of several samples in one pixel the last is kept: again, until none is nearer than what is there."""
+        """Of several samples in one pixel the last is stored: repeats until none is nearer than the stored one."""
         while len(pixel := pixel[wins := near > self.near[pixel]]):
             near, quad, s, t = near[wins], quad[wins], s[wins], t[wins]
             self.near[pixel], self.quad[pixel], self.s[pixel], self.t[pixel] = near, quad, s, t
@@ -60,7 +60,7 @@ def corner_weights(s, t):
 
 
 def canvas_of(corners, quads, camera):
-    """corners as seen by the camera."""
+    """Draws quads; corners are in view coordinates."""
     canvas = Canvas(camera)
     height, width = canvas.shape
     scale = FINER / camera.pixel
@@ -78,7 +78,7 @@ def canvas_of(corners, quads, camera):
     counts = np.where(counts > 8, 4 * -(-counts // 4), counts)
     for n in np.unique(counts):
         group = drawn[counts == n]
-        group = group[np.argsort(-fine[quads[group, 0], 2])]  # the nearest first: most of the rest is refused at once
+        group = group[np.argsort(-fine[quads[group, 0], 2])]  # the nearest first, which rejects most others at once
         for start in range(0, len(group), max(1, SAMPLES_AT_ONCE // n**2)):
             sample(canvas, fine, quads, group[start:start + max(1, SAMPLES_AT_ONCE // n**2)], n)
     return canvas
@@ -99,7 +99,7 @@ def sample(canvas, fine, quads, group, n):
 
 
 def gathered(of_quad, sides, count):
-    """Sums at the corners of what the quads around have; sides is 4 x quads."""
+    """Sums at the corners over the adjacent quads; sides is 4 x quads."""
     ids = sides.ravel()
     return np.stack([np.bincount(ids, np.tile(component, 4), count) for component in of_quad.T], axis=1)
 
@@ -109,7 +109,7 @@ def unit(vectors):
 
 
 def corner_normals(corners, quads, rounds=1):
-    """Normals at corners, averaged with their neighbors'."""
+    """Normals at corners, averaged with those of their neighbors."""
     sides = quads.T
     p = corners[sides]
     of_quad = np.cross(p[2] - p[0], p[3] - p[1])
@@ -120,7 +120,7 @@ def corner_normals(corners, quads, rounds=1):
 
 
 def blurred(image, radius):
-    """Two means over a square, by running sums; zero outside."""
+    """Two box means, by running sums; zero outside."""
     for axis in (0, 1, 0, 1):
         pad = [(0, 0), (0, 0)]
         pad[axis] = (radius + 1, radius)
@@ -132,8 +132,8 @@ def blurred(image, radius):
 
 
 def openness(near, seen):
-    """1 where light comes from all sides, less for a pixel that lies behind its surroundings (Luft, Colditz and Deussen
-    2006), at three sizes. At the body's outline, where the surroundings are on one side only, nothing is known."""
+    """1 where light comes from all sides, less for a pixel behind its surroundings (Luft, Colditz and Deussen 2006), at
+    three sizes. At the outline of the body, with surroundings on one side only, it is undetermined."""
     near, seen = (FINER**2 * coarser(a)[..., 0] for a in (np.where(seen, near, 0), 1.0 * seen))
     near, share = near / np.maximum(seen, 1), np.minimum(seen, 1)
     light = np.ones(near.shape)
@@ -146,8 +146,8 @@ def openness(near, seen):
 
 
 def brightness(canvas, normals, quads, camera):
-    """Light from the upper left and from everywhere, less in what lies in hollows and farther away; and how steeply
-    each fine pixel faces the eye (0 to 1)."""
+    """Light from the upper left and from everywhere, reduced in hollows and with distance; and how directly each fine
+    pixel faces the eye (0 to 1)."""
     seen = (canvas.quad >= 0).reshape(canvas.shape)
     hit = np.flatnonzero(canvas.quad >= 0)
     weights = np.stack(corner_weights(canvas.s[hit], canvas.t[hit]), axis=1)
@@ -162,6 +162,6 @@ def brightness(canvas, normals, quads, camera):
 
 
 def coarser(image):
-    """FINER x FINER pixels -> one."""
+    """Averages FINER x FINER pixels to one."""
     height, width = image.shape[0] // FINER, image.shape[1] // FINER
     return image.reshape(height, FINER, width, FINER, -1).mean(axis=(1, 3))

@@ -1,4 +1,4 @@
-"""The rigid tools of a deck: their surfaces near the bodies, and where they are at a time."""
+"""The rigid tools of a deck: their surfaces near the bodies, and their positions over time."""
 import numpy as np
 from decks import Deck, value_at, value_in
 from strut_tools import fail
@@ -7,8 +7,8 @@ from . import history
 from .surface import FACES, Surface, joined
 
 ARC = 48       # quads around a cylinder
-MARGIN = 0.15  # of the bodies' size: how far beyond them the picture reaches for tools
-NO_POINT = -1  # the point that quads of a tool belong to
+MARGIN = 0.15  # of the bodies' size: margin around them in which tools are drawn
+NO_POINT = -1  # point number of the quads of a tool
 
 
 class Tool:
@@ -32,7 +32,7 @@ class Tool:
         return np.array([self._at(key, word, 0) for word in value_in(self.keys, key).split()])
 
     def offset(self, t):
-        """How far it has gone at the time t (s), m."""
+        """Displacement at the time t (s), m."""
         if self.flight is not None:
             times, way = self.flight
             return np.array([np.interp(t, times, w) for w in way])
@@ -40,7 +40,7 @@ class Tool:
         return np.array([0.0 if text is None else self._at(key, text, t) for key, text in travel])
 
     def _flight(self):
-        """Of a tool with a mass, from the forces on it in the deck's history: times, and the way along each axis."""
+        """Motion of a tool with a mass, from the forces in the deck's history: times, and displacement by axis."""
         table = history.history(self.deck.get("History", "Filename", default="a History, which this tool needs,"))
         times = table["Time"]
         return times, [self._way(c, times, table) for c in "XYZ"]
@@ -51,14 +51,14 @@ class Tool:
         column = f"Reaction_{c}({self.name})"
         if column not in table and (speed or force):
             fail(f"where the tool '{self.name}' is drawn follows from {column}: add it to the deck's History")
-        # The column is what the bodies feel, means from row to row.
+        # The column is the force on the bodies, as means between rows.
         impulse = -np.cumsum(table.get(column, np.zeros(len(times))) * np.diff(times, prepend=times[0]))
         if force:
             impulse = impulse + integral(times, np.array([self._at(f"Force {c}", force, t) for t in times]))
         return integral(times, speed + impulse / self.mass)
 
     def surface(self, low, high):
-        """What of it is near the box of the bodies (corners, m), before it travels."""
+        """The part of its surface near the box of the bodies (corners, m), before it travels."""
         if self.kind == "Rigid Plane":
             return slab(self.vector("Point"), self.vector("Normal"), low, high)
         if self.kind == "Rigid Cylinder":
@@ -76,12 +76,12 @@ def tools_of(path):
 
 
 def integral(times, values):
-    """From the first time on, by trapezoids."""
+    """Integral from the first time on, by the trapezoidal rule."""
     return np.concatenate([[0], np.cumsum(0.5 * np.diff(times) * (values[1:] + values[:-1]))])
 
 
 def flat(quads):
-    """Quads with corners of their own, so that light does not round their edges: an array of m x 4 x 3."""
+    """Quads (array of m x 4 x 3) with separate corners, so that shading does not round their edges."""
     quads = np.asarray(quads, float)
     return Surface(quads.reshape(-1, 3), np.arange(4 * len(quads)).reshape(-1, 4), np.full(len(quads), NO_POINT))
 
@@ -93,7 +93,7 @@ def block(lower, upper, origin=np.zeros(3), axes=np.eye(3)):
 
 
 def axes_along(direction):
-    """Three unit vectors, right-handed, of which the last is along the direction."""
+    """Three right-handed unit vectors, the last one along the direction."""
     w = direction / np.linalg.norm(direction)
     u = np.cross(w, np.eye(3)[np.abs(w).argmin()])
     u /= np.linalg.norm(u)
@@ -101,7 +101,7 @@ def axes_along(direction):
 
 
 def box_along(axes, origin, low, high):
-    """What the box of the bodies, a margin around it, reaches along the axes from the origin."""
+    """The extent of the bodies' box, with a margin, along the axes from the origin."""
     margin = MARGIN * np.max(high - low)
     corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     along = (corners - origin) @ axes.T
@@ -109,7 +109,7 @@ def box_along(axes, origin, low, high):
 
 
 def slab(point, normal, low, high):
-    """The front of a half space: a thin plate behind its plane."""
+    """The front of a half-space: a thin plate behind its plane."""
     axes = axes_along(normal)
     lower, upper = box_along(axes, point, low, high)
     lower[2], upper[2] = -0.2 * MARGIN * np.max(high - low), 0

@@ -1,20 +1,20 @@
-"""Voxels that look like struts, for points that are partly filled cells: their places are centers of mass and on no lattice,
-and a cube each would stand by itself. Points that are near each other are joined by rods whose section holds their volume."""
+"""Voxels that look like struts, for points that are partly filled cells: their positions are centers of mass on no
+lattice, so cubes would look separate. Points near each other are joined by rods whose section keeps their volume."""
 import itertools
 
 import numpy as np
 
 FINE = 3        # voxels along a cell
-JOINED = 1.45   # cells: nearer points are joined; those of cells that share an edge are
-RAGGED = 0.1    # of the mean volume: by how much neighbors differ where cells are partly filled
+JOINED = 1.45   # cells: nearer points are joined, which includes those of cells that share an edge
+RAGGED = 0.1    # of the mean volume: least difference of neighbors if cells are partly filled
 MOST = 2 * 10**8  # voxels of the box
 
-# Half of the 26 neighbors, and the place itself.
+# Half of the 26 neighbors, and the position itself.
 OFFSETS = [o for o in itertools.product((-1, 0, 1), repeat=3) if o >= (0, 0, 0)]
 
 
 def near_pairs(places, reach):
-    """Indices of the pairs that are nearer than that, each once, and their distances."""
+    """Indices of the pairs nearer than `reach`, each once, and their distances."""
     bins = np.floor((places - places.min(axis=0)) / reach).astype(np.int64) + 1
     size = bins.max(axis=0) + 2
     weights = np.array([size[1] * size[2], size[2], 1])
@@ -33,7 +33,7 @@ def near_pairs(places, reach):
 
 
 def cell_of(places, volumes):
-    """The edge of a cell and the pairs to join; None where the points are no partly filled cells."""
+    """The edge of a cell and the pairs to join; None if the points are no partly filled cells."""
     i, j, apart = near_pairs(places, JOINED * np.cbrt(volumes.max()))
     if 2 * len(i) < len(places) or np.median(np.abs(volumes[i] - volumes[j])) < RAGGED * volumes.mean():
         return None
@@ -46,7 +46,7 @@ def cell_of(places, volumes):
 
 
 def voxels_of(places, volumes):
-    """Integer places of voxels, their edge, the corner of the first and the point of each; None as cell_of."""
+    """Integer positions of voxels, their edge, the corner of the first and the point of each; None as in cell_of."""
     found = cell_of(places, volumes) if volumes is not None and len(places) > 1 else None
     if found is None:
         return None
@@ -67,7 +67,7 @@ def voxels_of(places, volumes):
 
 
 def paint(best, owner, at, radii, points):
-    """Balls, in voxels; each voxel has the point of the nearest."""
+    """Paints balls (in voxels); each voxel gets the point of the nearest ball."""
     base = np.floor(at).astype(np.int64)
     reach = int(np.ceil(radii.max()))
     for offset in itertools.product(range(-reach, reach + 1), repeat=3):
@@ -75,6 +75,6 @@ def paint(best, owner, at, radii, points):
         apart = np.linalg.norm(places + 0.5 - at, axis=1)
         voxels = tuple(places.T)
         keep = np.flatnonzero((apart <= radii) & (apart < best[voxels]))
-        keep = keep[np.argsort(-apart[keep], kind="stable")]  # of those that share a voxel the last stays
+        keep = keep[np.argsort(-apart[keep], kind="stable")]  # of several for one voxel the last, nearest one stays
         voxels = tuple(places[keep].T)
         best[voxels], owner[voxels] = apart[keep], points[keep]

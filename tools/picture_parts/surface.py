@@ -14,7 +14,7 @@ FACES = [((1, 0, 0), ((1, 0, 0), (1, 1, 0), (1, 1, 1), (1, 0, 1))), ((-1, 0, 0),
          ((0, 0, 1), ((0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))), ((0, 0, -1), ((0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 0, 0)))]
 
 
-TORN = 0.75  # spacings by which an edge of a face may be longer than it was; half of the gap is on either side
+TORN = 0.75  # spacings by which an edge of a face may grow; half of the gap is on either side
 
 
 class Surface:
@@ -33,8 +33,8 @@ class Surface:
         return self.corners + np.stack([np.bincount(ids, u[:, c], len(self.corners)) / count for c in range(3)], axis=1)
 
     def torn(self, displacement):
-        """The same where points have moved apart: faces between them, which would be drawn out to sheets, have corners of
-        their own."""
+        """The same for points that have moved apart: faces between them, which would be stretched to sheets, get
+        separate corners."""
         def edges(corners):
             around = corners[self.quads]
             return np.linalg.norm(around - np.roll(around, 1, axis=1), axis=2)
@@ -56,7 +56,7 @@ def joined(surfaces):
 
 
 def edge_of(places, volumes):
-    """The mean edge of a cube: from the volumes where they are known, else from the box around all."""
+    """The mean edge of a cube: from the volumes if they are known, else from the box around all points."""
     if volumes is not None:
         return np.cbrt(volumes.mean())
     sides = np.ptp(places, axis=0)
@@ -65,12 +65,12 @@ def edge_of(places, volumes):
 
 
 def spacing_of(places, edge):
-    """Per axis the least distance of two layers; an axis with one layer has what is left of the volume."""
+    """For each axis the least distance of two layers; an axis with one layer gets the rest of the volume."""
     least = []
     for x in places.T:
         gaps = np.diff(np.sort(x))
         gaps = gaps[gaps > 0.02 * edge]
-        # The span is known better than one gap, where the file has few digits.
+        # The span is known more accurately than one gap if the file has few digits.
         least.append(np.ptp(x) / np.rint(np.ptp(x) / gaps.min()) if len(gaps) else np.nan)
     least = np.array(least)
     single = np.isnan(least)
@@ -80,13 +80,13 @@ def spacing_of(places, edge):
 
 
 def lattice_of(places, volumes):
-    """Integer coordinates and the spacing, or None where the points are not on a lattice of cells of their volume."""
+    """Integer coordinates and the spacing, or None if the points are not on a lattice of cells of their volume."""
     edge = edge_of(places, volumes)
     spacing = spacing_of(places, edge)
     steps = (places - places.min(axis=0)) / spacing
     cells = np.rint(steps).astype(np.int64)
     off = np.abs(steps - cells).max() > 0.1
-    # Without volumes the edge is a guess, too large for a foam.
+    # Without volumes the edge is an estimate, too large for a foam.
     odd = volumes is not None and abs(np.prod(spacing) / edge**3 - 1) > 0.2
     return None if off or odd else (cells, spacing)
 
@@ -105,7 +105,7 @@ def surface_of(places, volumes, points):
 
 
 def surface_of_cells(cells, spacing, first, points, apart):
-    """Of cubes at whole places; first: the center of that at 0 0 0; apart: the spacing of points."""
+    """The surface of cubes at integer positions; first: center of the one at 0 0 0; apart: the spacing of points."""
     size = cells.max(axis=0) + 3
     weights = np.array([size[1] * size[2], size[2], 1])
     key = (cells + 1) @ weights
@@ -118,8 +118,8 @@ def surface_of_cells(cells, spacing, first, points, apart):
 
 
 def smoothed(corners, quads, rounds=5):
-    """Takes the staircase off a surface of unit cubes, as a net that relaxes while each corner stays within half a cube
-    of where it was (Gibson 1998); every second step outwards, so that thin struts keep their thickness (Taubin 1995)."""
+    """Smooths the stairs of a surface of unit cubes, as a relaxing net whose corners stay within half a cube of their
+    initial positions (Gibson 1998); every second step outward, to keep the thickness of thin struts (Taubin 1995)."""
     sides = quads.T
     ids = sides.ravel()
     count = np.bincount(ids, minlength=len(corners))

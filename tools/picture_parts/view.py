@@ -17,13 +17,13 @@ DPI = 100
 
 
 class Wanted:
-    """What the command line asks for."""
+    """The options of the command line."""
 
     def __init__(self, variables=None, view=(1, -2.2, 0.6), zoom=1, times=None, frames=None, blocks=None, clip=None,
                  glass=None, limits=None, hide=None, tools=()):
         self.variables, self.view, self.zoom, self.times, self.frames = variables, view, zoom, times, frames
         self.blocks, self.clip, self.glass, self.limits, self.hide = blocks, clip, glass, limits, hide
-        self.tools = tools  # of rigid.tools_of
+        self.tools = tools  # from rigid.tools_of
 
 
 def variables_of(result, wanted):
@@ -44,7 +44,7 @@ def frames_of(result, wanted):
 
 
 def blocks_of(result, names):
-    """Those named, or all that have points."""
+    """The named blocks, or all that have points."""
     known = {block.name: block for block in result.blocks}
     for name in names or ():
         if name not in known:
@@ -53,7 +53,7 @@ def blocks_of(result, names):
 
 
 def kept(result, block, clip, towards):
-    """Nodes of the block, less those on the eye's side of the plane at a fraction of the box."""
+    """Nodes of the block, without those on the eye's side of the plane at a fraction of the box."""
     if not clip:
         return block.nodes
     axis, fraction = clip
@@ -64,7 +64,7 @@ def kept(result, block, clip, towards):
 
 
 def hidden_points(result, frame, hide):
-    """Of all points, whether a variable is above a value there; such as damage, to see into cracks."""
+    """For all points, True if a variable exceeds a value there; for instance damage, to look into cracks."""
     if not hide:
         return np.zeros(len(result.reference), bool)
     name, most = hide
@@ -89,12 +89,12 @@ class Row:
     """A variable: its values in the frames, and the scale."""
 
     def __init__(self, result, name, frames):
-        # The last one is no point's, but that of rigid tools.
+        # The last entry belongs to no point, but to rigid tools.
         self.name, self.values = name, [np.append(result.values(name, f), np.nan) for f in frames]
         self.grey = np.zeros(len(result.reference) + 1, bool)
 
     def idle(self, blocks):
-        """Blocks in which it stays zero, as plastic strain does in an elastic plate; none where it does so in all."""
+        """Blocks in which it stays zero, such as plastic strain in an elastic plate; empty if it does in all blocks."""
         names = [b.name for b in blocks if not any(np.nan_to_num(v[b.nodes]).any() for v in self.values)]
         return names if len(names) < len(blocks) else []
 
@@ -111,7 +111,7 @@ class Row:
         self.factor, self.label = (1e-6, title(self.name)[:-2] + "MPa") if mega else (1, title(self.name))
 
     def _usual_limits(self, found):
-        """All but the last 0.2 % of the points at each end, which would take the colors from the others."""
+        """Limits without the last 0.2 % of the points at each end, which would take the colors from the others."""
         low = min([np.quantile(v, 0.002) for v in found] or [0])
         high = max([np.quantile(v, 0.998) for v in found] or [0])
         low = 0 if 0 <= self.least and low < 0.3 * high else low
@@ -148,7 +148,7 @@ class Drawn:
 
 
 def with_glass(image, behind, glass, row, column):
-    """Lays a see-through surface over the image where it is nearer; it is denser where it is seen at a slant."""
+    """Overlays a transparent surface where it is nearer; it is denser where it is seen at a slant."""
     front = glass.canvas.near > (behind.canvas.near if behind else -np.inf)
     share = np.where(front.reshape(glass.seen.shape), 0.22 + 0.5 * (1 - glass.facing)**2, 0)[..., None]
     over = glass.image(row, column)
@@ -159,7 +159,7 @@ def with_glass(image, behind, glass, row, column):
 
 
 class Scene:
-    """The variables and times, the camera and, for each time, what it sees."""
+    """The variables and times, the camera, and its view at each time."""
 
     def __init__(self, result, wanted):
         self.name, self.frames = stem(result.path), frames_of(result, wanted)
@@ -190,8 +190,8 @@ class Scene:
         self.tools = [found and Drawn(*found[:2], self.camera) for found in tools]
 
     def _tools(self, t, tools, places):
-        """The surface of rigid tools at a time, its corners as they are seen, and these as far as the picture is to
-        reach: a margin around where the bodies are in any frame (places, m)."""
+        """The surface of rigid tools at a time, its corners in view coordinates, and these corners as far as the
+        picture extends: a margin around the positions of the bodies in any frame (places, m)."""
         if not tools:
             return None
         low, high = places.min(axis=0), places.max(axis=0)
@@ -210,7 +210,7 @@ class Scene:
 
 
 def panels(camera, rows, columns):
-    """The figure's size and the place of each panel, from the upper left, in pixels."""
+    """The figure's size and the position of each panel, from the upper left, in pixels."""
     left, top, gap, bar, foot = 20, 66, 16, 120, 56
     pitch = max(camera.width + gap, 120)  # the least for a title
     places = {(r, c): (left + c * pitch + (pitch - gap - camera.width) // 2, top + r * (camera.height + gap))
@@ -220,13 +220,13 @@ def panels(camera, rows, columns):
 
 
 def nice_length(most):
-    """The largest of 1, 2, 5 times a power of ten that is no longer."""
+    """The largest of 1, 2, 5 times a power of ten that is not above `most`."""
     power = 10.0**np.floor(np.log10(most))
     return power * max(f for f in (1, 2, 5) if f * power <= most * (1 + 1e-9))
 
 
 def add_measure(figure, camera, x, y, size):
-    """A length and the directions of the axes, under the first panel."""
+    """A scale bar and the directions of the axes, under the first panel."""
     width, height = size
     length = nice_length(0.35 * camera.width * camera.pixel)
     power, unit = next((p, u) for p, u in ((1, "m"), (1e-3, "mm"), (1e-6, "µm"), (0, "m")) if length >= 0.999 * p)
@@ -288,7 +288,7 @@ def picture(path, out, wanted):
 
 
 def pictures(path, file_of, wanted):
-    """A picture for each variable, file_of(its name); gives their names one by one."""
+    """A picture for each variable, file_of(its name); yields their names one by one."""
     scene = Scene(Result(path), wanted)
     for row in scene.rows:
         yield save(figure_of(scene, [row]), file_of(row.name))

@@ -1,4 +1,4 @@
-"""A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and form stay as they are."""
+"""A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and layout are preserved."""
 import functools
 import math
 import os
@@ -22,7 +22,7 @@ class Deck:
             fail(f"{path} is not a deck (XML): {error}")
 
     def section(self, *names):
-        """The element of a section; None where there is none."""
+        """The element of a section; None if there is none."""
         place = self.root
         for name in names:
             place = next((e for e in place.findall("ParameterList") if e.get("name") == name), None)
@@ -42,12 +42,12 @@ class Deck:
         return default if found is None else found
 
     def file(self, *names):
-        """Of a file beside the deck."""
+        """The path of a file relative to the deck's folder."""
         value = self.get(*names)
         return value and os.path.join(os.path.dirname(self.path), value)
 
     def recipe(self):
-        """The path of the recipe of its mesh; None where there is none."""
+        """The path of the recipe of its mesh; None if there is none."""
         mesh = self.file("Discretization", "Input Mesh File")
         recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
         return recipe if recipe and os.path.isfile(recipe) else None
@@ -67,20 +67,20 @@ class Deck:
 
     @classmethod
     def of(cls, path, text):
-        """Of a text, as if it stood there."""
+        """A deck from a text, as if it were in the file `path`."""
         deck = object.__new__(cls)
         deck.path, deck.text, deck.root = path, text, tree.fromstring(text)
         return deck
 
     def with_value(self, path, value):
-        """The same, as a deck."""
+        """The same deck with another value of a key."""
         return Deck.of(self.path, self.changed(path, value))
 
     def number_of(self, element):
         return [e for e in self.root.iter("Parameter")].index(element)
 
     def key(self, path):
-        """The element of "Section > … > Key"; ends the tool with the nearest name where it is not there."""
+        """The element of "Section > … > Key"; ends the tool with the nearest name if it does not exist."""
         names = [name.strip() for name in path.split(">")]
         place = self.root
         for depth, name in enumerate(names):
@@ -100,12 +100,12 @@ def value_in(element, key):
 
 
 def is_true(value):
-    """As the program reads it (src/deck/numbers.cpp)."""
+    """Interprets a value as the program does (src/deck/numbers.cpp)."""
     return value is not None and value.strip().lower() in ("true", "yes", "1")
 
 
 def without_comments(text):
-    """Blanks in their place, so that all stays where it is."""
+    """Replaces comments by blanks, so that positions stay the same."""
     return re.sub(r"<!--.*?-->", lambda m: " " * len(m.group()), text, flags=re.S)
 
 
@@ -113,7 +113,7 @@ def without_comments(text):
 
 
 class Recipe:
-    """Lines `key = value` in bodies; those before the first `[body]` hold for all."""
+    """Lines `key = value` in bodies; those before the first `[body]` hold for all bodies."""
 
     def __init__(self, path):
         self.path = path
@@ -124,7 +124,7 @@ class Recipe:
             fail(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}")
 
     def bodies(self):
-        """A {key: value} each."""
+        """A {key: value} for each body."""
         common, bodies = {}, []
         for line in self.text.splitlines():
             line = line.split("#")[0].strip()
@@ -136,7 +136,7 @@ class Recipe:
         return bodies or [common]
 
     def changed(self, key, value):
-        """The text with another value of a key, `key` or `body.key`; without the line where the value is empty."""
+        """The text with another value of a key, `key` or `body.key`; without the line if the value is empty."""
         body, _, name = key.rpartition(".")
         lines, number, found, named = self.text.splitlines(), -1, [], []
         wanted = [i for i, keys in enumerate(self.bodies()) if not body or keys.get("name", "body") == body]
@@ -162,7 +162,7 @@ class Recipe:
         return "\n".join(lines) + "\n"
 
     def body(self, name=None):
-        """The keys of the body of this name; without one, of the only one; else None."""
+        """The keys of the body with this name; without a name, of the only body; else None."""
         bodies = self.bodies()
         if name is None:
             return bodies[0] if len(bodies) == 1 else None
@@ -173,12 +173,12 @@ class Recipe:
 
 
 def value_at(expression, t):
-    """A deck's expression of the time alone; None where it needs a place, or is no number."""
+    """Value of a deck's expression of the time alone; None if it depends on position, or is no number."""
     return value_of(expression, {"t": t})
 
 
 def value_of(expression, names):
-    """The number that an expression of these names is; None where it is none."""
+    """The value of an expression of these names; None if it is not an expression."""
     try:
         found = evaluated(parsed(expression, tuple(names)), names)
     except NoExpression:

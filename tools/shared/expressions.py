@@ -1,12 +1,12 @@
-"""The language of a deck's expressions (src/base/math/expression_parser.cpp, inputs/KEYS.md) for tools in Python: arithmetic,
-comparisons, functions, or statements that assign to `value`. Parsed to functions of a {name: number}; nothing is executed
-that is not written here."""
+"""The language of a deck's expressions (src/base/math/expression_parser.cpp, inputs/KEYS.md) for tools in Python:
+arithmetic, comparisons, functions, or statements that assign to `value`. Parsed to functions of a {name: number};
+nothing is executed that is not defined here."""
 import math
 import re
 
 import numpy as np
 
-DEEPEST = 100  # brackets, signs and blocks within each other
+DEEPEST = 100  # nesting of brackets, signs and blocks
 RANKS = {"||": 0, "&&": 1, "==": 2, "!=": 2, "<=": 3, ">=": 3, "<": 3, ">": 3, "+": 4, "-": 4, "*": 5, "/": 5}
 OPERATIONS = {"||": lambda a, b: float(a != 0 or b != 0), "&&": lambda a, b: float(a != 0 and b != 0),
               "==": np.equal, "!=": np.not_equal, "<=": np.less_equal, ">=": np.greater_equal, "<": np.less,
@@ -14,7 +14,7 @@ OPERATIONS = {"||": lambda a, b: float(a != 0 or b != 0), "&&": lambda a, b: flo
 
 
 def without_exceptions(function):
-    """What the C library makes of numbers that Python refuses."""
+    """The result of the C library for arguments for which Python raises an exception."""
     def of(x):
         try:
             return function(x)
@@ -26,7 +26,7 @@ def without_exceptions(function):
 
 
 def bessel(order, wave):
-    """(1/π)∫ wave(τ, x) dτ from 0 to π, of Bessel's functions of whole order; midpoints converge faster than any power."""
+    """(1/π)∫ wave(τ, x) dτ from 0 to π, for Bessel functions of integer order; midpoints converge exponentially."""
     def of(x):
         if math.isnan(x):
             return x
@@ -53,16 +53,16 @@ FUNCTIONS = {
 OF_TWO = ("pow", "atan2")
 TYPES = ("double", "float", "int")
 
-# Numbers, names, operators; blanks between them.
+# Numbers, names and operators, with blanks in between.
 TOKEN = re.compile(r"\s*(?:((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![\w.]))|([A-Za-z_]\w*)|(\|\||&&|[=!<>]=|[-+*/^<>=!(),;{}]))", re.A)
 
 
 class NoExpression(Exception):
-    """Where and what is wrong, for a user."""
+    """Position and description of an error, for a user."""
 
 
 def compiled(text, names):
-    """A function of a {name: number}, with a number for each of the names; throws NoExpression."""
+    """A function of a {name: number}, with a number for each of the names; raises NoExpression."""
     try:
         return Parser(text, names).parse()
     except RecursionError:
@@ -70,7 +70,7 @@ def compiled(text, names):
 
 
 def evaluated(expression, numbers):
-    """As the program: what the arithmetic does not know is nan or infinite."""
+    """Evaluates as the program does: undefined arithmetic gives nan or infinity."""
     with np.errstate(all="ignore"):
         return float(expression({name: np.float64(number) for name, number in numbers.items()}))
 
@@ -78,7 +78,7 @@ def evaluated(expression, numbers):
 class Parser:
     def __init__(self, text, names):
         self.tokens, self.at, self.depth = tokens_of(text), 0, 0
-        self.given, self.whole = set(names), {"value": False}  # variables that can be assigned to: an int?
+        self.given, self.whole = set(names), {"value": False}  # variables that can be assigned to; True for an int
 
     def parse(self):
         if ("name", "value") in self.tokens and "value" not in self.given:
@@ -119,7 +119,7 @@ class Parser:
         raise NoExpression(f"expected {expected}, found {found}")
 
     def within(self, part):
-        """A part within others."""
+        """A nested part."""
         self.depth += 1
         if self.depth > DEEPEST:
             raise NoExpression(f"more than {DEEPEST} brackets or signs within each other")
@@ -235,7 +235,7 @@ class Parser:
 
 
 def tokens_of(text):
-    """(kind, word) each."""
+    """A list of (kind, word)."""
     found, at = [], 0
     text = text.rstrip()
     while at < len(text):
@@ -259,7 +259,7 @@ def combined(operation, left, right):
 
 
 def chained(first, others):
-    """From left to right; a loop, as sums may have thousands of terms."""
+    """Evaluates from left to right; a loop, because sums may have thousands of terms."""
     def of(v):
         number = first(v)
         for operation, right in others:
@@ -283,6 +283,6 @@ def run(steps, variables):
 
 
 def value_after(steps, given, own):
-    variables = {**given, **dict.fromkeys(own, np.float64(0))}  # 0, also where the branch of a declaration is not taken
+    variables = {**given, **dict.fromkeys(own, np.float64(0))}  # 0, also if the branch of a declaration is not taken
     run(steps, variables)
     return variables["value"]
