@@ -4,9 +4,9 @@
 //     (Deshpande & Fleck 2000; Reyes, Hopperstad, Berstad, Hanssen & Langseth 2003)
 // α = 0 is J2. Method: implicit return, one unknown Δε̂, by Newton within a bracket that ends at ε_D:
 //   σ_m = σ_m*/(1 + K α² Δε̂/(f σ̂)),  σ_e = σ_e*/(1 + 3G Δε̂/(f σ̂)),  σ̂ = Y(ε̂ + Δε̂)
-// Moduli may grow with the plastic compaction from those of the foam to those of the solid; the step takes those at its
-// beginning. A point whose volume has grown by a factor of exp(ε_cr) fails: it carries no stress from then on.
-// Trade-off: first order in the step where the direction of flow turns. Units: Pa, 1/s, s.
+// Moduli may grow with plastic compaction from those of the foam to those of the solid; a step uses those at its start.
+// A point whose volume has grown by a factor of exp(ε_cr) fails: it carries no stress from then on. Trade-off: first
+// order in the step where the direction of flow changes. Units: Pa, 1/s, s.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace strut::materials {
 struct DeshpandeFleck {
   static constexpr double never = std::numeric_limits<double>::infinity();
 
-  Moduli initial{}, compacted{};  // alike: they do not grow
+  Moduli initial{}, compacted{};  // equal: the moduli are constant
   double alpha = 0;               // from the plastic Poisson's ratio: α² = (9/2)(1 − 2ν_p)/(1 + ν_p)
   double plateau = 0;             // σ_p, Pa
   double linear = 0;              // γ, Pa
@@ -37,8 +37,8 @@ struct DeshpandeFleck {
   struct State {
     double equivalent_plastic_strain = 0;  // ε̂
     double volumetric_plastic_strain = 0;  // ∫ tr ε̇_p dt, negative where compacted
-    double plastic_work = 0;               // J per m³ of reference volume; of a failed point, all that it held
-    double failed = 0;                     // 1 from then on
+    double plastic_work = 0;               // J per m³ of reference volume; after failure, all that the point held
+    double failed = 0;                     // 1 after failure
   };
   static constexpr std::array<std::string_view, 4> state_names{"Equivalent_Plastic_Strain", "Volumetric_Plastic_Strain",
                                                                "Plastic_Work_Density", "Failed"};
@@ -65,8 +65,8 @@ struct DeshpandeFleck {
   }
 
   Moduli moduli() const { return initial; }
-  // Between those of the foam and those of the solid as the plastic compaction is between 0 and its full value; none of
-  // a failed point.
+  // Between those of the foam and those of the solid, in proportion to the plastic compaction over its full value; zero
+  // for a failed point.
   Moduli moduli(const State& state) const {
     if (state.failed > 0) return {};
     const double share = compaction(state);
@@ -82,7 +82,7 @@ struct DeshpandeFleck {
   double equivalent_stress(const Symmetric& stress, const State&) const {
     return equivalent({trace(stress) / 3, von_mises(stress)});
   }
-  // None of a point that has become solid.
+  // Infinite for a point that has become solid.
   double flow_stress(const State& state) const {
     const bool is_solid = state.equivalent_plastic_strain >= (1 - 1e-9) * solid * densification;
     return is_solid ? never : hardening(state.equivalent_plastic_strain).stress;
@@ -93,7 +93,7 @@ struct DeshpandeFleck {
     double mean, mises;  // σ_m, σ_e, Pa
   };
 
-  // Beyond this the strain of a double cannot tell Y to nine digits: the point is solid.
+  // Beyond this a double strain does not resolve Y to nine digits: the point is solid.
   static constexpr double solid = 1 - 1e-8;
 
   double form() const { return 1 + alpha * alpha / 9; }
@@ -110,7 +110,7 @@ struct DeshpandeFleck {
   struct Hardening {
     double stress, slope;  // Y, dY/dε̂; Pa
   };
-  // Without the solid's infinity: the bracket of a solution ends there.
+  // Without the solid's infinity: the bracket of the solution ends there.
   Hardening hardening(double strain) const {
     if (!(densification < never)) return {plateau, 0};
     const double e = strain / densification;
@@ -124,18 +124,18 @@ struct DeshpandeFleck {
   struct Flow {
     double increment;         // Δε̂
     double stress;            // Y, Pa
-    double mean, deviatoric;  // what is left of the trial's parts
+    double mean, deviatoric;  // remaining fractions of the trial's parts
     bool converged;
   };
 
-  // A residual of this part of the trial's σ̂ is round-off of some hundred operations.
+  // A residual of this fraction of the trial's σ̂ is the round-off of some hundred operations.
   static constexpr double tolerance = 1e-13;
-  static constexpr int most_iterations = 200;  // bisection alone takes 60
+  static constexpr int most_iterations = 200;  // bisection alone needs 60
 
-  // σ̂ of the trial, returned with Δε̂/Y, less Y: positive at the left end of the bracket, negative at the right one.
+  // The trial's σ̂ after the return with Δε̂/Y, minus Y: positive at the left end of the bracket, negative at the right
   Flow solve(const Invariants& trial, double equivalent, double strain, const Moduli& now) const {
     const double f = form(), per_mean = now.bulk * alpha * alpha / f, per_mises = 3 * now.shear / f;
-    // No direction of flow takes less stress for a strain than this, Pa; without the mean part where none flows.
+    // The least stress per strain in any direction of flow, Pa; without the mean part if there is no volumetric flow.
     const double slowest = alpha > 0 ? std::min(per_mises, per_mean) : per_mises;
     double last_step = never, left = 0, right = std::min(solid * densification - strain, equivalent / slowest);
     double x = 0;
@@ -160,7 +160,7 @@ struct DeshpandeFleck {
     return {0, 0, 1, 1, false};
   }
 
-  // What the step has done and does not store: with what a compacted point gives up as its moduli grow.
+  // Work of the step that is not stored, including what a compacted point loses as its moduli grow.
   double lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
               const State& state) const {
     const double old_J = old_determinant(step);

@@ -8,7 +8,7 @@ namespace strut::materials {
 
 namespace {
 
-// The deviator and tension times x.
+// Multiplies the deviator and the tension by x.
 Symmetric scaled(const Symmetric& stress, double x) {
   const double mean = trace(stress) / 3;
   return x * deviator(stress) + spherical(mean > 0 ? x * mean : mean);
@@ -16,8 +16,8 @@ Symmetric scaled(const Symmetric& stress, double x) {
 
 }  // namespace
 
-// x at the end of a step from that at its start: G_c/L (x² − x'²) = x · (flow of the effective stress) + W (x − x'),
-// W the elastic energy of what falls. 0 below x = W L/(2 G_c), where the energy that x frees is more than it takes.
+// x at the end of a step, from x' at its start: G_c/L (x² − x'²) = x · (flow of the effective stress) + W (x − x'), W
+// the elastic energy of the reduced stress. 0 below x = W L/(2 G_c), where x releases more than it dissipates.
 template <class Metal>
 double DuctileOf<Metal>::reduced(double x, double flowed, double elastic) const {
   const double whole = ductility.fracture_energy / length;

@@ -1,11 +1,11 @@
-// A metal that flows as J2 does, cold or hot, and fails: from where its criterion is met, stress and stiffness in
-// tension fall.
+// A metal that flows by J2, cold or hot, and fails: once its criterion is met, stress and stiffness in tension
+// decrease.
 //   σ = x dev σ̃ + (x if σ̃_m > 0, else 1) σ̃_m I,   σ̃ by J2,   d = 1 − x     (Lemaitre's effective stress σ̃)
 //   G_c/L d(1 − x²) = dissipation per volume from then on     (G_c over a length: Hillerborg, Modéer & Petersson 1976)
-// With perfect plasticity the stress falls linearly with the plastic strain. However the metal hardens or is strained,
-// it has dissipated G_c/L when x = 0, or more where its elastic energy W is: at x = W L/(2 G_c) that does the rest.
-// Then it has failed, and carries no stress. In compression it closes at once. Method: J2's step on the effective
-// stress, then a quadratic equation for x. Units: Pa, 1/s, s.
+// With perfect plasticity the stress decreases linearly with the plastic strain. For any hardening and loading, the
+// metal has dissipated G_c/L when x = 0, or more if its elastic energy W exceeds that: from x = W L/(2 G_c) on W is
+// enough. Then it has failed, and carries no stress. In compression it closes at once. Method: J2's step on the
+// effective stress, then a quadratic equation for x. Units: Pa, 1/s, s.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct DuctileOf {
 
   template <class T>
   struct StateOf {
-    typename Metal::template StateOf<T> metal;  // of a failed point, all that it held counts as plastic work
+    typename Metal::template StateOf<T> metal;  // after failure, all energy that the point held counts as plastic work
     T indicator{};                              // D of the criterion
     T damage{};                                 // d
   };
@@ -107,7 +107,7 @@ struct DuctileOf {
     return result;
   }
 
-  // From where the criterion is met, point by point. Not inline: rare, and laws are inlined into every formulation.
+  // Softening after the criterion is met, for one point. Not inline: it is rare, and laws are inlined everywhere.
   PointStress soften(const PointStep& step, const Symmetric& stress, State& state) const;
   double reduced(double x, double flowed, double elastic) const;
   void soften_lane(int l, const StepOf<RawLanes>& step, const SymmetricOf<RawLanes>& stress,

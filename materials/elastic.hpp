@@ -1,8 +1,8 @@
 // Hypoelastic isotropic law: Hooke's law between the rates of the unrotated Cauchy stress and of deformation.
 //   σ̇ = λ tr(d) I + 2μ d,  λ = K − 2μ/3     (Flanagan & Taylor 1987: in the unrotated frame no further terms appear)
 // d is constant over a step, so the update is exact. Trade-off: for large elastic strain a hypoelastic law has no
-// stored energy, so work done on a closed path need not vanish; metals stay below a fraction of a per cent. Units: Pa,
-// 1/s, s.
+// stored energy, so the work on a closed path need not vanish; the strains of metals stay below a fraction of a
+// percent. Units: Pa, 1/s, s.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace strut::materials {
 
-// The stress at the end of an elastic step. Component by component, here and in other laws: compilers keep such a loop
-// in registers, where an Eigen expression of six doubles goes through memory at three times the cost.
+// The stress at the end of an elastic step. Written component by component, as in other laws: compilers keep such a
+// loop in registers, while an Eigen expression of six doubles goes through memory at three times the cost.
 template <class T, class Shear>
 SymmetricOf<T> elastic_trial(const StepOf<T>& step, const SymmetricOf<T>& stress, double bulk, const Shear& shear) {
   const T shear_part = 2 * shear * step.dt;

@@ -1,6 +1,6 @@
-// The pressure of a solid under shock, p(v, e) = p_c(v) + γ e, of the relative volume v = ρ₀/ρ and the internal energy
-// e (J per m³ of reference volume, 0 at rest). Each is a plain value that gives p_c and its slope; γ is a constant. To
-// add one: a struct here and its word in the variant. T is double or RawLanes. Units: Pa, J/m³.
+// The pressure of a solid under shock, p(v, e) = p_c(v) + γ e, as a function of the relative volume v = ρ₀/ρ and the
+// internal energy e (J per m³ of reference volume, 0 at rest). Each is a plain struct that gives p_c and its slope; γ
+// is constant. To add one: a struct here, and its name in the variant. T is double or RawLanes. Units: Pa, J/m³.
 #pragma once
 
 #include <variant>
@@ -10,11 +10,11 @@
 
 namespace strut::materials {
 
-// p = p_H (1 − Γ₀ x/2) + Γ₀ e,  p_H = ρ₀ c₀² x/(1 − s x)²,  x = 1 − v: about the Hugoniot U_s = c₀ + s u_p, with ρ Γ
-// constant (Grüneisen 1912; Wilkins, Computer Simulation of Dynamic Phenomena, 3.7). In tension p_c = ρ₀ c₀² x.
+// p = p_H (1 − Γ₀ x/2) + Γ₀ e,  p_H = ρ₀ c₀² x/(1 − s x)²,  x = 1 − v: around the Hugoniot U_s = c₀ + s u_p, with
+// constant ρ Γ (Grüneisen 1912; Wilkins, Computer Simulation of Dynamic Phenomena, 3.7). In tension p_c = ρ₀ c₀² x.
 struct MieGruneisen {
   double density = 1, sound = 1, slope = 0, gamma = 0;  // ρ₀ kg/m³, c₀ m/s, s, Γ₀
-  static constexpr double least = 0.05;                 // of 1 − s x, which is 0 at the greatest compression
+  static constexpr double least = 0.05;                 // of 1 − s x, which is 0 at the largest compression
 
   double energy_factor() const { return gamma; }
   double bulk() const { return density * sound * sound; }
@@ -32,7 +32,7 @@ struct MieGruneisen {
   }
 };
 
-// p = K/n (v⁻ⁿ − 1)     (Murnaghan 1944; as Tait's equation of a liquid)
+// p = K/n (v⁻ⁿ − 1)     (Murnaghan 1944; Tait's equation for a liquid)
 struct Tait {
   double bulk_modulus = 1, exponent = 1;  // K Pa, n
 

@@ -1,7 +1,7 @@
-// When a metal that flows begins to fail: criteria that grow with the plastic strain and are met at 1,
+// Criteria for the onset of failure of a metal: they grow with the plastic strain and are met at 1,
 //   D = ∫ growth(σ, ε̇, T) dε̄.
-// Each is a plain value whose growth is written for a point or several of them, one per SIMD lane. To add one: a struct
-// here and its word in the variant. Units: Pa, 1/s, K, strain -.
+// Each is a plain struct whose growth is written for one point or for several, one per SIMD lane. To add one: a struct
+// here, and its name in the variant. Units: Pa, 1/s, K, strain -.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +23,13 @@ struct FailureStrain {
 };
 
 // D = ∫ dε̄/ε_f,  ε_f = (D1 + D2 exp(D3 σ*)) (1 + D4 ln max(ε̇/ε̇₀, 1)) (1 + D5 T*),  T* = (T − T_r)/(T_m − T_r)
-//     (Johnson & Cook 1985), σ* = mean/von Mises stress, 1.5 at most; −1.5 at least, far below where metals fail.
+//     (Johnson & Cook 1985), σ* = mean/von Mises stress, limited to ±1.5; metals fail far above −1.5.
 struct JohnsonCookFailure {
   double constants[5] = {1, 0, 0, 0, 0};        // D1 … D5
   double reference_rate = 1;                    // ε̇₀, 1/s
   double room = 0, melting = 1;                 // T_r, T_m, K
-  static constexpr double most = 1.5;           // of |σ*|
-  static constexpr double least_strain = 1e-6;  // where the fit would give less, or none
+  static constexpr double most = 1.5;           // limit of |σ*|
+  static constexpr double least_strain = 1e-6;  // lower limit where the fit gives less
 
   template <class T>
   T growth(const SymmetricOf<T>& stress, const T& rate, const T& temperature) const {
@@ -62,7 +62,7 @@ struct CockcroftLatham {
     return result;
   }
 
-  // By the invariants of the deviator: σ_m + ⅔ σ̄ cos θ with cos 3θ = 27/2 det s/σ̄³.
+  // From the invariants of the deviator: σ_m + ⅔ σ̄ cos θ with cos 3θ = 27/2 det s/σ̄³.
   static double largest_principal(const Symmetric& stress) {
     const Symmetric s = deviator(stress);
     const double q = std::sqrt(1.5 * double_dot(s, s)), mean = trace(stress) / 3;
@@ -74,10 +74,10 @@ struct CockcroftLatham {
 
 using FailureCriterion = std::variant<FailureStrain, JohnsonCookFailure, CockcroftLatham>;
 
-// What a metal is like once it fails.
+// The failure of a metal: its criterion and its fracture energy.
 struct Ductility {
   FailureCriterion criterion;
-  double fracture_energy = 0;  // G_c, J/m²: what a crack takes for each area from then on; 0: it fails at once
+  double fracture_energy = 0;  // G_c, J/m²: dissipation per area of crack from then on; 0: it fails at once
 };
 
 }  // namespace strut::materials

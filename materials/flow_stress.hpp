@@ -1,7 +1,7 @@
 // The flow stress of J2 plasticity, σ̄(ε̄, ε̇) = h(ε̄) r(ε̇): a hardening curve times a rate factor with r(0) = 1.
-// Each is a plain value with one call operator that gives the function and its derivative; a law holds one of each.
-// Trade-off: a product, so hardening and rate do not interact; in return every combination is there, and the elastic
-// check needs the hardening curve only. To add one: a struct here and its word in the variant. T is double or RawLanes:
+// Each is a plain struct with one call operator that gives the function and its derivative; a law holds one of each.
+// Trade-off: hardening and rate do not interact in a product; in return all combinations exist, and the elastic check
+// needs only the hardening curve. To add one: a struct here, and its name in the variant. T is double or RawLanes:
 // points side by side (side_by_side.hpp). Units: Pa, s, strain -.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace strut::materials {
 
-// A function of one variable at one place.
+// Value and slope of a function of one variable.
 template <class T>
 struct Curve {
   T value, slope;
@@ -42,7 +42,7 @@ struct LinearHardening {
 };
 
 // h = σ_y (1 + ε̄/ε̄₀)^N     (Postek, Nowak & Pęcherski 2021, eq. 20, with N = 1/n)
-// exp(N log(…)) rather than pow: half the time, and as good: the error of log is scaled by N < 1.
+// exp(N log(…)) instead of pow: half the time and as accurate, because N < 1 scales the error of log.
 struct PowerHardening {
   double reference_strain = 0, exponent = 0;  // ε̄₀, N
   template <class T>
@@ -55,7 +55,7 @@ struct PowerHardening {
 
 // h = σ_y + B ε̄^n     (Johnson & Cook 1983: A + B ε^n)
 // For n < 1 the slope at 0 is infinite; below smallest_strain the curve is its chord from 0, so that the slope is
-// finite and belongs to the value. No measured curve resolves a strain of 1e-9.
+// finite and consistent with the value. No measured curve resolves a strain of 1e-9.
 struct LudwikHardening {
   double modulus = 0, exponent = 0;  // B Pa, n
   static constexpr double smallest_strain = 1e-9;
@@ -79,8 +79,8 @@ struct VoceHardening {
   bool softens() const { return saturation < 0; }
 };
 
-// Piecewise linear through (strains, stresses), constant beyond the last; strains rise strictly from 0. The table holds
-// the yield stress itself (its first value). The slope at a kink is that of the piece to the right.
+// Piecewise linear through (strains, stresses), constant beyond the last; strains increase strictly from 0. The table
+// contains the yield stress (its first value). The slope at a kink is that of the piece to the right.
 struct TableHardening {
   std::vector<double> strains, stresses;  // -, Pa
   Curve<RawLanes> operator()(double, const RawLanes& strain) const {
@@ -98,7 +98,7 @@ struct TableHardening {
     const double slope = (stresses[i + 1] - stresses[i]) / (strains[i + 1] - strains[i]);
     return {stresses[i] + slope * (strain - strains[i]), slope};
   }
-  bool softens() const { return true; }  // not known without looking through the table
+  bool softens() const { return true; }  // unknown without a search of the table
 };
 
 using Hardening =
@@ -136,7 +136,7 @@ struct JohnsonCookRate {
   double reference_rate = 1, coefficient = 0;  // ε̇₀ 1/s, C
   template <class T>
   Curve<T> operator()(const T& rate) const {
-    const auto is_slow = rate <= reference_rate;  // not where the rate is NaN
+    const auto is_slow = rate <= reference_rate;  // false if the rate is NaN
     if constexpr (std::is_same_v<T, double>) {
       if (is_slow) return {1, 0};  // without a logarithm
     }
@@ -152,7 +152,7 @@ struct JohnsonCookRate {
 using Rate = std::variant<NoRate, PowerRate, JohnsonCookRate>;
 
 struct FlowStress {
-  double yield_stress = 0;  // σ_y, Pa; a table brings its own
+  double yield_stress = 0;  // σ_y, Pa; a table contains its own
   Hardening hardening;
   Rate rate;
 
@@ -162,27 +162,27 @@ struct FlowStress {
   };
   Value<double> operator()(double strain, double strain_rate) const { return at_rate(strain_rate, at_rest(strain)); }
 
-  // σ̄(ε̄, 0) and its slope; a curve that softens ends at zero.
+  // σ̄(ε̄, 0) and its slope; a softening curve ends at zero.
   template <class T>
   Curve<T> at_rest(const T& strain) const {
     const Curve<T> h = std::visit([&](const auto& law) { return law(yield_stress, strain); }, hardening);
-    const auto holds = !(h.value < 0);  // also where it is NaN
+    const auto holds = !(h.value < 0);  // true for NaN, too
     return {holds ? h.value : same<T>(0), holds ? h.slope : same<T>(0)};
   }
 
-  // σ̄(ε̄, ε̇) where the curve at rest has been evaluated.
+  // σ̄(ε̄, ε̇) from the curve at rest.
   template <class T>
   Value<T> at_rate(const T& strain_rate, const Curve<T>& h) const {
     const Curve<T> r = std::visit([&](const auto& law) { return law(strain_rate); }, rate);
     return {h.value * r.value, h.slope * r.value, h.value * r.slope};
   }
 
-  // No flow stress of this law is less than this: a test that costs no logarithm.
+  // A lower bound of the flow stress of this law: a test that needs no logarithm.
   double lower_bound() const {
     return std::visit([this](const auto& law) { return law.softens() ? 0 : yield_stress; }, hardening);
   }
 
-  // The plastic strain rate at which the flow stress is `stress`, where the curve at rest has been evaluated.
+  // The plastic strain rate at which the flow stress is `stress`, from the curve at rest.
   template <class T>
   T rate_at(const T& stress, const Curve<T>& at_rest) const {
     const T factor = stress / at_rest.value;

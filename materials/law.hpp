@@ -1,36 +1,36 @@
-// The contract of a constitutive law: one pure step of one material point in the unrotated frame.
+// The interface of a constitutive law: one pure step of one material point in the unrotated frame.
 //
 // A law is a plain struct of parameters. It sees no bonds, halos, files or decks.
 //
 // clang-format off
-//   step              takes a step of length dt, the old unrotated Cauchy stress (Pa) and its own State, which it
-//                     updates; it returns the new unrotated Cauchy stress. A law of the first form uses the unrotated
-//                     rate of deformation d = Rᵀ D R, one of the second form the stretch reached. A step is inline,
-//                     so that what a law does not ask for is not computed; not one that costs many times a call.
-//   State             a struct of doubles only; State{} is that of an undeformed point.
-//   state_names       name the members of State in their order, as they appear in output.
-//   virgin_state      optional: the state of an undeformed point as output shows it, where that is not State{}.
-//   moduli            the elastic moduli that bound the critical time step, of the Cauchy stress; with the state as an
-//                     argument where they change.
+//   step              takes a step of length dt (s), the old unrotated Cauchy stress (Pa) and its own State, which it
+//                     updates; returns the new unrotated Cauchy stress. A law of the first form uses the unrotated
+//                     rate of deformation d = Rᵀ D R, one of the second form the stretch at the end. A step is inline,
+//                     so that unused inputs are not computed, unless it costs many times a call.
+//   State             a struct of doubles only; State{} is the state of an undeformed point.
+//   state_names       the names of the members of State in their order, as in output.
+//   virgin_state      optional: the state of an undeformed point for output, if it is not State{}.
+//   moduli            the elastic moduli of the Cauchy stress, which bound the critical time step; with the state as
+//                     an argument if they change.
 //   elastic_energy    J per m³ of current volume, and
 //   dissipation       J per m³ of reference volume: both feed the energy ledger of a run.
-//   equivalent_stress what is compared with the flow stress, Pa.
-//   flow_stress       what the equivalent stress equals while the point yields, Pa; infinity where it never yields.
-//   has_flowed        optional, of a law whose plastic flow keeps the volume: whether the point ever flowed. Where
-//                     several law points follow one motion, they then share their change of volume (volumetric
+//   equivalent_stress the stress that is compared with the flow stress, Pa.
+//   flow_stress       the equivalent stress at which the point yields, Pa; infinity if it never yields.
+//   has_flowed        optional, for laws whose plastic flow conserves volume: true if the point ever flowed. If
+//                     several integration points follow one motion, they then share their change of volume (volumetric
 //                     locking: src/mechanics/formulation/quadratic.md).
-//   part_left         optional, of a law that softens as it fails: the part of its stress that a point still bears, 1 to 0,
-//                     with the state as an argument. Its stabilization falls with it.
-//   set_crack_length  optional: told over which length a crack smears its opening, m.
-//   stored_energy     optional, of a law that counts it: elastic energy, J per m³ of reference volume.
-//   heat              optional, of a law that knows its temperature: ρ c_p (T − T₀), J per m³ of reference volume.
+//   part_left         optional, for laws that soften as they fail: fraction of stress that a point still carries, 1 to
+//                     0, with the state as an argument. It also scales the stabilization.
+//   set_crack_length  optional: sets the length over which a crack smears its opening, m.
+//   stored_energy     optional, for laws that count it: elastic energy, J per m³ of reference volume.
+//   heat              optional, for laws with a temperature: ρ c_p (T − T₀), J per m³ of reference volume.
 //   set_initial_temperature  optional, with heat: K.
-//   StateOf<T>        optional, SIMD: a law may take several points at once, one per lane. Its step and StateOf<T> are
-//                     then templates over the number, double or RawLanes, and State is StateOf<double>. All lanes are
-//                     computed; those where J is not positive are thrown away.
-//   tangent           optional: ∂σ_c/∂U_d at the end of a step from the old stress and state, where U_d grows together
-//                     with its mirror image, and J with it (J = det U). NaN where the step does not converge. For laws
-//                     without one, tangent_of (tangent.hpp) takes differences.
+//   StateOf<T>        optional, SIMD: a law may process several points at once, one per lane. Its step and StateOf<T>
+//                     are then templates over the scalar, double or RawLanes, State is StateOf<double>. All lanes are
+//                     computed; results of lanes where J is not positive are discarded.
+//   tangent           optional: ∂σ_c/∂U_d at the end of a step from the old stress and state; U_d changes together
+//                     with its mirror image, and J with it (J = det U). NaN if the step does not converge. For laws
+//                     without one, tangent_of (tangent.hpp) uses differences.
 // clang-format on
 #pragma once
 
@@ -48,14 +48,14 @@ struct StepOf {
   SymmetricOf<T> rate;     // unrotated rate of deformation at mid-step, 1/s
   T dt;                    // s
   T J;                     // det F at the end of the step
-  SymmetricOf<T> stretch;  // U at the end of the step: R is taken out of F = R U, so F = U in the unrotated frame
-  T viscous_work{};        // of the artificial viscosity in this step, J per m³ of reference volume: it heats
+  SymmetricOf<T> stretch;  // U at the end of the step; F = U in the unrotated frame
+  T viscous_work{};        // of the artificial viscosity in this step, J per m³ of reference volume: it heats the point
 };
 
 template <class T>
 struct StressOf {
   SymmetricOf<T> stress;  // unrotated Cauchy stress at the end of the step, Pa
-  MaskOf<T> converged;    // false: the law could not find a stress; the caller must not go on silently
+  MaskOf<T> converged;    // false: the law could not find a stress, which the caller must report
 };
 
 using PointStep = StepOf<double>;
@@ -81,7 +81,7 @@ concept Law = std::copyable<L> && std::default_initializable<typename L::State> 
   { L::state_names.size() } -> std::convertible_to<std::size_t>;
 };
 
-// Whether a law takes several points at once, one per SIMD lane.
+// True if a law can process several points at once, one per SIMD lane.
 template <class L>
 inline constexpr bool takes_lanes = requires(const L law, const StepOf<RawLanes>& step,
                                              const SymmetricOf<RawLanes>& stress,
@@ -89,19 +89,19 @@ inline constexpr bool takes_lanes = requires(const L law, const StepOf<RawLanes>
   { law.step(step, stress, state) } -> std::same_as<StressOf<RawLanes>>;
 };
 
-// Whether a law's moduli change with its state.
+// True if a law's moduli depend on its state.
 template <class L>
 inline constexpr bool has_changing_moduli = requires(const L law, const typename L::State& state) {
   law.moduli(state);
 };
 
-// Whether a law flows at constant volume, and says where it has.
+// True if a law flows at constant volume and has has_flowed().
 template <class L>
 inline constexpr bool tells_flow = requires(const L law, const typename L::State& state) {
   { law.has_flowed(state) } -> std::same_as<bool>;
 };
 
-// Whether a law softens, and says by how much.
+// True if the law defines part_left(), the fraction of stress that a softening point still carries.
 template <class L>
 inline constexpr bool softens = requires(const L law, const typename L::State& state) {
   { law.part_left(state) } -> std::same_as<double>;
@@ -112,7 +112,7 @@ inline constexpr bool takes_crack_length = requires(L law, double length) {
   law.set_crack_length(length);
 };
 
-// Whether a law knows its temperature.
+// True if a law has a temperature.
 template <class L>
 inline constexpr bool tells_heat = requires(const L law, const typename L::State& state) {
   { law.heat(state) } -> std::same_as<double>;
@@ -127,7 +127,7 @@ Moduli moduli_of(const L& law, const typename L::State& state) {
   }
 }
 
-// Elastic energy, J per m³ of reference volume; J as the point has it.
+// Elastic energy, J per m³ of reference volume; J: det F of the point.
 template <class L>
 double stored_energy_of(const L& law, const Symmetric& stress, const typename L::State& state, double J) {
   if constexpr (requires { law.stored_energy(state); }) {
@@ -137,7 +137,7 @@ double stored_energy_of(const L& law, const Symmetric& stress, const typename L:
   }
 }
 
-// Of an undeformed point, as output begins with it.
+// The state of an undeformed point, for output.
 template <class L>
 typename L::State virgin_state_of(const L& law) {
   if constexpr (requires { law.virgin_state(); }) {
@@ -150,7 +150,7 @@ typename L::State virgin_state_of(const L& law) {
 // ∂σ_c/∂U_d, rows and columns xx yy zz xy yz zx, Pa.
 using StretchTangent = Eigen::Matrix<double, 6, 6>;
 
-// Whether a law has a tangent of its own.
+// True if a law has a tangent of its own.
 template <class L>
 inline constexpr bool has_tangent = requires(const L law, const PointStep& step, const Symmetric& stress,
                                              const typename L::State& state) {
@@ -161,7 +161,7 @@ inline constexpr bool has_tangent = requires(const L law, const PointStep& step,
 template <class L>
 inline constexpr std::size_t state_size = L::state_names.size();
 
-// State as the machine stores it: one double a column. An empty State has no columns.
+// State as it is stored: one double per column. An empty State has no columns.
 template <class L>
 std::array<double, state_size<L>> to_columns(const typename L::State& state) {
   if constexpr (state_size<L> == 0) {

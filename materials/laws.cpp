@@ -1,5 +1,5 @@
-// Every law of the variant keeps the contract; a law that does not stops the build here. And which law a metal has once
-// it may fail.
+// Checks at compile time that every law of the variant satisfies the interface; and selects the law of a metal that may
+// fail.
 #include "materials/laws.hpp"
 
 namespace strut::materials {

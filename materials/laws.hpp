@@ -1,4 +1,4 @@
-// Public header of materials: every law, and the variant that a block holds.
+// Public header of materials: all laws, and the variant that a block holds.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ namespace strut::materials {
 
 using AnyLaw = std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>;
 
-// The law of a metal whose points may fail; nothing where none is known.
+// The law of a metal whose points may fail; nullopt if there is none.
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);
 
 }  // namespace strut::materials

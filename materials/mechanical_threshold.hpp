@@ -1,7 +1,7 @@
 // The mechanical threshold stress of fcc metals (Follansbee & Kocks, Acta Metall. 36, 1988):
 //   σ̄ = σ_a + S(ε̇, T) σ̂ μ(T)/μ₀,  S = (1 − (e/g₀ ln(ε̇₀/ε̇))^(1/q))^(1/p),  e = k T/(μ b³),  μ = μ₀ − D/(exp(T₀/T) − 1)
 //   dσ̂/dε̄ = θ₀ (1 − tanh(α σ̂/σ̂_s)/tanh α),  θ₀ = a₀ + a₁ ln ε̇ + a₂ √ε̇,  σ̂_s = σ̂_s0 (ε̇/ε̇_s0)^(e/g_s0)
-// The threshold σ̂ is a state; over a step it grows by two terms of its series, at the rate of deformation.
+// The threshold σ̂ is a state variable; over a step it grows by two terms of its series, at the rate of deformation.
 // Units: Pa, 1/s, K, strain -.
 #pragma once
 
@@ -57,14 +57,14 @@ struct MechanicalThreshold {
   Curve<T> activated(const T& relative_energy, const T& strain_rate) const {
     const auto is_slow = !(strain_rate > slowest_rate);
     const T within = is_slow ? same<T>(slowest_rate) : strain_rate;
-    const T barrier = relative_energy * log(this->rate / within);  // 0 … 1: there is one
+    const T barrier = relative_energy * log(this->rate / within);  // 0 … 1: the barrier exists
     const auto is_fast = barrier <= 0, is_free = barrier >= 1;
     const T root = q == 1 ? barrier : power<T>(barrier, 1 / q), left = 1 - root, value = power<T>(left, 1 / p);
     const T slope = value / (p * left) * root / (q * barrier) * relative_energy / within;
     return {is_fast ? same<T>(1) : is_free ? T{} : value, is_slow || is_fast || is_free ? T{} : slope};
   }
 
-  // dσ̂/dε̄, and its slope over σ̂.
+  // dσ̂/dε̄, and its derivative by σ̂.
   template <class T>
   Curve<T> hardening(const T& threshold, const T& relative_energy, const SymmetricOf<T>& deformation_rate) const {
     const SymmetricOf<T> d = deviator(deformation_rate);

@@ -1,6 +1,6 @@
-// The stretch of a point jumps without a motion, as where bonds break and those that are left see another one: its
-// stress stays as it is, and the next step goes on from there. A law of the first form knows rates only; one of the
-// second form with a history has a function here, as its stress would follow the stretch.
+// The stretch of a point jumps without motion, for instance because bonds break and the rest has another stretch: its
+// stress stays, and the next step continues from there. A law of the first form uses rates only; a law of the second
+// form with a history needs a function here, because its stress would follow the stretch.
 #pragma once
 
 #include "materials/polymer_foam.hpp"
@@ -10,7 +10,7 @@ namespace strut::materials {
 template <class L>
 void move_stress(const L&, const Tensor& /* from */, const Tensor& /* to */, typename L::State&) {}
 
-// b_e = U C_p⁻¹ U stays.
+// b_e = U C_p⁻¹ U stays constant.
 inline void move_stress(const PolymerFoam& law, const Tensor& from, const Tensor& to, PolymerFoam::State& state) {
   Eigen::Map<Symmetric> plastic(state.plastic_strain.data());
   const Tensor inverse = Tensor::Identity() - 2 * to_tensor(plastic), change = to.inverse() * from;

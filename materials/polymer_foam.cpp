@@ -1,4 +1,4 @@
-// A step of the polymeric foam: trial, return by one equation, what flow leaves.
+// A step of the polymeric foam: trial, return by one equation, state after the flow.
 #include "materials/polymer_foam.hpp"
 
 #include <algorithm>

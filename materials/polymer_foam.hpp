@@ -1,19 +1,19 @@
-// Crushable polymeric foam at finite strain: Hencky's elasticity with moduli that grow with the density, an ellipse of
-// yield whose shape follows from a uniaxial and a hydrostatic test, and flow that changes the volume.
+// Crushable polymeric foam at finite strain: Hencky's elasticity with moduli that grow with the density, an elliptic
+// yield surface whose shape follows from a uniaxial and a hydrostatic test, and volumetric flow.
 //   F = F_e F_p, ε_e = ½ ln b_e, τ = D(ρ*) : ε_e,  E = E_M (ρ*)^γ,  ρ* = ρ₀*/J          (τ = J σ: Kirchhoff stress)
 //   q² + α² (p − (p_c − p_t)/2)² ≤ α² (p_c + p_t)²/4,  p_t = ζ p_c                      (p = −tr τ/3, q von Mises)
 //   potential √(q² + β² p²),  β² = (9/2)(1 − 2ν_p)/(1 + ν_p), no plastic spin
 //   τ_y = τ_y0 + H_a(ε_v/(1 − 2ν_p)),  p_c = p_c0 + H_p(ε_v),  ε_v = −ln det F_p
 //     (da Costa Machado, Alves, Al-Qureshi & Rossi; tests of Zhang, Kikuchi, Li, Yee & Nusholtz 1998)
-// Uniaxial compression yields at τ_y, which makes 1/α² = (p_c/τ_y − ⅓)(p_t/τ_y + ⅓): the radicand of the print in
-// factors. So α exists as long as τ_y < 3 p_c.
-// Method: a law of the second form. From the stretch U and C_p⁻¹ comes the trial b_e = U C_p⁻¹ U; the flow leaves its
-// axes as they are, and with z for what is left of the deviator one equation in z ∈ [0, 1] is to be solved, by Newton
-// within a bracket. C_p⁻¹ = U⁻¹ b_e U⁻¹ then holds the exponential map. Stress, energy and ledger are of the Cauchy
-// stress; J = det U.
-// Trade-offs: first order in the step where the direction of flow turns. As E depends on J, a closed path of elastic
-// strain does not give back all its work, or gives more: by γ ε_e of what it stores. The published model has that; no
-// elastic step counts as dissipation, so the ledger shows it. Units: Pa, 1/s, s.
+// Uniaxial compression yields at τ_y, which gives 1/α² = (p_c/τ_y − ⅓)(p_t/τ_y + ⅓), the radicand of the publication in
+// factors. So α exists if τ_y < 3 p_c.
+// Method: a law of the second form. The stretch U and C_p⁻¹ give the trial b_e = U C_p⁻¹ U. The flow keeps its axes,
+// and with z, the remaining fraction of the deviator, one equation in z ∈ [0, 1] is solved by Newton's method within a
+// bracket. C_p⁻¹ = U⁻¹ b_e U⁻¹ then contains the exponential map. Stress, energy and ledger use the Cauchy stress; J =
+// det U.
+// Trade-offs: first order in the step where the direction of flow changes. Because E depends on J, a closed path of
+// elastic strain loses or gains work, γ ε_e of the stored energy; so does the published model. No elastic step counts
+// as dissipation, so the ledger shows it. Units: Pa, 1/s, s.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ struct PolymerFoam {
   struct State {
     std::array<double, 6> plastic_strain{};  // ½ (I − C_p⁻¹), in the reference frame; xx yy zz xy yz zx
     double compaction = 0;                   // ε_v
-    double equivalent_plastic_strain = 0;    // that of uniaxial compression with the same sum of multipliers
+    double equivalent_plastic_strain = 0;    // that of uniaxial compression with the same sum of plastic multipliers
     double plastic_work = 0;                 // J per m³ of reference volume
     double relative_density = 0;             // ρ*; 0: not deformed yet
   };
@@ -58,7 +58,7 @@ struct PolymerFoam {
   State virgin_state() const { return {.relative_density = initial_density}; }
 
   Moduli moduli() const { return kirchhoff_moduli(1); }
-  // Of the Cauchy stress: D(ρ*)/J.
+  // For the Cauchy stress: D(ρ*)/J.
   Moduli moduli(const State& state) const {
     const double J = determinant(state);
     const Moduli now = kirchhoff_moduli(J);
@@ -78,37 +78,37 @@ struct PolymerFoam {
     return {y.uniaxial, y.hydrostatic};
   }
 
-  // The uniaxial compression that is as near to yield: τ_y/J times the factor by which the yield surface, shrunk
-  // towards zero stress, passes through the stress.
+  // The uniaxial compression that is equally close to yield: τ_y/J times the factor by which the yield surface, scaled
+  // toward zero stress, passes through the stress.
   double equivalent_stress(const Symmetric& stress, const State& state) const;
-  // τ_y/J: the Cauchy stress at which uniaxial compression goes on to flow.
+  // τ_y/J: the Cauchy stress of continued flow in uniaxial compression.
   double flow_stress(const State& state) const { return surface(state.compaction).uniaxial / determinant(state); }
 
  private:
   // ---- The yield surface --------------------------------------------------------------------------------------------
 
-  // Slopes are by ε_v.
+  // Slopes are derivatives by ε_v.
   struct Surface {
     double uniaxial, hydrostatic, hydrostatic_slope;  // τ_y, p_c, Pa
     double shape, shape_slope;                        // 1/α²
     bool exists() const { return uniaxial > 0 && uniaxial < 3 * hydrostatic; }
   };
 
-  // Constant beyond the ends of the table, also below zero: where the foam has been pulled longer.
+  // Constant beyond the ends of the table, also below zero, when the foam has been stretched.
   static Curve<double> hardening(const TableHardening& table, double strain);
 
   Surface surface(double compaction) const;
 
   // The positive root n of (q²/α² + p²) − (p_c − p_t) p n − p_c p_t n² = 0: 1 on the surface, 2 at twice its stress.
-  // The form without cancellation.
+  // Written without cancellation.
   double nearness(double q, double p, const Surface& y) const;
 
   // ---- The trial ----------------------------------------------------------------------------------------------------
 
   struct Trial {
     Moduli moduli;      // D(ρ*), of the Kirchhoff stress, Pa
-    Vector strain;      // ε_e without flow, principal
-    Tensor axes;        // of it, in columns
+    Vector strain;      // ε_e without flow, principal values
+    Tensor axes;        // of the strain, in columns
     Vector deviator;    // s*, principal, Pa
     double mises;       // q*, Pa
     double compaction;  // −tr ε_e
@@ -123,14 +123,14 @@ struct PolymerFoam {
 
   static Tensor inverse_plastic(const State& state);
 
-  // NaN where there is none.
+  // NaN if there is none.
   Trial trial(const PointStep& step, const State& state) const;
 
   // ---- The return ---------------------------------------------------------------------------------------------------
 
-  // With x = Δγ/√(q² + β² p²): s = s*/(1 + 3G x), p = p*/(1 + K β² x), ε_v grows by x β² p. In z = 1/(1 + 3G x), w =
-  // p/p* is z/(k + (1 − k) z), k = K β²/(3G), and ε_v grows by (1 − w) p*/K, all of them smooth from the whole return,
-  // z = 0, to none, z = 1.
+  // With x = Δγ/√(q² + β² p²): s = s*/(1 + 3G x), p = p*/(1 + K β² x), and ε_v grows by x β² p. With z = 1/(1 + 3G x),
+  // w = p/p* is z/(k + (1 − k) z), k = K β²/(3G), and ε_v grows by (1 − w) p*/K, all smooth from the full return, z =
+  // 0, to none, z = 1.
   struct Return {
     double deviatoric, mean;  // z, w
     double mean_slope;        // dw/dz
@@ -143,9 +143,9 @@ struct PolymerFoam {
 
   Return place(const Trial& trial, double compaction, double z) const;
 
-  // The yield function times α⁻² and (p_c + p_t) α⁻¹, a polynomial: no root to be taken of what may be negative.
+  // The yield function times α⁻² and (p_c + p_t) α⁻¹, a polynomial without roots of possibly negative numbers.
   struct Excess {
-    double value, size;                 // Pa²; the sum of its parts without their signs
+    double value, size;                 // Pa²; the sum of the magnitudes of its terms
     double by_deviatoric;               // by z
     double by_compaction, by_pressure;  // by ε_v; by p
   };
@@ -153,24 +153,24 @@ struct PolymerFoam {
   Excess excess(const Trial& trial, const Return& at, const Surface& y) const;
 
   static constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  static constexpr int most_iterations = 200;  // bisection alone takes 60
+  static constexpr int most_iterations = 200;  // bisection alone needs 60
 
   Return flow(const Trial& trial, double compaction) const;
 
-  // The excess is negative where all stress is returned and positive at the trial.
+  // The excess is negative at full return and positive at the trial.
   Return solve(const Trial& trial, double compaction, double guess) const;
 
   static Vector kirchhoff(const Trial& trial, const Return& found);
 
-  // ---- What flow leaves ---------------------------------------------------------------------------------------------
+  // ---- State after the flow -----------------------------------------------------------------------------------------
 
   void store_flow(const PointStep& step, const Trial& trial, const Return& found, State& state) const;
 
-  // Δγ √(1 + β²/9): in uniaxial compression the axial plastic strain. Δγ = x √(q² + β² p²).
+  // Δγ √(1 + β²/9): the axial plastic strain in uniaxial compression. Δγ = x √(q² + β² p²).
   double equivalent_increment(const Trial& trial, const Return& found) const;
 
-  // The step's work less what is stored more, so that the ledger of a step that flows closes: also by what a foam that
-  // stores at a higher modulus gives up.
+  // The work of the step minus the increase of stored energy, so that the ledger closes in steps with flow; it includes
+  // the loss of a foam that stores energy at a higher modulus.
   double lost(const PointStep& step, const Symmetric& before, const State& old_state, const Symmetric& after,
               const State& state) const;
 
@@ -178,7 +178,7 @@ struct PolymerFoam {
 
   struct PrincipalTangent {
     Tensor by_strain;  // ∂τ_i/∂ε_j of the trial
-    Vector by_volume;  // ∂τ_i/∂ln J at constant ε: D depends on it
+    Vector by_volume;  // ∂τ_i/∂ln J at constant ε, because D depends on J
   };
   PrincipalTangent principal_tangent(const Trial& trial, const Return& found) const;
 };

@@ -1,5 +1,5 @@
-// The consistent tangent of the polymeric foam: through the return in principal values, and the spectral derivative of
-// the trial. Only solvers that look for equilibrium call it.
+// The consistent tangent of the polymeric foam: the return in principal values, and the spectral derivative of the
+// trial. Only equilibrium solvers call it.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,7 +11,7 @@ namespace strut::materials {
 
 namespace {
 
-// ln(a/b)/(a − b), to round-off also where a and b are nearly or exactly equal.
+// ln(a/b)/(a − b), accurate to round-off also if a and b are nearly or exactly equal.
 double log_slope(double a, double b) {
   const double r = (a - b) / b;
   return (r == 0 ? 1 : std::log1p(r) / r) / b;
@@ -19,8 +19,8 @@ double log_slope(double a, double b) {
 
 }  // namespace
 
-// τ_i = z s*_i − w p*, where the excess f(z; q*, p*, ε_v) stays zero: dz = −(∂f at constant z)/(∂f/∂z). The moduli are
-// multiplied by J^−γ.
+// τ_i = z s*_i − w p*, where the excess f(z; q*, p*, ε_v) remains zero: dz = −(∂f at constant z)/(∂f/∂z). The moduli
+// are multiplied by J^−γ.
 PolymerFoam::PrincipalTangent PolymerFoam::principal_tangent(const Trial& trial, const Return& found) const {
   const auto [K, G] = trial.moduli;
   const double z = found.deviatoric, w = found.mean;

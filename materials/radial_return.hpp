@@ -1,11 +1,11 @@
 // The implicit radial return of J2 plasticity (Wilkins 1964; Simo & Hughes, Computational Inelasticity, 3.3) with any
 // flow stress σ̄(ε̄, ε̇): the deviator of the elastic trial stress is scaled back so that
 //   σ_trial − 3μ Δε̄ − σ̄(ε̄ + Δε̄, Δε̄/dt) = 0.
-// Written once for a point and for several points, one per SIMD lane. Trade-off: first order in the step where the
-// direction of loading turns, exact where it does not; stable for any step, and the stress never lies above the flow
-// stress. Asked of the flow stress (flow_stress.hpp has one):
-//   lower_bound()         no value is less; costs no logarithm
-//   at_rest(ε̄)            its `value` is σ̄ at no rate
+// Written once for one point and for several, one per SIMD lane. Trade-off: first order in the step where the direction
+// of loading changes, exact where it does not; stable for any step, and the stress never exceeds the flow stress.
+// Requirements on the flow stress (flow_stress.hpp has one):
+//   lower_bound()         a lower bound of all values; needs no logarithm
+//   at_rest(ε̄)            its `value` is σ̄ at zero rate
 //   at_rate(ε̇, at_rest)   σ̄ and its derivatives by ε̄ and ε̇
 //   rate_at(σ̄, at_rest)   a rate at which it is σ̄, or infinity
 // Units: Pa, 1/s, s.
@@ -38,7 +38,7 @@ class RadialReturn {
     const auto bound = flow_.lower_bound();
     if (!any(!(q2 <= bound * bound))) return elastic(trial, state);
     const Rest at_rest = flow_.at_rest(state.equivalent_plastic_strain);
-    // Not below the bound and the curve, though round-off may put one over the other. Also with a NaN, of which no
+    // Not below the bound or the curve, although round-off may put one above the other. Also for NaN, for which no
     // comparison is true.
     const MaskOf<T> flows = !(q2 <= bound * bound) && !(q2 <= at_rest.value * at_rest.value);
     if (!any(flows)) return elastic(trial, state);
@@ -61,7 +61,7 @@ class RadialReturn {
     return {trial, T{} == T{}};
   }
 
-  // The trial stress, where it changes less so much of its deviator s.
+  // The trial stress; where it changes, minus the fraction `part` of its deviator s.
   static SymmetricOf<T> returned(const MaskOf<T>& changes, const SymmetricOf<T>& trial, const SymmetricOf<T>& s,
                                  const T& part) {
     SymmetricOf<T> stress;
@@ -131,16 +131,16 @@ class RadialReturn {
     return all < to_rest ? all : to_rest;
   }
 
-  // Where Newton left the bracket.
+  // For Newton iterates outside the bracket.
   static T fallback(const T& left, const T& right, const T& guess) {
     return guess > left && guess < right ? guess : T((left + right) / 2);
   }
 
-  // The stress that does the plastic work of a step, ½(σ_old + σ_new) : (3/2) s_trial/σ_trial. With it
-  //   ½(σ_old + σ_new) : d dt = change of elastic energy + mean_stress Δε̄
-  // holds to round-off (J = 1) whether or not the step began below yield, so the ledger of a run closes; σ̄ in the place
-  // of s_old would count more than was put in. Where one step crosses the whole yield surface while the rate falls it
-  // could turn negative: dissipation does not.
+  // The stress that does the plastic work of a step, ½(σ_old + σ_new) : (3/2) s_trial/σ_trial. With it ½(σ_old +
+  // σ_new) : d dt = change of elastic energy + mean_stress Δε̄ holds to round-off (J = 1) whether or not the step
+  // began below yield, so that the ledger of a run closes; σ̄ instead of s_old would count too much. If one step
+  // crosses the whole yield surface while the rate decreases, it could become negative, which dissipation must
+  // not.
   static T mean_stress(const SymmetricOf<T>& old, const SymmetricOf<T>& s, const T& q, const T& flow_stress) {
     const T mean = (flow_stress + 1.5 * double_dot(old, s) / q) / 2;
     return mean > 0 ? mean : T{};

@@ -1,8 +1,8 @@
-// J2 plasticity whose pressure follows an equation of state, p(v, e), and not Hooke's law: for shocks. The deviator is
-// that of ThermalJ2; the energy is what stress and artificial viscosity have done.
-//   ė = s : d v − (p + q) v̇,  Ṫ = … − Γ T v̇     (per reference volume; compression heats too)
-// Method: p at the end of a step enters the work of that step; both are linear in it, so it is solved for directly.
-// v is summed from the rates: where the places of a cell share their change of volume, so do their pressures.
+// J2 plasticity with the pressure of an equation of state, p(v, e), instead of Hooke's law: for shocks. The deviator is
+// that of ThermalJ2; the energy is the work of stress and artificial viscosity.
+//   ė = s : d v − (p + q) v̇,  Ṫ = … − Γ T v̇     (per reference volume; compression heats, too)
+// Method: p at the end of a step enters the work of that step; both are linear in it, so it is solved for directly. v
+// is integrated from the rates: integration points that share their change of volume have the same pressure.
 // Units: Pa, J/m³, K.
 #pragma once
 
@@ -22,7 +22,7 @@ struct ShockJ2 {
   struct StateOf : ThermalState<T> {
     T volume = same<T>(1);  // v
     T energy{};             // e
-    T stored{};             // of it elastic, J per m³ of reference volume
+    T stored{};             // elastic part of it, J per m³ of reference volume
   };
   using State = StateOf<double>;
   static constexpr std::array<std::string_view, 8> state_names{
@@ -33,7 +33,7 @@ struct ShockJ2 {
   StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
     StateOf<T> next = state;
     const T grown = growth(step), volume = state.volume * grown, scale = step.J / volume;
-    const T expanded = scale * (volume - state.volume);  // of the reference volume, as the forces have it
+    const T expanded = scale * (volume - state.volume);  // per reference volume, as the forces do
     const T cooling = 0.5 * energy_factor() * (volume - state.volume);  // isentropic
     if (metal.heating.capacity > 0) next.temperature *= (1 - cooling) / (1 + cooling);
     StressOf<T> result = metal.step(step, stress, next);
@@ -73,7 +73,7 @@ struct ShockJ2 {
     return std::visit([&volume](const auto& law) -> MaskOf<T> { return law.holds(volume); }, equation);
   }
 
-  // The new volume over the old one, det(1 + ½ d Δt)/det(1 − ½ d Δt).
+  // The ratio of the new to the old volume, det(1 + ½ d Δt)/det(1 − ½ d Δt).
   template <class T>
   static T growth(const StepOf<T>& step) {
     SymmetricOf<T> half;
@@ -86,7 +86,7 @@ struct ShockJ2 {
     return x * y * z + 2 * sign * (h[3] * h[4] * h[5]) - x * h[4] * h[4] - y * h[5] * h[5] - z * h[3] * h[3];
   }
 
-  // p = p_c(v) + γ (e − ½ (p_old + p) Δv), e the energy without the work of the pressure.
+  // p = p_c(v) + γ (e − ½ (p_old + p) Δv); `energy`: e without the work of the pressure.
   template <class T>
   T solved(const T& volume, const T& energy, const T& before, const T& expanded) const {
     const T cold = std::visit([&volume](const auto& law) -> T { return law.cold(volume).value; }, equation);

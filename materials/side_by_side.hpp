@@ -1,7 +1,7 @@
-// SIMD: numbers of several points, one per lane, as a law may take them ("side by side"). What is written with + − * /
-// < && and ?: is the same for one point (double) and for these, where a comparison gives a mask and ?: chooses by lane.
-// Functions here are those of the standard library for them; exp and log are Eigen's, good to two units in the last
-// place.
+// SIMD: numbers of several points, one per lane, for laws that process points side by side. Code with + − * / < && and
+// ?: is the same for one point (double) and for lanes, for which a comparison gives a mask and ?: selects by lane. The
+// functions here correspond to those of the standard library; exp and log are Eigen's, accurate to two units in the
+// last place.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@ namespace strut::materials {
 
 using small::RawLanes;
 template <class T>
-using MaskOf = decltype(T{} < T{});  // bool of a double
+using MaskOf = decltype(T{} < T{});  // bool for double
 using Mask = MaskOf<RawLanes>;
 
 template <class T>
 using SymmetricOf = std::conditional_t<std::is_same_v<T, double>, Symmetric, small::Symmetric3<T>>;
 
-// The same number for each.
+// The same number in each lane.
 template <class T>
 T same(double value) {
   return T{} + value;
@@ -43,9 +43,9 @@ using std::exp, std::log, std::expm1, std::sqrt;
 inline RawLanes exp(const RawLanes& x) { return small::raw(small::lanes(x).exp()); }
 inline RawLanes log(const RawLanes& x) { return small::raw(small::lanes(x).log()); }
 inline RawLanes sqrt(const RawLanes& x) { return small::raw(small::lanes(x).sqrt()); }
-inline RawLanes expm1(const RawLanes& x) { return exp(x) - 1; }  // near 0 good to round-off of 1
+inline RawLanes expm1(const RawLanes& x) { return exp(x) - 1; }  // near 0 accurate to the round-off of 1
 
-// A struct of such numbers alone, as a law's state is, as an array of them.
+// A struct of such numbers only, such as a law's state, as an array of them.
 template <class T, class S>
 auto numbers_in(const S& all) {
   return std::bit_cast<std::array<T, sizeof(S) / sizeof(T)>>(all);
@@ -64,7 +64,7 @@ S chosen(const Mask& where, const S& one, const S& other) {
   return std::bit_cast<S>(to);
 }
 
-// Of one lane, as the same struct of doubles; and back.
+// One lane, as the same struct of doubles; and back.
 template <class One, class S>
 One lane_of(const S& all, int lane) {
   const auto numbers = numbers_in<RawLanes>(all);

@@ -1,4 +1,4 @@
-// Symmetric tensors by their principal values.
+// Spectral decomposition of symmetric tensors.
 #pragma once
 
 #include "base/math/tensors.hpp"
@@ -10,8 +10,8 @@ struct Principal {
   Tensor axes;  // columns, a rotation or a reflection
 };
 
-// By rotations (QL), to round-off of the largest value also where values are equal; the closed form by the cosine loses
-// half the digits there. NaN where none are found. Not inline: it would fill the loop over the points.
+// By rotations (QL), accurate to round-off of the largest value even for equal values, for which the closed form by the
+// cosine loses half the digits. NaN if it fails. Not inline, because it would fill the loop over the points.
 Principal principal(const Symmetric& s);
 
 // Σ v_i n_i ⊗ n_i

@@ -1,4 +1,4 @@
-// Unit and meaning of the state variables that laws name: those of one name mean the same in each law.
+// Units and meanings of the laws' state variables: equal names have the same meaning in all laws.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ inline constexpr std::array<StateVariable, 20> state_variables{{
     {"Volumetric_Plastic_Strain", "1", "∫ tr ε̇_p dt of metal foam, negative where compacted"},
 }};
 
-// The entry of this name; a law that a user adds may do without.
+// The entry with this name; laws added by users may have none.
 constexpr StateVariable state_variable(std::string_view name) {
   const auto* found = std::find_if(state_variables.begin(), state_variables.end(),
                                    [name](const StateVariable& variable) { return variable.name == name; });

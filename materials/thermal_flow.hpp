@@ -1,7 +1,7 @@
-// The flow stress of a metal that may be hot, σ̄(ε̄, ε̇, T). Each is a plain value whose `at` gives, for the state of a
-// point and its rate of deformation, its flow stress in a step as the radial return asks for it. To add one: a struct
-// in a file of its own and its word in the variant. The temperature is that at the start of a step, in which metals
-// heat by hundredths of a kelvin. Here: hardening, rate and softening, σ̄ = h(ε̄) r(ε̇) θ(T). Units: Pa, 1/s, K, strain -.
+// The flow stress of metals with temperature, σ̄(ε̄, ε̇, T). Each is a plain struct whose `at` gives, for the state and
+// rate of deformation of a point, its flow stress in a step for the radial return. To add one: a struct in a file of
+// its own, and its name in the variant. The temperature is that at the start of a step, in which metals heat by
+// hundredths of a kelvin. Here: hardening, rate and softening, σ̄ = h(ε̄) r(ε̇) θ(T). Units: Pa, 1/s, K, strain -.
 #pragma once
 
 #include <variant>

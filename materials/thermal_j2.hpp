@@ -1,9 +1,9 @@
-// J2 plasticity of a metal that heats as it flows, adiabatically, and whose flow stress knows its temperature T:
-//   ρ c_p Ṫ = β σ̄ ε̄̇ + viscous work     (β of the plastic work heats: Taylor & Quinney 1934)
-//   μ = μ_r (1 − a (T − T_r)): a shear modulus that falls
-// No heat flows between points: right for as long as √(κ t) is small against what is hot, κ the thermal diffusivity.
-// Method: the radial return at the temperature of the step's start; then heat, and the deviator follows its modulus.
-// Units: Pa, 1/s, s, K.
+// J2 plasticity of a metal that is heated by its flow, adiabatically, with a flow stress that depends on temperature T:
+//   ρ c_p Ṫ = β σ̄ ε̄̇ + viscous work     (the fraction β of the plastic work heats: Taylor & Quinney 1934)
+//   μ = μ_r (1 − a (T − T_r)): the shear modulus decreases with temperature
+// No heat flows between points, which is valid while √(κ t) is small compared with the hot region, κ the thermal
+// diffusivity. Method: radial return at the temperature of the step's start; then heating, and the deviator follows its
+// modulus. Units: Pa, 1/s, s, K.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace strut::materials {
 
-inline constexpr double room_temperature = 293;  // K, where a deck does not say another
+inline constexpr double room_temperature = 293;  // K, unless a deck gives another one
 
 struct Heating {
-  double capacity = 0;                // ρ c_p of the reference state, J/(m³ K); 0: it stays as warm as it is
+  double capacity = 0;                // ρ c_p of the reference state, J/(m³ K); 0: constant temperature
   double plastic_share = 1;           // β
   double initial = room_temperature;  // T₀, K
 };
@@ -46,13 +46,13 @@ struct ThermalJ2 {
 
   State virgin_state() const;
   double shear_modulus(const State& state) const { return shear * relative_shear(state.temperature); }
-  Moduli moduli() const { return {bulk, shear * relative_shear(heating.initial)}; }  // it only gets warmer
+  Moduli moduli() const { return {bulk, shear * relative_shear(heating.initial)}; }  // heating only reduces it
   double elastic_energy(const Symmetric& stress, const State& state) const {
     return Elastic{bulk, shear_modulus(state)}.elastic_energy(stress);
   }
   bool has_flowed(const State& state) const { return state.equivalent_plastic_strain > 0; }
   double dissipation(const State& state) const { return state.plastic_work; }
-  // K, by so much plastic work and viscous heat, J per m³ of reference volume.
+  // Rise in temperature, K, by plastic work and viscous heat, J per m³ of reference volume.
   template <class T>
   T rise(const T& plastic_work, const T& viscous_work) const {
     if (!(heating.capacity > 0)) return T{};
@@ -93,7 +93,7 @@ struct ThermalJ2 {
     state.temperature = next;
   }
 
-  // The elastic strain stays as the modulus falls; what is stored less has been dissipated.
+  // The elastic strain stays as the modulus decreases; the decrease of stored energy is dissipated.
   template <class T>
   void follow_modulus(const T& ratio, const T& J, ThermalState<T>& state, StressOf<T>& result) const {
     const SymmetricOf<T> s = deviator(result.stress);

@@ -1,4 +1,4 @@
-// The state of a metal that may be hot, and what its flow stresses have in common. Units: Pa, 1/s, K, strain -.
+// The state of metals with temperature, and code that their flow stresses share. Units: Pa, 1/s, K, strain -.
 #pragma once
 
 #include <limits>
@@ -14,7 +14,7 @@ struct ThermalState : PlasticState<T> {
   T threshold{};    // σ̂ of the mechanical threshold, Pa; 0 with other flow stresses
 };
 
-// Rates below this, 1/s, count as this much where the logarithm of the rate would fall without end.
+// Lower limit of rates, 1/s, where the logarithm of the rate would go to −∞.
 inline constexpr double slowest_rate = 1e-3;
 
 template <class T>

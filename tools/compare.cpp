@@ -1,5 +1,5 @@
-// strut-compare A B [--relative 1e-9] [--absolute 0]: are two results, or two histories, the same? (tools/README.md)
-// Exit status: 0 the same within the tolerance, 1 different, 2 they cannot be compared.
+// strut-compare A B [--relative 1e-9] [--absolute 0]: compares two results, or two histories (tools/README.md).
+// Exit status: 0 equal within the tolerance, 1 different, 2 they cannot be compared.
 //   strut-compare one-rank.e four-ranks.e --relative 1e-12
 #include <charconv>
 #include <cmath>
@@ -61,7 +61,7 @@ std::string where(const Difference& d, const std::vector<double>& times) {
   return time + place;
 }
 
-// Prints a table; whether all is within the tolerance.
+// Prints a table; returns true if all differences are within the tolerance.
 bool same(const Series& a, const Series& b, const Tolerance& tolerance) {
   const std::vector<std::string> problems = mismatches(a, b, tolerance);
   for (const std::string& problem : problems) std::printf("different: %s\n", problem.c_str());

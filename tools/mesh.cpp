@@ -1,6 +1,6 @@
 // strut-mesh RECIPE OUT.g: bodies of hexahedra or spheres, from a recipe (tools/README.md).
 //   strut-mesh inputs/taylor/bar.recipe bar.g
-// strut-mesh --arrays OUT.g: the mesh that another program hands over on standard input.
+// strut-mesh --arrays OUT.g: a mesh from another program, read from standard input.
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,15 +18,15 @@
 
 namespace {
 
-constexpr std::size_t most_sets = 64;  // that a run can tell apart
+constexpr std::size_t most_sets = 64;  // the limit of a run
 
-// What is read is not written over.
+// Input files must not be overwritten.
 void check_output(const std::string& output, const std::filesystem::path& read, const std::string& what) {
   if (strut::same_file(output, read))
     throw strut::Error(output + " is " + what + "; expected another file for the mesh");
 }
 
-// What is there and is no mesh stays.
+// An existing file that is no mesh must not be overwritten.
 void check_replaceable(const std::string& output) {
   if (const std::string why = strut::obstacle(output, strut::FileKind::mesh); !why.empty()) throw strut::Error(why);
 }
@@ -44,7 +44,7 @@ strut::io::Mesh from_recipe(const std::string& recipe, const std::string& output
   }
   if (bodies.size() == 1 &&
       bodies[0].shape !=
-          strut::mesh::Body::Shape::file) {  // plain names, where they are not ambiguous; sets begin with zmin and zmax
+          strut::mesh::Body::Shape::file) {  // plain names, if they are unambiguous; sets begin with zmin and zmax
     mesh.node_sets.push_back({"foot", mesh.node_sets[0].nodes});
     mesh.node_sets.push_back({"top", mesh.node_sets[1].nodes});
   }
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: strut-mesh RECIPE OUT.g\n       strut-mesh --arrays OUT.g < STREAM\n", stderr);
     return EXIT_FAILURE;
   }
-  std::signal(SIGXFSZ, SIG_IGN);  // a write that is too much fails, and is told as a full disk is
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails, and is reported like a full disk
   try {
     make(argv[1], argv[2]);
   } catch (const std::exception& error) {

@@ -1,10 +1,10 @@
-// strut-point: one material point of a deck, driven along a path; prints time, strain, stress and state as CSV.
+// strut-point: drives one material point of a deck along a path; prints time, strain, stress and state as CSV.
 //   strut-point deck.xml --material copper --uniaxial-stress 1e3 0.2
 //   strut-point deck.xml --uniaxial-strain 1e5 -0.05 --steps 200
 //   strut-point deck.xml --path stress path.csv --steps 50
-// A path is linear between its rows; --steps divides each of them (default 1; of a uniaxial path 1000).
-// Stress is the unrotated Cauchy stress, strain logarithmic; components xx yy zz xy yz zx, shear as tensor components.
-// Exit status: 0, or 1 with one error where the request is wrong or the law does not converge.
+// A path is linear between its rows; --steps divides each interval (default 1; for a uniaxial path 1000).
+// Stress is the unrotated Cauchy stress, strain is logarithmic; components xx yy zz xy yz zx, shear as tensor
+// components. Exit status: 0, or 1 with one error message if the request is wrong or the law does not converge.
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>

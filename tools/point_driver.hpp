@@ -1,8 +1,8 @@
 // One material point, driven along a path of strain, of stress, or of some components of each: the same driver serves
-// strut-point and the contract tests of the laws.
-// Physics: logarithmic strain in the unrotated frame, U = exp ε, J = det U = exp(tr ε), d = Δε/Δt, which is ΔU U_mid⁻¹
-// to the square of Δε where ε keeps its axes, as a law of finite stretches needs it. Method: where stress is
-// prescribed, Newton on the strain increments with a numerical tangent. Units: Pa, 1/s, s, strain -.
+// strut-point and the contract tests of the laws. Physics: logarithmic strain in the unrotated frame, U = exp ε, J =
+// det U = exp(tr ε), d = Δε/Δt, which is ΔU U_mid⁻¹ to the order of Δε² if ε keeps its axes, as required by laws of
+// finite stretch. Method: if stress is prescribed, Newton on the strain increments with a numerical tangent. Units: Pa,
+// 1/s, s, strain -.
 #pragma once
 
 #include <Eigen/LU>
@@ -17,12 +17,12 @@
 
 namespace strut::point {
 
-// For each component xx yy zz xy yz zx: is its stress prescribed, or the increment of its strain?
+// For each component xx yy zz xy yz zx: true if its stress is prescribed, false if its strain increment is.
 using StressPrescribed = std::array<bool, 6>;
 
 inline constexpr StressPrescribed all_strain{};
 inline constexpr StressPrescribed all_stress{true, true, true, true, true, true};
-inline constexpr StressPrescribed lateral_stress{false, true, true, false, false, false};  // of a bar along x
+inline constexpr StressPrescribed lateral_stress{false, true, true, false, false, false};  // a bar along x
 
 template <materials::Law L>
 class Driver {
@@ -36,8 +36,8 @@ class Driver {
 
   const L& law() const { return law_; }
 
-  // One step of length dt. Where stress is prescribed it becomes that of `target`; the other strains grow by
-  // `increment`. Returns false, and leaves the point as it was, where no such step is found.
+  // One step of length dt (s). Prescribed stresses become those of `target`; the other strains grow by `increment`.
+  // Returns false, and leaves the point unchanged, if no such step is found.
   bool advance(const Symmetric& increment, const Symmetric& target, const StressPrescribed& prescribed, double dt) {
     const Goal goal{prescribed, target};
     Symmetric trial = increment;
@@ -67,9 +67,9 @@ class Driver {
   bool advance_stress(const Symmetric& target, double dt) { return advance(Symmetric::Zero(), target, all_stress, dt); }
 
  private:
-  // Of the scale of the stress. A law solves for its own stress to some 1e-12.
+  // Relative to the scale of the stress. A law solves for its own stress to some 1e-12.
   static constexpr double tolerance = 1e-10;
-  // Newton takes three to six, a start far off some more.
+  // Newton needs three to six, from a distant start some more.
   static constexpr int most_iterations = 50;
 
   using Matrix = Eigen::Matrix<double, 6, 6>;
@@ -84,7 +84,7 @@ class Driver {
     StressPrescribed prescribed;
     Symmetric target;
 
-    Symmetric excess(const Symmetric& stress) const {  // 0 where the strain is given
+    Symmetric excess(const Symmetric& stress) const {  // 0 if the strain is given
       Symmetric r = Symmetric::Zero();
       for (int i = 0; i < 6; ++i) {
         if (prescribed[i]) r[i] = stress[i] - target[i];
@@ -94,7 +94,7 @@ class Driver {
     double distance(const Symmetric& stress) const { return excess(stress).template lpNorm<Eigen::Infinity>(); }
   };
 
-  // Of the stress of the step: at its start, wanted at its end, and found there.
+  // The scale of the stress in the step: at its start, prescribed at its end, and found there.
   double scale(const Symmetric& found, const Symmetric& target) const {
     return std::max(
         {stress.lpNorm<Eigen::Infinity>(), target.lpNorm<Eigen::Infinity>(), found.lpNorm<Eigen::Infinity>()});
@@ -110,9 +110,9 @@ class Driver {
     return outcome;
   }
 
-  // ∂σ/∂Δε by forward differences, with the rows of the unit matrix (times a modulus, for the pivots) where the strain
-  // is given. The step is small against the increment, over which the law curves, but no smaller than moves a metal's
-  // stress by some 100 Pa, far above its round-off.
+  // ∂σ/∂Δε by forward differences, with the rows of the unit matrix (times a modulus, for the pivots) for given
+  // strains. The difference is small compared with the increment, over which the law curves, but at least changes a
+  // metal's stress by some 100 Pa, far above its round-off.
   Matrix tangent(const Goal& goal, double dt, const Symmetric& increment, const Outcome& at) const {
     const double h = std::max(1e-6 * increment.lpNorm<Eigen::Infinity>(), 1e-9);
     Matrix K = law_.moduli().bulk * Matrix::Identity();
@@ -127,7 +127,7 @@ class Driver {
     return K;
   }
 
-  // A Newton step, halved until it comes closer; false where no fraction of it does.
+  // A Newton step, halved until it reduces the excess; false if no fraction of it does.
   bool improve(const Goal& goal, double dt, Symmetric& increment, Outcome& outcome) const {
     const Symmetric full = tangent(goal, dt, increment, outcome).fullPivLu().solve(-goal.excess(outcome.stress));
     if (!full.allFinite()) return false;
@@ -153,7 +153,7 @@ class Driver {
   }
 
   L law_;
-  Symmetric last_rate_ = Symmetric::Zero();  // where Newton starts
+  Symmetric last_rate_ = Symmetric::Zero();  // start of the next Newton iteration
 };
 
 }  // namespace strut::point

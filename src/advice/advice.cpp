@@ -19,7 +19,7 @@ namespace strut {
 
 namespace {
 
-// A check returns its warnings, a line each; collective. They are told in this order.
+// A check returns its warnings, a line each; collective. They are printed in this order.
 using Check = std::string (*)(const Situation&);
 constexpr Check checks[] = {
     without_effect,

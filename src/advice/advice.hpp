@@ -1,4 +1,4 @@
-// What a scene may mean otherwise than its author meant it, before the first step.
+// Warnings before the first step: what in a scene may differ from its author's intention.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 namespace strut {
 
 struct Advice {
-  std::string outline;   // box, mass, wave speeds, speeds: what slips of units change
-  std::string warnings;  // a line each; those that the set-up has found first
+  std::string outline;   // box, mass, wave speeds, speeds: numbers that show errors of units
+  std::string warnings;  // a line each, first those of the set-up
 };
 
-// Collective. Throws Error on all ranks where contact surely cannot hold what runs into it.
+// Collective. Throws Error on all ranks if contact certainly cannot withstand an impact.
 Advice advice(const deck::Deck& deck, const Scene& scene);
 
 }  // namespace strut

@@ -6,7 +6,7 @@ namespace strut {
 
 namespace {
 
-// What fails at once at its yield stress, J/m²: half of what a point of a metal then holds, over the crack's length.
+// Least fracture energy of a metal that does not fail at once at yield, J/m²: half its energy density times the length.
 constexpr auto least_fracture_energy = []<class L>(const L& law) -> double {
   if constexpr (materials::takes_crack_length<L>) {
     const auto [bulk, shear] = law.moduli();
@@ -48,8 +48,8 @@ std::string noisy_cracks(const Situation& situation) {
   return text;
 }
 
-// By docs/theory.md, By the energy of a bond: the part of the dilatation that a bond takes with it counts against it
-// where K > 5/3 G. Criteria of energy look at that bond by bond, those of stretch do not.
+// By docs/theory.md, By the energy of a bond: the bond's part of the dilatation reduces the energy that its break
+// releases if K > 5/3 G. Criteria of energy check that for each bond, those of stretch do not.
 std::string breaks_under_pressure(const Situation& situation) {
   const Body& body = situation.scene.body;
   std::string text;

@@ -43,7 +43,7 @@ std::string undeclared_contacts(const Situation& situation) {
 
 namespace {
 
-// The bonds between two blocks, both ends counted once, and the shortest of them, m.
+// Number of bonds between two blocks, both ends counted as one, and the length of the shortest, m.
 struct BondsBetween {
   double count = 0, shortest = std::numeric_limits<double>::infinity();
 };
@@ -61,7 +61,7 @@ BondsBetween bonds_between(const Domain& domain, const std::vector<int>& blocks,
   return {domain.communicator.sum(bonds.count), domain.communicator.min(bonds.shortest)};
 }
 
-// Of owned points and ghosts.
+// The blocks of owned points and ghosts.
 std::vector<int> blocks_of(const Domain& domain) {
   std::vector<int> blocks(domain.cloud.blocks.begin(), domain.cloud.blocks.end());
   blocks.resize(domain.owned + domain.ghosts, -1);
@@ -81,7 +81,7 @@ std::string bonded_contacts(const Situation& situation) {
   const deck::Deck& deck = situation.deck;
   const Domain& domain = situation.scene.body.domain;
   constexpr double gap =
-      1.25;  // spacings: no two layers of one lattice, or of two that fit, are so far from each other
+      1.25;  // spacings: layers of one lattice, or of two matching lattices, are never that far apart
   if (deck.interactions.empty()) return "";
   const std::vector<std::string>& names = domain.cloud.block_names;
   const std::vector<int> blocks = blocks_of(domain);

@@ -1,4 +1,4 @@
-// Contact that the deck declares, and bodies: those that meet without it, are bonded all the same, or go on as images.
+// Checks of declared contact: blocks that meet without it, that are bonded in spite of it, or that have mirror images.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace strut {
 
-// A warning, a line each, for every two blocks without an interaction whose bounding boxes, moved on with
-// the velocities of the start (initial and prescribed), overlap before the run is over. Blocks that are bonded
-// to each other are no such pair. A forecast: who is thrown at somebody later is not seen.
+// A warning for every two blocks without an interaction whose bounding boxes, moved with the initial and prescribed
+// velocities of the start, overlap before the run ends; not for blocks that are bonded to each other. It is a forecast:
+// bodies thrown at each other later are not found.
 std::string undeclared_contacts(const Situation& situation);
 
-// Collective. A warning for every two blocks that an interaction names and that are bonded to each other, a body of
-// which contact sees nothing where they are; of interactions of all blocks only where all these bonds bridge a gap.
+// Collective. A warning for every two blocks of an interaction that are bonded to each other, because contact ignores
+// bonded points; for interactions of all blocks, only if all these bonds bridge a gap.
 std::string bonded_contacts(const Situation& situation);
 
-// A warning for each symmetry plane at which a body with contact goes on as its mirror image.
+// A warning for each symmetry plane behind which a body with contact continues as its mirror image.
 std::string contact_at_mirrors(const Situation& situation);
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// Rigid tools that are inside of a body when the run begins.
+// Rigid tools that overlap a body at the start.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace strut {
 
-// Collective. A warning for each tool in which points lie at the start by more than a hundredth of their spacing:
-// those on its surface, as nodes of a mesh that was made for it, do not count.
+// Collective. A warning for each tool with points inside it at the start by more than a hundredth of their spacing;
+// points on its surface, such as nodes of a matching mesh, do not count.
 std::string filled_tools(const Situation& situation);
 
 }  // namespace strut

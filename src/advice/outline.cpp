@@ -12,25 +12,25 @@ namespace strut {
 
 namespace {
 
-// From foams of a few kg/m³ to osmium; from soft foams to diamond, 18 km/s.
+// Plausible ranges: from foams of a few kg/m³ to osmium; from soft foams to diamond, 18 km/s.
 constexpr double least_density = 10, most_density = 30e3;         // kg/m³
 constexpr double least_wave_speed = 100, most_wave_speed = 20e3;  // m/s
-// Of the yield stress over Young's modulus: soft pure metals have some 1e-5, whiskers and polymers come near 0.1.
+// Yield stress over Young's modulus: soft pure metals have some 1e-5, whiskers and polymers almost 0.1.
 constexpr double least_yield = 1e-7, most_yield = 0.1;
-// Of what metals harden by until a plastic strain of 1, over the yield stress: 1 of 50 MPa at least, if any.
+// Hardening of a metal up to a plastic strain of 1 over its yield stress: at least 1 of 50 MPa, if any.
 constexpr double least_hardening = 1e-4;
 constexpr double least_heat = 20, most_heat = 20e3;  // J/(kg K): gold has 130, water 4200
-// What is smaller has few atoms across; what is larger is no specimen. From `long_for_waves` on a wave should come
-// through it in the run: of lengths in mm that are taken for m it is a thousandth of the way.
+// Plausible sizes, m: smaller bodies are a few atoms across, larger ones no specimens. A wave should cross a body
+// larger than `long_for_waves` in the run; with lengths in mm taken for m, it covers a thousandth of it.
 constexpr double least_size = 1e-8, most_size = 1e3, long_for_waves = 0.5;  // m
 
-// Of longitudinal waves in the undeformed material, m/s.
+// Speed of longitudinal waves in the undeformed material, m/s.
 double wave_speed(const BlockMaterial& material) {
   const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
   return std::sqrt(modulus / material.density);
 }
 
-// Of the undeformed material over Young's modulus; infinite where it never yields.
+// Yield stress of the undeformed material over Young's modulus; infinite if it never yields.
 double yield_ratio(const BlockMaterial& material) {
   return std::visit(
       []<class L>(const L& law) {
@@ -69,7 +69,7 @@ double mass_of(const Body& body) {
   return body.domain.communicator.sum(mass);
 }
 
-// How far apart the velocities of points and tools are, m/s.
+// Largest difference of the velocities of points and tools, m/s.
 double largest_difference(const Situation& situation) {
   const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
   const double moment = first_moment * duration;
@@ -131,7 +131,7 @@ std::string improbable_materials(const Situation& situation) {
 
 namespace {
 
-// The part of a law that knows its temperature, or nullptr.
+// The metal of a law with a temperature, or nullptr.
 const materials::ThermalJ2* hot_metal(const materials::AnyLaw& law) {
   const auto metal_of = []<class L>(const L& one) -> const materials::ThermalJ2* {
     if constexpr (std::is_same_v<L, materials::ThermalJ2>) return &one;
@@ -146,7 +146,7 @@ const materials::JohnsonCookSoftening* softening_of(const materials::ThermalJ2& 
   return flow ? std::get_if<materials::JohnsonCookSoftening>(&flow->softening) : nullptr;
 }
 
-// Below it a metal does not soften; not finite where no law has such a limit, K.
+// The temperature below which a metal does not soften, K; not finite if its law has no such limit.
 double reference_temperature(const materials::ThermalJ2& metal) {
   const materials::JohnsonCookSoftening* softening = softening_of(metal);
   return softening ? softening->reference : -std::numeric_limits<double>::infinity();
@@ -189,7 +189,7 @@ double flow_stress_at(materials::ThermalJ2 metal, double temperature) {
 
 std::string improbable_temperatures(const Situation& situation) {
   constexpr double room = materials::room_temperature;
-  constexpr double cold = 150;            // K: few tests are colder, and what is in °C is below
+  constexpr double cold = 150;            // K: few tests are colder, and temperatures in °C are lower
   constexpr double below_reference = 25;  // K: room temperatures differ by less
   constexpr double melted = 1e-3;         // of the flow stress at room temperature
   std::ostringstream text;
@@ -261,8 +261,8 @@ std::string improbable_scales(const Situation& situation) {
 
 std::string large_elastic_strains(const Situation& situation) {
   const Scene& scene = situation.scene;
-  // The strain of an impact, from which steps fall (1.05 times the frequency is borne): a step that falls gives to
-  // what rings (docs/decisions.md, Steps that follow the frequency bound). What flows or is viscous does not ring on.
+  // Strain of an impact from which the time step decreases (1.05 times the frequency is allowed), which adds energy to
+  // vibrations (docs/decisions.md, Steps that follow the frequency bound); flow and viscosity damp these.
   constexpr double large = 0.05;
   if (scene.quasi_static || scene.control.fixed_dt > 0) return "";
   const double difference = largest_difference(situation);

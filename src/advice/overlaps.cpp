@@ -14,10 +14,10 @@ namespace strut {
 
 namespace {
 
-// Of a family's volume in that of the sphere: lattices have 1.2 at the most from a horizon of 1.5 spacings on, meshes
-// of other elements scatter about 1 by a quarter; a body that is there twice has 2.
+// Limit of a family's volume over that of the sphere: lattices have at most 1.2 from a horizon of 1.5 spacings on,
+// meshes of other elements 1 ± 0.25; a body that is defined twice has 2.
 constexpr double crowded = 1.65;
-constexpr double least_horizon = 1.5;  // edges of a cube of the point's volume
+constexpr double least_horizon = 1.5;  // in edges of a cube with the point's volume
 
 // A point as it travels to other ranks.
 struct Grain {

@@ -1,4 +1,4 @@
-// Material that is where other material is: meshes that overlap.
+// Overlapping meshes: material defined twice at one place.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace strut {
 
-// Collective. Warnings: of points around which a body has more material than fits, and of blocks of different bodies
-// that lie inside each other. Points at one place are an error before (topology/coincident.hpp).
+// Collective. Warnings for points around which a body has more material than fits, and for blocks of different bodies
+// inside each other. Coincident points are an error earlier (topology/coincident.hpp).
 std::string overlaps(const Situation& situation);
 
 }  // namespace strut

@@ -17,18 +17,18 @@ namespace strut {
 
 namespace {
 
-constexpr int looks = 64;         // at the ways of tools and points
-constexpr double deep = 1e-3;     // spacings: places are known to less
-constexpr double along = 1e-3;    // of a normal's component that a motion holds
-constexpr double opposite = 0.9;  // the same of a symmetry plane, beside which cells are that a tool may push aslant
+constexpr int looks = 64;         // samples of the paths of tools and points
+constexpr double deep = 1e-3;     // spacings: accuracy of positions
+constexpr double along = 1e-3;    // component of a normal along a held direction
+constexpr double opposite = 0.9;  // the same for a symmetry plane, whose adjacent cells a tool may push obliquely
 
 // A direction in which a condition holds points.
 struct Held {
-  int condition;  // its place in the deck
+  int condition;  // index in the deck
   Vector direction;
-  double part;  // of a normal: what is less is not held
+  double part;  // least component of a tool's normal that counts as held
   std::vector<int> points;
-  bool at_faces = false;  // on a symmetry plane, where cells end: their points may be held by mirror images alone
+  bool at_faces = false;  // on a symmetry plane, where cells end: only mirror images may hold their points
   Vector plane = Vector::Zero();  // a point on it, m
 };
 
@@ -52,7 +52,7 @@ std::vector<Held> held_directions(const deck::Deck& deck, const PointCloud& clou
   return all;
 }
 
-// Where a point, or the face of its cell on a symmetry plane, is before anything moves; the second, where it is that.
+// The initial position of a point, or of the face of its cell on a symmetry plane; second: true for the latter.
 std::pair<Vector, bool> place_of(const Held& held, int i, const Domain& domain) {
   const Vector X = domain.reference(i);
   const double off = held.direction.dot(X - held.plane);
@@ -60,7 +60,7 @@ std::pair<Vector, bool> place_of(const Held& held, int i, const Domain& domain) 
   return {is_face ? Vector(X - off * held.direction) : X, is_face};
 }
 
-// How far conditions have moved their points by `time`: velocities are summed up from one call to the next.
+// Displacements of points by conditions up to `time`; velocities are integrated from one call to the next.
 void move_on(const Conditions& conditions, const Domain& domain, double time, double step, std::vector<Vector>& ways) {
   conditions.visit([&]<class One>(const One& one) {
     if constexpr (std::is_same_v<One, PrescribedMotion>) {
@@ -73,7 +73,7 @@ void move_on(const Conditions& conditions, const Domain& domain, double time, do
   });
 }
 
-// By tools and conditions, the points that are met, and when first.
+// For each tool and condition: the time of the first contact, and the points met.
 using Meetings = std::map<std::pair<int, int>, std::pair<double, std::set<int>>>;
 
 void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Body& body,

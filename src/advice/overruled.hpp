@@ -1,4 +1,4 @@
-// Points that conditions hold, and that rigid tools move all the same.
+// Points that conditions hold, but that rigid tools will move in spite of it.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace strut {
 
-// Collective. A warning for each tool and condition of which the path of the one runs into points that the other moves
-// as given, or keeps at a symmetry plane, along the tool's normal: tools act last. A forecast: what else moves such
-// points is not seen, nor where forces drive a tool.
+// Collective. A warning for each tool and condition if the tool's path meets points whose motion the condition
+// prescribes, or that it keeps at a symmetry plane, along the tool's normal, because tools act last. It is a forecast:
+// other motions of such points, and tools driven by forces, are not considered.
 std::string overruled_motions(const Situation& situation);
 
 }  // namespace strut

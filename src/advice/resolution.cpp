@@ -14,7 +14,7 @@ namespace strut {
 
 namespace {
 
-// Of ordinary points.
+// The warning for ordinary points.
 std::string stiffness_of_thin(Influence influence, double horizon, double thickness) {
   constexpr double worth_saying = 0.1;
   const double found = tension_stiffness_found(influence, horizon, thickness);
@@ -27,7 +27,7 @@ std::string stiffness_of_thin(Influence influence, double horizon, double thickn
   return text.str();
 }
 
-// Of correspondence.
+// The warning for correspondence.
 std::string bending_of_thin(double horizon, double thickness) {
   constexpr double worth_saying = 0.9;
   const double kept = bending_stiffness_kept(horizon, thickness);
@@ -39,7 +39,7 @@ std::string bending_of_thin(double horizon, double thickness) {
   return text.str();
 }
 
-// Of quadratic correspondence.
+// The warning for quadratic correspondence.
 std::string resolution_of_thin(const materials::AnyLaw& law, double thickness, bool whole) {
   constexpr double worth_saying = 0.05;
   if (!(thickness > 0) || expected_error(thickness).stiffness < worth_saying) return "";
@@ -61,11 +61,11 @@ std::string told_of_thin(const MaterialBlock& block, Influence influence, double
   return "";
 }
 
-// Collective. Whether the points of each block are elements of one volume, as voxels are.
+// Collective. True for each block whose points are elements of equal volume, as voxels are.
 std::vector<bool> of_whole_cells(const Domain& domain) {
-  constexpr double alike = 1e-6;  // volumes of files in single precision
+  constexpr double alike = 1e-6;  // relative difference of volumes in files of single precision
   const std::size_t blocks = domain.blocks.size();
-  std::vector<double> volumes(2 * blocks, -std::numeric_limits<double>::max());  // the largest; the smallest, negative
+  std::vector<double> volumes(2 * blocks, -std::numeric_limits<double>::max());  // the largest; minus the smallest
   for (int i = 0; i < domain.owned; ++i) {
     double *largest = &volumes[domain.cloud.blocks[i]], *least = largest + blocks;
     *largest = std::max(*largest, domain.volume(i)), *least = std::max(*least, -domain.volume(i));

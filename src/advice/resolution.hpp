@@ -1,4 +1,4 @@
-// Members of a few spacings, families that are nearly flat, and the errors to expect of them.
+// Members a few spacings thick, nearly flat families, narrow surfaces of nodes, and the errors to expect.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace strut {
 
-// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness, of
-// ordinary points are off by a tenth in tension, or by quadratic correspondence may be off by a twentieth.
+// Collective. A line for each block whose members are so thin that they lose a tenth of their bending stiffness, that
+// ordinary points have an error of a tenth in tension, or quadratic correspondence possibly one of a twentieth.
 std::string thin_members(const Situation& situation);
 
 // Collective. The warnings of blocks with points whose families nearly lie in a plane.

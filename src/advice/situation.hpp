@@ -1,4 +1,4 @@
-// Inside advice: what its checks look at.
+// Inside advice: the input of its checks.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ struct Situation {
   const deck::Deck& deck;
   const Scene& scene;
   double start, duration;                          // of the run, s
-  std::vector<contact::Interaction> interactions;  // as contact has them
-  std::vector<double> spacings;                    // the mean one of each block, m
+  std::vector<contact::Interaction> interactions;  // as contact uses them
+  std::vector<double> spacings;                    // mean spacing of each block, m
   std::vector<Trajectory> trajectories;            // of blocks
 };
 

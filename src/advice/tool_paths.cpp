@@ -11,7 +11,7 @@ namespace strut {
 
 namespace {
 
-constexpr int looks = 100;  // at the way of a tool
+constexpr int looks = 100;  // samples of a tool's path
 
 // ---- Tools that are apart
 // --------------------------------------------------------------------------------------------
@@ -28,8 +28,8 @@ double smallest_gap(const RigidTool& tool, const Body& body, const std::vector<V
   return body.domain.communicator.min(smallest);
 }
 
-// When a tool that is `gap` (m) from all points first touches one, s after the start; not before the end of the run:
-// nothing. Between two looks no gap closes by more than both have gone.
+// Time at which a tool that is `gap` (m) from all points first touches one, s after the start; nullopt if not before
+// the end of the run. Between two samples a gap closes by no more than both have moved.
 std::optional<double> first_touch(const RigidTool& tool, const Body& body, const std::vector<Vector>& velocities,
                                   double start, double duration, double gap) {
   double fastest = 0;
@@ -53,14 +53,14 @@ using Extent = Eigen::AlignedBox3d;
 constexpr double least_width = 1.5;  // spacings
 constexpr double as_good_as_none = 1e-6;
 
-// How far a tool goes from where it is at the start.
+// The range of a tool's displacements from its initial position.
 Extent ways_of(const RigidTool& tool, double start, double duration) {
   Extent ways;
   for (int k = 0; k <= looks; ++k) ways.extend(Vector(tool.offset(start + duration * k / looks) - tool.offset(start)));
   return ways;
 }
 
-// The same of points, in velocities (m/s) over the run.
+// The same for points, from their velocities (m/s) over the run.
 Extent ways_of(const Trajectory& block, double duration) {
   Extent ways(Vector::Zero());
   ways.extend(Vector(duration * block.velocities.min()));
@@ -71,12 +71,12 @@ Extent ways_of(const Trajectory& block, double duration) {
 Extent moved(const Extent& box, const Extent& by) { return {box.min() + by.min(), box.max() + by.max()}; }
 
 struct Meeting {
-  Extent tool, block, ways;  // where both are at the start; how far the tool goes relative to the block
+  Extent tool, block, ways;  // initial boxes of both; displacements of the tool relative to the block
   double spacing;            // m, of the block
 };
 
-// The axes along which the tool comes to the block: where they are apart and not at rest; else any that one of this is
-// said of.
+// The axes along which the tool approaches the block: those along which they are apart and in relative motion; else
+// those with either.
 std::vector<int> axes_of_approach(const Meeting& meeting) {
   const double none = as_good_as_none * meeting.spacing;
   std::vector<int> apart, moving, both;
@@ -93,7 +93,7 @@ std::vector<int> axes_of_approach(const Meeting& meeting) {
   return moving.empty() ? std::vector{0, 1, 2} : moving;
 }
 
-// The axis along which a box is thinner than least_width where it comes to the block, or −1.
+// The axis along which a box is thinner than least_width where it meets the block, or −1.
 int thin_axis(const Meeting& meeting) {
   for (const int approach : axes_of_approach(meeting)) {
     for (int c = 0; c < 3; ++c) {
@@ -105,7 +105,7 @@ int thin_axis(const Meeting& meeting) {
   return -1;
 }
 
-// What is thin of a tool where it meets a block, m; "" where it is thick.
+// The thin dimension of a tool where it meets a block, m; "" if it is thick.
 struct Thin {
   double width = 0;
   std::string what;
@@ -127,7 +127,7 @@ Thin thin(const Box& box, const RigidTool& tool, const Trajectory& block, double
   return {at_start.sizes()[axis], std::string("wide along ") + "xyz"[axis]};
 }
 
-// From its axis, at any of the looks, to the ball around the block.
+// From its axis, at each sample, to the ball around the block.
 Thin thin(const Cylinder& roll, const RigidTool& tool, const Trajectory& block, double spacing, double start,
           double duration) {
   if (2 * roll.radius >= least_width * spacing) return {};

@@ -1,5 +1,5 @@
-// Where blocks are at the start and how fast they go: a forecast of who meets whom. Who is thrown at somebody later is
-// not seen.
+// Initial positions and velocities of blocks, for a forecast of their meetings. Blocks thrown at each other later are
+// not found.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@
 
 namespace strut {
 
-// The first moment, over which prescribed displacements are looked at, as a part of the duration.
+// The first moment, over which prescribed displacements are evaluated, as a fraction of the duration.
 inline constexpr double first_moment = 1e-3;
 
-// Where the points of a block are and how fast they go, over all ranks.
+// The boxes of a block's positions and velocities, over all ranks.
 struct Trajectory {
   Eigen::AlignedBox3d places, velocities;
 };
 
-// Collective. One for each block; velocities are those of the start, initial and prescribed. `start`, `duration`: s.
+// Collective. One for each block; initial and prescribed velocities of the start. `start`, `duration`: s.
 std::vector<Trajectory> trajectories(const Scene& scene, double start, double duration);
 
-// The first time in [0, duration] at which the bounding boxes overlap, moved on with these velocities.
+// The first time in [0, duration] at which the boxes, moved with these velocities, overlap; s.
 std::optional<double> meeting_time(const Trajectory& a, const Trajectory& b, double duration);
 
 }  // namespace strut

@@ -15,19 +15,19 @@ namespace strut {
 
 namespace {
 
-// A motion of a body as a whole: its velocity at the middle, and its spin times the radius of gyration.
+// A rigid motion of a body: the velocity of its center, and its angular velocity times the radius of gyration.
 using RigidMotion = Eigen::Matrix<double, 6, 1>;
-using Holds = Eigen::Matrix<double, 6, 6>;  // Σ of the motions that are held, each times its transpose
+using Holds = Eigen::Matrix<double, 6, 6>;  // Σ of the held motions, each times its transpose
 
-// Of the largest eigenvalue of what holds a piece: less is none. Points that hold lie at least a hundredth of the
-// piece's radius apart, or on one line, of which round-off makes 1e-16.
+// Relative to the largest eigenvalue of a piece's holds: smaller eigenvalues mean free motion. Holding points are at
+// least a hundredth of the piece's radius apart, or on one line, for which round-off makes 1e-16.
 constexpr double none = 1e-8;
-constexpr double touching = 0.1;       // spacings between a tool and what it holds from the start
+constexpr double touching = 0.1;       // spacings between a tool and points that it holds from the start
 constexpr std::size_t most_lines = 3;  // a scan may have many loose pieces
 
 struct Piece {
-  std::vector<double> of_block;  // how many of its points are of each
-  double loaded = 0;             // on how many of its points a Body Force acts
+  std::vector<double> of_block;  // number of its points in each block
+  double loaded = 0;             // number of its points on which a Body Force acts
   Vector middle = Vector::Zero();
   Tensor moments = Tensor::Zero();  // Σ |r|² 1 − r⊗r over its points, m²
   double radius = 0;                // of gyration, m
@@ -38,7 +38,7 @@ struct Piece {
     for (const double count : of_block) sum += count;
     return sum;
   }
-  // Turning about itself, of a row of points or a single one. On one rank: what ranks hold is added up.
+  // Holds the rotation of a line of points, or of a single one, around itself. On one rank only: holds are summed.
   void hold_what_moves_nothing(bool on_this_rank) {
     const Eigen::SelfAdjointEigenSolver<Tensor> turning(moments);
     radius = std::sqrt(std::max(0.5 * moments.trace() / points(), std::numeric_limits<double>::min()));
@@ -53,7 +53,7 @@ struct Piece {
     motion << direction, (place - middle).cross(direction) / radius;
     holds += motion * motion.transpose();
   }
-  // What goes on as its mirror image behind a plane does not turn out of it.
+  // The mirror image behind a plane prevents rotation out of the plane.
   void hold_by_image(const Vector& place, const Vector& normal) {
     hold(place, normal);
     holds.bottomRightCorner<3, 3>() += Tensor::Identity() - normal * normal.transpose();
@@ -66,7 +66,7 @@ std::vector<double*> numbers_in(auto& matrix) {
   return numbers;
 }
 
-// All pieces, on all ranks, and of each owned point which one it is of.
+// All pieces, on all ranks, and the index of the piece of each owned point.
 struct Pieces {
   std::vector<Piece> all;
   std::vector<int> of;
@@ -163,7 +163,7 @@ void hold(const Scene& scene, double start, double step, Pieces& pieces) {
   });
 }
 
-// Of each block, how many pieces have points of it.
+// The number of pieces with points of each block.
 std::vector<int> counts_of_pieces(const std::vector<Piece>& pieces, std::size_t blocks) {
   std::vector<int> counts(blocks, 0);
   for (const Piece& piece : pieces) {
@@ -172,7 +172,7 @@ std::vector<int> counts_of_pieces(const std::vector<Piece>& pieces, std::size_t 
   return counts;
 }
 
-// Whether contact is declared between it and another piece.
+// True if contact is declared between the piece and another one.
 bool may_be_pushed(const Piece& piece, const std::vector<int>& counts,
                    const std::vector<contact::Interaction>& interactions) {
   const auto meets = [&](int own, int other) {
@@ -193,7 +193,7 @@ std::string text_of(const Vector& v) {
   return text.str();
 }
 
-// The directions in which it is free to go, of unit length.
+// The directions in which it can translate freely, of unit length.
 std::vector<Vector> free_directions(const Holds& holds) {
   const double least = none * std::max(holds.trace(), 1e-300);
   const Eigen::SelfAdjointEigenSolver<Tensor> along(holds.topLeftCorner<3, 3>());
@@ -209,7 +209,7 @@ bool is_free(const Holds& holds) {
   return Eigen::SelfAdjointEigenSolver<Holds>(holds, Eigen::EigenvaluesOnly).eigenvalues()[0] < least;
 }
 
-// "" where it is held.
+// Describes the free motion; "" if there is none.
 std::string freedom(const Holds& holds) {
   const std::vector<Vector> free = free_directions(holds);
   if (free.size() == 3) return "it";

@@ -13,19 +13,19 @@ namespace strut {
 
 namespace {
 
-// A point that meets a face of a square lattice of points is at most so far, in spacings, from the nearest of them.
+// A point that meets a face of a square lattice of points is at most this far from the nearest of them, in spacings.
 constexpr double widest_gap = 1 / std::numbers::sqrt2;
 
 // A block as contact sees it.
 struct Side {
   std::string name;
-  double spacing = 0, horizon = 0;  // m, the means
+  double spacing = 0, horizon = 0;  // m, means
   double modulus = 0;               // of longitudinal waves, Pa
-  double impedance = 0;             // of these, kg/(m² s)
+  double impedance = 0;             // of longitudinal waves, kg/(m² s)
   double points = 0, mass = 0;      // over all ranks; kg
-  double yields = 0;                // Pa, the flow stress at the start; infinite where it never yields
+  double yields = 0;                // Pa, initial flow stress; infinite if it never yields
 
-  double face() const { return spacing * spacing; }              // m², of a point
+  double face() const { return spacing * spacing; }              // m², per point
   double volume() const { return spacing * spacing * spacing; }  // m³
 };
 
@@ -53,13 +53,13 @@ std::vector<Side> sides_of(const Body& body, const std::vector<double>& spacings
   return sides;
 }
 
-// What contact bears before points have passed each other.
+// The strength of contact before points pass each other.
 struct Strength {
-  double pressure = 0;  // Pa, of two faces
-  double energy = 0;    // J, if all points press on all that they can reach
+  double pressure = 0;  // Pa, between two faces
+  double energy = 0;    // J, if all points press on all points within reach
 };
 
-// A point of each, of two bodies, far from each other at the start.
+// A point of each block, in two bodies, initially far apart.
 contact::PointPair pair_of(const contact::PairLaw& law, const Side& a, const Side& b) {
   return {{a.volume(), b.volume()}, {a.horizon, b.horizon}, 2 * contact::radius_of(law), false};
 }
@@ -81,7 +81,7 @@ Strength strength(const contact::SurfaceLaw& law, const Side& a, const Side& b) 
   return {law.pressure(law.spacing), area * law.energy(law.spacing)};
 }
 
-// How fast two blocks approach each other along the axes on which they are apart, m/s.
+// Speed at which two blocks approach each other along the axes on which they are apart, m/s.
 struct Approach {
   double least = 0, most = 0;
 };
@@ -99,12 +99,12 @@ Approach approach(const Trajectory& a, const Trajectory& b, double duration) {
   return {least.norm(), most.norm()};
 }
 
-// The pressure of an impact of elastic bodies, Pa.
+// The pressure in an impact of elastic bodies, Pa.
 double impact_pressure(const Side& a, const Side& b, double speed) {
   return speed * a.impedance * b.impedance / (a.impedance + b.impedance);
 }
 
-// "" where points do not slip between each other.
+// "" if points cannot slip between each other.
 std::string gap(const contact::Law& law, const Side& a, const Side& b) {
   const double spacing = std::min(a.spacing, b.spacing), radius = contact::radius_of(law);
   if (std::holds_alternative<contact::SurfaceLaw>(law) || radius >= widest_gap * spacing) return "";
@@ -138,7 +138,7 @@ std::string remedy(const contact::Law& law, const Side& a, const Side& b, double
   return text.str();
 }
 
-// What is wrong with the strength of contact; `surely`: whether it can hold nothing.
+// Describes a weak contact; `surely`: it certainly cannot withstand the impact.
 std::string weakness(const contact::Law& law, const Side& a, const Side& b, const Approach& speed, bool& surely) {
   const Strength bears = std::visit([&](const auto& one) { return strength(one, a, b); }, law);
   const double impact = 0.5 * a.mass * b.mass / (a.mass + b.mass) * speed.least * speed.least;
@@ -158,7 +158,7 @@ std::string weakness(const contact::Law& law, const Side& a, const Side& b, cons
   return text.str();
 }
 
-// Its spring between two points that overlap by a tenth of a spacing, in those of the stiffer block, M h.
+// Stiffness of contact between two points that overlap by a tenth of a spacing, relative to M h of the stiffer block.
 double relative_stiffness(const contact::PairLaw& law, const Side& a, const Side& b) {
   const contact::PointPair pair = pair_of(law, a, b);
   const double overlap = 0.1 * std::min(a.spacing, b.spacing);
@@ -180,7 +180,7 @@ std::string stiffness_of_first_touches(const contact::SurfaceLaw& law, const Sid
   return text.str();
 }
 
-// Where points meet at the pace of contact, not of the bodies, a touch lasts a step or two, which see little of it.
+// If points vibrate at the frequency of contact instead of the bodies', a touch lasts only a step or two.
 std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, const Side& b) {
   constexpr double much = 10;
   if (const auto* of_surfaces = std::get_if<contact::SurfaceLaw>(&law))
@@ -208,7 +208,7 @@ std::string stiffness_of_short_touches(const contact::Law& law, const Side& a, c
   return text.str();
 }
 
-// Whether a tool or a third block that either of both may touch could stop them.
+// True if a tool or a third block that either one may touch could stop them.
 bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>& interactions, int a, int b) {
   const auto with_another = [a, b](const contact::Interaction& one) {
     const bool has_first = one.first == a || one.first == b, has_second = one.second == a || one.second == b;
@@ -217,8 +217,8 @@ bool may_be_stopped(const Scene& scene, const std::vector<contact::Interaction>&
   return !scene.tools.empty() || std::any_of(interactions.begin(), interactions.end(), with_another);
 }
 
-// Of parts of one body, which may be pressed on each other at any time: until the softer one yields, they bear its flow
-// stress.
+// For parts of one body, which may be pressed on each other at any time: contact must withstand the flow stress of the
+// softer one.
 std::string weakness_when_pressed(const contact::Law& law, const Side& a, const Side& b) {
   const double bears = std::visit([&](const auto& one) { return strength(one, a, b); }, law).pressure;
   const double yields = std::min(a.yields, b.yields);

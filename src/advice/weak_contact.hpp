@@ -1,4 +1,4 @@
-// Contact that cannot hold what runs into it, found before the first step (docs/theory.md, "Contact that cannot hold").
+// Contact that cannot withstand an impact, found before the first step (docs/theory.md, "Contact that cannot hold").
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace strut {
 
-// Collective. Warnings, a line each: of points that slip between those of
-// the other body; of two bodies whose impact, by the velocities of the start, is a pressure that contact bears only
-// where points have passed each other; of parts of one body whose contact bears less than the flow stress. Throws Error
-// on all ranks where contact could not take up the energy of the impact even if all points pressed on all that they can
-// reach, and no tool or third block may stop them; where the deck goes on beyond its limits (Watch > Beyond Limits)
-// that is a warning, too.
+// Collective. Warnings, a line each, for points that slip between those of the other body; for two bodies whose
+// impact, by their initial velocities, exceeds the pressure that contact withstands before points pass each other;
+// for parts of one body whose contact withstands less than the flow stress. Throws Error on all ranks if contact
+// could not take the energy of the impact even if all points pressed on all others within reach, and no tool or
+// third block may stop them; that is only a warning if the deck continues beyond its limits (Watch > Beyond
+// Limits).
 std::string weak_contacts(const Situation& situation);
 
 }  // namespace strut

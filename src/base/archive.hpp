@@ -1,5 +1,5 @@
-// What a checkpoint contains, by name. The `serialize` functions of the parts both save and restore it, so that neither
-// direction can forget what the other has.
+// The content of a checkpoint, by name. The `serialize` functions of the parts both save and restore it, so that
+// neither direction can omit what the other one has.
 #pragma once
 
 #include <cstdint>
@@ -11,33 +11,33 @@
 
 namespace strut {
 
-// As a rank holds it.
+// The data of one rank.
 struct Snapshot {
   struct Column {
     std::string name;
     int width = 1;
     std::vector<double> values;  // point by point
   };
-  // Some of this rank's points, which have columns in common.
+  // Some of this rank's points, with the same columns.
   struct Group {
     std::string name;
-    std::vector<std::int64_t> ids;  // of the points over all ranks
+    std::vector<std::int64_t> ids;  // ids of these points, unique over all ranks
     std::vector<Column> columns;
   };
   std::vector<Group> groups;
   std::map<std::string, double> numbers;  // the same on all ranks
-  std::map<std::string, double> shares;   // of this rank: their sums over all ranks mean something
+  std::map<std::string, double> shares;   // per-rank sums: only their totals over all ranks have a meaning
 };
 
 class Archive {
  public:
   static Archive saving_to(Snapshot& into) { return {into, false}; }
-  // From a snapshot that has all that was saved; throws std::logic_error where it has not.
+  // From a snapshot that has everything that was saved; throws std::logic_error if something is missing.
   static Archive loading_from(Snapshot& from) { return {from, true}; }
 
   bool loading() const { return restores_; }
 
-  // What the next fields are of: a group that is begun, or gone on with.
+  // The points of the next fields: starts a group, or continues it.
   void points(const std::string& group, const std::vector<std::int64_t>& ids);
 
   // at(k, c): a reference to component c of the k-th point.
@@ -51,8 +51,8 @@ class Archive {
         });
   }
 
-  // A field whose numbers no reference leads to: get(k, c) returns component c of the k-th point, set(k, c, number)
-  // changes it.
+  // A field without references to its numbers: get(k, c) returns component c of the k-th point, set(k, c, number) sets
+  // it.
   template <class Get, class Set>
   void numbers(const std::string& name, int width, Get&& get, Set&& set) {
     std::vector<double>& values = column(name, width).values;
@@ -68,7 +68,7 @@ class Archive {
     }
   }
 
-  // Any arithmetic type that a double holds exactly.
+  // Any arithmetic type whose values a double holds exactly.
   template <class T>
   void number(const std::string& name, T& value) {
     pass(value, entry(snapshot_.numbers, name));

@@ -25,7 +25,7 @@ std::string mpi_library(std::string_view said) {
 std::string mpi_library() {
   char said[MPI_MAX_LIBRARY_VERSION_STRING] = {};
   int length = 0;
-  MPI_Get_library_version(said, &length);  // may be asked before MPI starts
+  MPI_Get_library_version(said, &length);  // may be called before MPI starts
   return mpi_library(std::string_view(said, static_cast<std::size_t>(length)));
 }
 

@@ -1,4 +1,4 @@
-// Who wrote a file, and how it was built: for every output, and for reports of errors.
+// Program and build that wrote a file: for every output, and for error reports.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 namespace strut {
 
 std::string strut_version();  // "0.1"
-std::string mpi_library();    // that runs, "Open MPI 4.1.4"
+std::string mpi_library();    // of the running library, "Open MPI 4.1.4"
 
-// What MPI_Get_library_version says, shortened to its name and version.
+// The result of MPI_Get_library_version, shortened to name and version.
 std::string mpi_library(std::string_view said);
 
 // "strut 0.1 (GCC 12.2.0, -O3 …, Trilinos 13.2, Open MPI 4.1.4)", on one line.

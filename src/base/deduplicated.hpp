@@ -1,4 +1,4 @@
-// A value for each point, where those of many are the same: these are kept once.
+// A value for each point; values shared by many points are stored once.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace strut {
 
-// To a multiple of the power of two that is 2⁻ᵇⁱᵗˢ of a size above zero, or less: what differs by round-off alone
-// becomes the same, or one of two.
+// Rounds to a multiple of the power of two at or below 2⁻ᵇⁱᵗˢ times a positive size: values that differ only by
+// round-off become equal, or one of two.
 inline double rounded(double value, double size, int bits) {
   const double unit = std::ldexp(1.0, std::ilogb(size) - bits);
   return std::rint(value / unit) * unit;
 }
 
-// T: of so many doubles from data() on. Values are the same where they are to the last bit.
+// T has `count` doubles from data() on. Values are equal if they agree to the last bit.
 template <class T>
 class Deduplicated {
  public:
@@ -33,7 +33,7 @@ class Deduplicated {
     }
     if (4 * values_.size() < 3 * all.size()) {
       values_.shrink_to_fit();
-    } else {  // places would cost more than they save
+    } else {  // indices would cost more memory than they save
       values_ = std::move(all);
       which_ = std::vector<int>();
     }
@@ -41,11 +41,11 @@ class Deduplicated {
   }
 
   const T& operator[](std::size_t i) const { return values_[which_.empty() ? i : which_[i]]; }
-  // Of one point, whatever others have.
+  // Sets the value of one point only.
   void set(std::size_t i, const T& value) {
     if (which_.empty()) {
       values_[i] = value;
-    } else if (static_cast<std::size_t>(which_[i]) >= shared_) {  // has been set before: its own
+    } else if (static_cast<std::size_t>(which_[i]) >= shared_) {  // was set before: not shared
       values_[which_[i]] = value;
     } else {
       which_[i] = static_cast<int>(values_.size());
@@ -63,8 +63,8 @@ class Deduplicated {
   }
 
   std::vector<T> values_;
-  std::vector<int> which_;  // of values_; empty: the points' own
-  std::size_t shared_ = 0;  // so many of the values may be of several points
+  std::vector<int> which_;  // indices in values_; empty: one value per point
+  std::size_t shared_ = 0;  // number of values that several points may share
 };
 
 }  // namespace strut

@@ -11,7 +11,7 @@ namespace strut {
 
 namespace {
 
-// Levenshtein distance, letters compared without case.
+// Levenshtein distance, ignoring case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> row(b.size() + 1);
@@ -47,9 +47,9 @@ void raise_together(const Communicator& communicator, const std::string& problem
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& valid) {
   const std::string* nearest = nullptr;
-  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // farther than this is no likeness
+  std::size_t best = std::max<std::size_t>(1, name.size() / 3) + 1;  // a larger distance is no similarity
   for (const std::string& candidate : valid) {
-    if (name.size() >= candidate.size() + best) continue;  // no need to compare what a damaged file may call a name
+    if (name.size() >= candidate.size() + best) continue;  // skips very long names, as from a damaged file
     const std::size_t distance = edit_distance(name, candidate);
     if (distance < best) {
       best = distance;

@@ -1,5 +1,5 @@
-// Errors that a user can act on. An Error carries the whole text; raise_together makes every rank throw the same one,
-// so that no rank waits for another that has given up.
+// Errors that a user can act on. An Error has the whole text; raise_together makes every rank throw the same one, so
+// that no rank waits for another that has failed.
 #pragma once
 
 #include <stdexcept>
@@ -19,11 +19,11 @@ class Error : public std::runtime_error {
 // Collective. If `problem` is not empty on any rank, throws Error on all ranks with the distinct texts in rank order.
 void raise_together(const Communicator& communicator, const std::string& problem);
 
-// Collective. Runs `action` on rank `root` only; what it throws (Error or any std::exception) is thrown on all ranks.
+// Collective. Runs `action` on rank `root` only; its exception (Error or any std::exception) is thrown on all ranks.
 template <class Action>
 void run_on_root(const Communicator& communicator, Action&& action);
 
-// " (did you mean 'Horizon'?)", or "" where nothing in `valid` is close to `name`.
+// " (did you mean 'Horizon'?)", or "" if nothing in `valid` is close to `name`.
 std::string did_you_mean(std::string_view name, const std::vector<std::string>& valid);
 
 // "a, b, c"

@@ -1,6 +1,6 @@
-// Fields: one value for each point of a rank, or for each integration point. A field is declared once, where it is a
-// member, with its name, unit and meaning. Checkpoints, the way to another rank, the forecast of memory, output
-// variables and their page follow from the declaration.
+// Fields: one value for each point of a rank, or for each integration point. A field is declared once, as a member,
+// with its name, unit and meaning. Checkpoints, migration to another rank, memory forecasts, output variables and their
+// page follow from the declaration.
 #pragma once
 
 #include <concepts>
@@ -17,19 +17,19 @@ namespace strut {
 
 enum class At { point, integration_point };
 
-// Numbers of a value that have a meaning together: a scalar, a vector, a tensor; of a record, one of its members.
+// Numbers of a value that belong together: a scalar, a vector, a tensor; in a record, one of its members.
 struct FieldPart {
   std::string name;      // in checkpoints
   std::string unit;      // SI; "1" for none
-  std::string meaning;   // in the page of output variables
+  std::string meaning;   // for the page of output variables
   bool kept = false;     // in checkpoints: later steps depend on it
-  std::string variable;  // its name as an output variable; empty: it is none
-  bool nodal = false;    // how the Exodus file has that: nodal, or of elements
-  int width = 0;         // so many numbers; 0: as the type has
+  std::string variable;  // its name as an output variable; empty: it is not one
+  bool nodal = false;    // in the Exodus file: nodal, else of elements
+  int width = 0;         // number of components; 0: given by the type
 };
 
-// The numbers of a value, one by one: a number, a vector or tensor, a record that lists its members as `numbers`. Other
-// records have such a function of their own.
+// Number n of a value: of a number, a vector or tensor, or a record that lists its members as `numbers`. Other records
+// have such a function of their own.
 template <class T>
 requires std::is_arithmetic_v<T> T& number_of(T& value, int) { return value; }
 template <class T>
@@ -40,12 +40,12 @@ template <class Record>
 requires requires { std::remove_const_t<Record>::numbers; }
 auto& number_of(Record& record, int n) { return record.*(Record::numbers[n]); }
 
-// The interface of a field to its set, whatever its type.
+// The interface of a field for its set, independent of its type.
 class AnyField {
  public:
   AnyField(At at, std::vector<FieldPart> parts) : at(at), parts(std::move(parts)) {}
   virtual ~AnyField() = default;
-  virtual void resize(std::size_t size) = 0;  // a vector, all of it at its start: zero, or as its type begins
+  virtual void resize(std::size_t size) = 0;  // resets all values: zero, or their type's default
   virtual double bytes() const = 0;
   virtual double number(std::size_t place, int n) const = 0;
   virtual void set_number(std::size_t place, int n, double number) = 0;
@@ -97,7 +97,7 @@ class FieldOf : public AnyField {
   }
 };
 
-// A member that is a field: its values, which its set owns.
+// A member that is a field: refers to its values, which its set owns.
 template <class Values>
 class FieldRef {
  public:
@@ -122,7 +122,7 @@ class FieldRef {
   const auto* data() const { return std::as_const(field_->values).data(); }
   std::size_t size() const { return field_->values.size(); }
   bool empty() const { return field_->values.empty(); }
-  // From now on the field is there, on all ranks, with room as the arguments of the container's resize() say.
+  // From now on the field is in use, on all ranks; the arguments are those of the container's resize().
   template <class... Room>
   void use(Room&&... room) {
     field_->in_use = true;
@@ -136,13 +136,13 @@ class FieldRef {
 template <class T>
 using PointField = FieldRef<std::vector<T>>;
 
-// Where the values of the k-th of some points are: q-th of `count` integration points.
+// Index of the values of the k-th of some points: at the q-th of `count` integration points.
 struct Places {
   int count = 1;
   std::function<std::size_t(std::size_t k, int q)> place = [](std::size_t k, int) { return k; };
 };
 
-// A field of some scenes only is there once it is used.
+// `if_used`: the field exists only in scenes that use it.
 enum class When { always, if_used };
 
 class FieldSet {
@@ -162,9 +162,9 @@ class FieldSet {
   }
 
   const std::vector<std::unique_ptr<AnyField>>& all() const { return fields_; }
-  void resize(std::size_t points);  // those of points that are in use
+  void resize(std::size_t points);  // the fields of points that are in use
   double bytes() const;
-  // At the group of the points: what is kept of them.
+  // At the group of the points: saves or restores the fields that are kept.
   void serialize(Archive& archive, const Places& places = {});
 
  private:

@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Enough for the header of a result of a thousand blocks.
+// Large enough for the header of a result with a thousand blocks.
 constexpr std::size_t longest_head = 1'000'000;
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-// Through links that lead to what is not there, too.
+// Follows links, also to files that do not exist.
 fs::path destination(fs::path name) {
   constexpr int most_links = 40;
   std::error_code failure;
@@ -29,7 +29,7 @@ fs::path destination(fs::path name) {
   return name;
 }
 
-// From the root on, also through folders that are not there yet; nothing where the system cannot say.
+// The path from the root, also through folders that do not exist yet; empty if the system cannot tell.
 fs::path whole_name(const fs::path& name) {
   std::error_code failure;
   const fs::path absolute = fs::absolute(name, failure);
@@ -49,7 +49,7 @@ std::string head_of(const fs::path& file) {
   return head;
 }
 
-// Empty, or zeros to its end, as the library for netCDF begins a file.
+// True for an empty file, or zeros only, as the netCDF library starts a file.
 bool holds_nothing(const std::string& head) {
   return head.size() < longest_head && head.find_first_not_of('\0') == std::string::npos;
 }
@@ -59,18 +59,18 @@ bool is_classic_netcdf(const std::string& head) {
          head.starts_with(std::string("CDF\5", 4));
 }
 
-// The attribute "title" as it stands in the header: name, type (char), number of characters, text.
+// Finds the attribute "title" in the header: name, type (char), number of characters, text.
 bool has_title(const std::string& head, const std::string& title) {
   const std::string name_and_type("title\0\0\0\0\0\0\2", 12);
   const std::size_t found = head.find(name_and_type);
   if (!is_classic_netcdf(head)) return false;
-  // A run that was killed as it began leaves what Exodus writes before the title: nothing is lost with it.
+  // A run killed at its start leaves what Exodus writes before the title: nothing is lost with it.
   if (found == std::string::npos) return head.find("api_version") != std::string::npos;
   const std::size_t count_bytes = head[3] == 5 ? 8 : 4, begin = found + name_and_type.size() + count_bytes;
   if (begin > head.size()) return false;
-  const auto count = static_cast<std::size_t>(static_cast<unsigned char>(head[begin - 1]));  // of at most 80
+  const auto count = static_cast<std::size_t>(static_cast<unsigned char>(head[begin - 1]));  // at most 80
   const std::string text = head.substr(begin, count);
-  return text.substr(0, text.find('\0')) == title;  // the library writes the zero, too
+  return text.substr(0, text.find('\0')) == title;  // the library also writes the terminating zero
 }
 
 struct Known {
@@ -100,7 +100,7 @@ Known known(FileKind kind) {
   return {"file", [](const std::string&) { return true; }};
 }
 
-// Why the system would not let it be written, or nothing.
+// The reason why the system would refuse to write it, or nothing.
 std::string refusal_of_system(const fs::path& file) {
   const fs::path folder = folder_of(file);
   std::error_code failure;
@@ -143,7 +143,7 @@ std::string obstacle(const fs::path& file, FileKind kind) {
   const fs::file_status status = fs::status(file, failure);
   const bool there = fs::exists(status), regular = fs::is_regular_file(status);
   const bool takes_lines =
-      kind == FileKind::log && fs::is_character_file(status);  // a terminal; a pipe may wait for ever
+      kind == FileKind::log && fs::is_character_file(status);  // a terminal; a pipe may block for ever
   if (there && !regular && !takes_lines)
     return name + " is a folder, a pipe or a device; expected a file that may be replaced";
   if (const std::string why = refusal_of_system(file); !why.empty()) return name + ": cannot create it: " + why;

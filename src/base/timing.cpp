@@ -12,12 +12,12 @@ namespace strut {
 
 namespace {
 
-std::deque<Teuchos::Time>& phases() {  // a deque: references stay valid
+std::deque<Teuchos::Time>& phases() {  // a deque keeps references valid
   static std::deque<Teuchos::Time> all;
   return all;
 }
 
-// Collective. The phases of all ranks, those of rank 0 first: a rank may never have come to one of another.
+// Collective. The phases of all ranks, those of rank 0 first: a rank may not have entered a phase of another.
 std::vector<std::string> names_on_all_ranks(const Communicator& communicator) {
   std::string mine;
   for (const Teuchos::Time& timer : phases()) mine += timer.name() + "\n";

@@ -1,4 +1,4 @@
-// Where the time of a run goes: named phases on Teuchos timers, and their table.
+// Timing of a run: named phases on Teuchos timers, and their table.
 #pragma once
 
 #include <initializer_list>
@@ -13,11 +13,11 @@ namespace strut {
 
 class Communicator;
 
-// The timer of a phase, made at the first call with its name. Keep the reference: the look-up is by string.
+// The timer of a phase, created by the first call with its name. Keep the reference: the look-up is by string.
 Teuchos::Time& phase(const std::string& name);
 
-// Times a phase from here to the end of the scope. A phase within another one counts for itself alone, so that all add
-// up to what was timed.
+// Times a phase from here to the end of the scope. Time in a nested phase counts only there, so that all phases add up
+// to the total.
 class Timed {
  public:
   explicit Timed(Teuchos::Time& phase);
@@ -27,7 +27,7 @@ class Timed {
 
  private:
   Teuchos::Time& phase_;
-  Teuchos::Time* outer_;  // that waits meanwhile
+  Teuchos::Time* outer_;  // the interrupted outer phase
 };
 
 struct PhaseTime {
@@ -35,11 +35,11 @@ struct PhaseTime {
   double mean, longest;  // s over ranks
 };
 
-// What this rank has taken in phases other than these, s: those in which it waits for others.
+// The time of this rank in phases other than `waiting`, s; in those it waits for other ranks.
 double seconds_outside(std::initializer_list<const char*> waiting);
 
-// Collective. All phases of all ranks in the order of their first use; on a rank that never came to one it took no
-// time.
+// Collective. All phases of all ranks in the order of their first use; a rank that never entered a phase counts with 0
+// s.
 std::vector<PhaseTime> phase_times(const Communicator& communicator);
 
 }  // namespace strut

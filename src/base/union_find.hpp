@@ -1,4 +1,4 @@
-// Which of a number of items belong together, as pairs of them are joined one by one (union-find).
+// Union-find: the sets of items that result when pairs of them are joined.
 #pragma once
 
 #include <numeric>
@@ -11,7 +11,7 @@ class UnionFind {
  public:
   explicit UnionFind(std::size_t items) : parent_(items) { std::iota(parent_.begin(), parent_.end(), 0); }
 
-  // The first item of the set that this one is in.
+  // The first item of the set of this one.
   int first(int item) {
     while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
     return item;

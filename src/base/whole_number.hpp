@@ -1,4 +1,4 @@
-// A whole number from a word: of a command line, or of the environment.
+// Parses an integer from a word of a command line or of the environment.
 #pragma once
 
 #include <charconv>
@@ -7,7 +7,7 @@
 
 namespace strut {
 
-// Nothing where the word is anything else, or more than an int holds.
+// nullopt if the word is anything else, or exceeds an int.
 inline std::optional<int> whole_number(std::string_view word) {
   int number = 0;
   const char* const end = word.data() + word.size();

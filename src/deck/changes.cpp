@@ -14,7 +14,7 @@ namespace strut::deck {
 
 namespace {
 
-using Texts = std::map<std::string, std::string>;  // of values, by the paths of their keys
+using Texts = std::map<std::string, std::string>;  // values by the paths of their keys
 
 Texts texts_of(const std::string& deck) {
   Problems ignored;
@@ -38,7 +38,7 @@ bool is_within(const std::string& path, std::string_view parent) {
          (path.starts_with(parent) && std::string_view(path).substr(parent.size()).starts_with(" > "));
 }
 
-// Nothing that has happened depends on these.
+// Keys that do not affect the past of a run.
 constexpr std::array free_to_change = {"Solver > Final Time",
                                        "Solver > Wall Time",
                                        "Solver > Verbose",
@@ -52,7 +52,7 @@ constexpr std::array free_to_change = {"Solver > Final Time",
                                        "Discretization > Trial Reads"};
 
 bool is_accepted(const std::string& path, const Texts& before, const Texts& now) {
-  if (path == "Solver > Verlet > Mass Scaling dt") return false;  // what has moved had the other mass
+  if (path == "Solver > Verlet > Mass Scaling dt") return false;  // moved points had another mass
   if (std::any_of(free_to_change.begin(), free_to_change.end(), [&](const char* one) { return is_within(path, one); }))
     return true;
   if (path.starts_with("Solver > QuasiStatic > ")) return true;
@@ -62,7 +62,7 @@ bool is_accepted(const std::string& path, const Texts& before, const Texts& now)
   return false;
 }
 
-// The value of a load, which has no memory: of a displacement it would be a jump, of an initial velocity nothing.
+// True for the value of a load, which has no memory: a displacement would jump, an initial velocity has no effect.
 bool is_load(const std::string& path, const Texts& now) {
   const std::string parent = "Boundary Conditions > ", key = " > Value";
   if (!path.starts_with(parent) || !path.ends_with(key)) return false;
@@ -78,7 +78,7 @@ Changes changes(const std::string& before, const std::string& now) {
   for (const auto& [path, text] : old_texts) paths.insert(path);
   for (const auto& [path, text] : new_texts) paths.insert(path);
   Changes changes;
-  std::string whole;  // a section that one of both has: its keys follow, and only what is refused in it is named
+  std::string whole;  // a section that only one of both has: of its keys only those that are refused are named
   for (const std::string& path : paths) {
     const std::string was = text_at(old_texts, path), is = text_at(new_texts, path);
     const bool accepted = is_accepted(path, old_texts, new_texts), within = !whole.empty() && is_within(path, whole);

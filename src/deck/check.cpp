@@ -70,7 +70,7 @@ class Checker {
       } else if (key.fallback) {
         set(key, {key.name, "string", *key.fallback}, false);
       } else if (find(list_.lists, key.name)) {
-        values_.set(key.name, {}, true);  // a section where a key belongs: report_unknown tells of it
+        values_.set(key.name, {}, true);  // a section instead of a key: report_unknown reports it
       } else if (key.required) {
         problems_.add(path_to(path_, key.name), "missing; " + expected(key));
       }
@@ -85,7 +85,7 @@ class Checker {
     }
   }
 
-  // Who refers to it has no blanks around the name.
+  // References to a name have no blanks around it.
   void check_given_name(const std::string& name) {
     if (!name.empty() && trimmed(name) == name) return;
     problems_.add(path_to(path_, "'" + name + "'"),
@@ -133,7 +133,7 @@ class Checker {
     }
   }
 
-  // All of them where the selector itself is missing or wrong: it is not known then what is unknown.
+  // All cases if the selector is missing or wrong, because unknown keys cannot be identified then.
   std::vector<const Section*> chosen_cases() const {
     if (case_) return {case_};
     std::vector<const Section*> all;
@@ -182,14 +182,14 @@ class Checker {
     return joined(owners);
   }
 
-  static constexpr std::size_t few = 8;  // names that a reader takes in at a glance
+  static constexpr std::size_t few = 8;  // number of names that a reader can take in
 
   const List& list_;
   const Section& section_;
   const std::string& path_;
   Problems& problems_;
   Values values_;
-  const Section* case_ = nullptr;  // the one that the selector's value names
+  const Section* case_ = nullptr;  // the case that the selector names
 };
 
 }  // namespace

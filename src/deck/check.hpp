@@ -1,4 +1,4 @@
-// A deck's XML against the schema.
+// Checks a deck against the schema.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace strut::deck {
 
-// `list` as `section` declares it, with all its sections; `section` must outlive the values. What one key alone can
-// tell is checked here; what takes two (final after initial time, the material a block names) is checked where the
-// structs are built.
+// The values of `list` as `section` declares it, with all of its sections; `section` must outlive the values. Only
+// checks of single keys are made here; those of two keys (final after initial time, the material that a block names)
+// are made where the structs are built.
 Values check(const List& list, const Section& section, const std::string& path, Problems& problems);
 
 }  // namespace strut::deck

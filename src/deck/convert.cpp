@@ -23,7 +23,7 @@ bool is_array_of_numbers(const std::string& type) {
   return type == "Array(int)" || type == "Array(double)" || type == "Array(float)";
 }
 
-// Whether the value is one of the type that the deck itself gives.
+// True if the value has the type that the deck itself gives.
 bool conforms(const Parameter& parameter) {
   if (parameter.type == "bool") return to_boolean(parameter.value).has_value();
   if (is_integer_type(parameter.type)) return to_integer(parameter.value).has_value();
@@ -76,7 +76,7 @@ Function convert_expression(const Parameter& parameter, const Key& key) {
   if (const auto number = to_real(parameter.value)) in_range(*number, parameter, key);
   try {
     return Function::parse(parameter.value);
-  } catch (const std::exception& error) {  // the compiler throws others than Error too
+  } catch (const std::exception& error) {  // the expression compiler throws other exceptions, too
     throw Error(std::string(trimmed(error.what())) + "; " + expected(key));
   }
 }
@@ -90,7 +90,7 @@ std::string convert_choice(const Parameter& parameter, const Key& key) {
   refuse(parameter, key, did_you_mean(choice, key.choices));
 }
 
-// "zx": 0 and 2, whatever their order.
+// "zx": 0 and 2, in any order.
 std::vector<int> convert_axes(const Parameter& parameter, const Key& key) {
   const std::string& text = parameter.value;
   std::vector<int> axes;

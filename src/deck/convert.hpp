@@ -1,4 +1,4 @@
-// One parameter of a deck to the value that its key declares.
+// Converts one parameter of a deck to the value that its key declares.
 #pragma once
 
 #include "deck/schema.hpp"
@@ -7,8 +7,8 @@
 
 namespace strut::deck {
 
-// Throws Error with the value and what was expected. An integer serves as a real, and a string that holds a number as
-// that number.
+// Throws Error with the value and what was expected. An integer is accepted as a real, and a string that contains a
+// number as that number.
 Value convert(const Parameter& parameter, const Key& key);
 
 }  // namespace strut::deck

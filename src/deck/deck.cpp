@@ -66,7 +66,7 @@ std::vector<ReadFile> read_files(const Deck& deck) {
   return read;
 }
 
-// Files are looked at on one rank only: the others may not see them, and need not.
+// Files are checked on one rank only: other ranks may not see them, and need not.
 void look_at_files(Deck& deck, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   read_numbers(deck.node_sets, problems);
@@ -87,11 +87,11 @@ Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, 
   return deck;
 }
 
-constexpr std::uintmax_t largest_deck = 1'000'000;  // bytes; a long one has twenty thousand
+constexpr std::uintmax_t largest_deck = 1'000'000;  // bytes; a long deck has twenty thousand
 
 std::string contents(const fs::path& file) {
   std::ifstream stream;
-  if (fs::is_regular_file(file)) stream.open(file, std::ios::binary);  // to open a pipe is to wait
+  if (fs::is_regular_file(file)) stream.open(file, std::ios::binary);  // opening a pipe would block
   if (!fs::exists(file)) throw Error(file.string() + ": the deck does not exist");
   if (!fs::is_regular_file(file) || !stream) throw Error(file.string() + ": the deck is not a file that can be read");
   if (fs::file_size(file) > largest_deck) {

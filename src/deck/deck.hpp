@@ -1,6 +1,6 @@
-// A deck as plain structs: what the rest of the program sees of an input file. Strings end here.
-// SI units throughout. The struct of each section is in sections/; members that are empty there by {} get their
-// defaults from the section's keys, where they stand with their meanings (and on the page made from them).
+// A deck as plain structs: the only form of an input file that the rest of the program sees. Units are SI. The struct
+// of each section is in sections/; members initialized with {} get their defaults from the section's keys, which also
+// document them (and the page made from them).
 #pragma once
 
 #include <filesystem>
@@ -43,21 +43,21 @@ struct Deck {
   History history;
   Restart restart;
   Watch watch;
-  std::vector<std::string> notes;  // what was accepted but has no effect, or another than in another program
+  std::vector<std::string> notes;  // accepted input without an effect, or with another one than in another program
 };
 
 // Collective. Reads and checks `file`; throws one Error on all ranks that lists every problem, each with its path
 // (Blocks > foam > Horizon), the value, what was expected with its unit, and the nearest valid name.
 Deck read(const std::filesystem::path& file, const Communicator& communicator);
-// The same, but what is wrong is added to `problems`, so that more may be found; what the deck has in the place of that
-// is zero, empty or false. Throws where the file is no deck at all.
+// The same, but errors are added to `problems`, so that more may be found; the corresponding members are zero, empty or
+// false. Throws if the file is no deck at all.
 Deck read(const std::filesystem::path& file, const Communicator& communicator, Problems& problems);
 
 // The reference page of all keys (Markdown), generated from the schema.
 std::string reference_page();
 
-// Of the keys and sections of this name, letters compared without case: where they stand, what they take and mean.
-// Throws Error with the nearest name where there is none.
+// Describes the keys and sections with this name, ignoring case: their paths, values and meanings. Throws Error with
+// the nearest name if there is none.
 std::string explanation(const std::string& name);
 
 }  // namespace strut::deck

@@ -1,10 +1,10 @@
-// What the headers of the sections name without a need to know it.
+// Declarations for the headers of the sections, which use these types by name only.
 #pragma once
 
 namespace strut::deck {
 
 struct Section;
-class Values;  // of the whole deck, where a section is read
+class Values;  // of the whole deck, when a section is read
 class Problems;
 
 }  // namespace strut::deck

@@ -1,5 +1,5 @@
-// Keys that know the type of their values. One is declared once, as a constant beside its reader: it goes into the
-// list of keys of its section, and `values[key]` is its value.
+// Typed keys. Each is declared once, as a constant beside its reader: it is listed among the keys of its section, and
+// `values[key]` is its value.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ struct KindOf<std::vector<std::string>> : Is<Kind::names> {};
 template <>
 struct KindOf<Function> : Is<Kind::expression> {};
 
-// Has a default, or is required.
+// A key with a default, or a required one.
 template <class T>
 struct TypedKey : Key {
   explicit TypedKey(Key key) : Key(std::move(key)) {
@@ -51,24 +51,24 @@ using IntegerKey = TypedKey<int>;
 using BooleanKey = TypedKey<bool>;
 using RealsKey = TypedKey<std::vector<double>>;
 using VectorKey = TypedKey<Vector>;
-using AxesKey = TypedKey<std::vector<int>>;  // 0, 1, 2, each once, in this order
+using AxesKey = TypedKey<std::vector<int>>;  // 0, 1, 2, each at most once, in this order
 using TextKey = TypedKey<std::string>;
 using NamesKey = TypedKey<std::vector<std::string>>;
 using ExpressionKey = TypedKey<Function>;
 
-// May be left out, and has no default.
+// A key that may be left out and has no default.
 template <class T>
 struct OptionalKey : Key {
   explicit OptionalKey(Key key) : Key(std::move(key)) { kind = KindOf<T>::value; }
 };
 
-// Of the parameters of a section that the user names.
+// The parameters of a section whose names the user chooses.
 template <class T>
 struct AnyKey : Key {
   explicit AnyKey(const std::string& meaning) : Key{.name = any_name, .kind = KindOf<T>::value, .meaning = meaning} {}
 };
 
-// One of a few texts, each with what it means to the program.
+// A key with a few possible texts, each with its value in the program.
 template <class T>
 struct ChoiceKey : Key {
   ChoiceKey(Key key, std::vector<std::pair<std::string, T>> all) : Key(std::move(key)), values(std::move(all)) {

@@ -1,4 +1,4 @@
-// Text to numbers, strictly: the whole text must be one. "1.5e9 Pa" is no number, and "1.5" is no integer.
+// Converts text to numbers, strictly: the whole text must be a number. "1.5e9 Pa" is none, and "1.5" is no integer.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace strut::deck {
 std::string_view trimmed(std::string_view text);
 
 std::optional<int> to_integer(std::string_view text);
-std::optional<double> to_real(std::string_view text);  // may be infinite or not a number: "inf", "1e999", "nan"
+std::optional<double> to_real(std::string_view text);  // may be infinite or NaN: "inf", "1e999", "nan"
 std::optional<bool> to_boolean(std::string_view text);
 
 // "0 0 1", "0, 0, 1" or, as Teuchos writes arrays, "{0, 0, 1}".

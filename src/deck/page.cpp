@@ -133,7 +133,7 @@ std::string explained(const Key& key, const std::string& path) {
   return text + "\n  " + (key.meaning.empty() ? key.no_effect : key.meaning) + "\n";
 }
 
-// Adds what is said of the name in the section and those within it, and all the names that there are.
+// Adds the description of the name in this section and those within it; collects all names.
 void explain(const Section& section, const std::string& path, const std::string& name, std::string& text,
              std::vector<std::string>& names) {
   for (const Key& key : section.keys) {

@@ -1,5 +1,5 @@
-// What a deck may hold, as data: keys, sections, and what may be said of them. Each key is declared once, beside its
-// reading (sections/, laws/); checking, defaults and the reference page (inputs/KEYS.md) follow from it.
+// The schema of a deck, as data: keys and sections. Each key is declared once, beside its reader (sections/, laws/);
+// checks, defaults and the reference page (inputs/KEYS.md) follow from it.
 #pragma once
 
 #include <limits>
@@ -28,28 +28,28 @@ struct Range {
   bool with_low = true, with_high = true;
 
   bool contains(double value) const;
-  std::string text() const;  // "> 0", "in (0, 1]", or "" for any number
+  std::string text() const;  // "> 0", "in (0, 1]", or "" if there is no limit
 };
 inline constexpr Range positive{.low = 0, .with_low = false};
 inline constexpr Range not_negative{.low = 0};
 
-// What to tell about a name that is not valid here but that users of other programs will try.
+// A message for a name that is not valid here but that users of other programs will try.
 struct Hint {
   std::string name, text;
 };
 
-// Those that are read are declared as one of keys.hpp, which sets the kind and whether it is required.
+// Keys that are read are declared as a type of keys.hpp, which sets their kind and whether they are required.
 struct Key {
   std::string name;
   Kind kind = Kind::real;
   std::string unit = {};  // "" for none
   Range range = {};       // of every number in the value
   std::vector<std::string> choices = {};
-  std::optional<std::string> fallback = {};  // the default, as a deck would give it
+  std::optional<std::string> fallback = {};  // the default, as text of a deck
   bool required = false;
   std::string meaning = {};
   std::vector<Hint> hints = {};  // about choices
-  std::string no_effect = {};  // why, of keys that other programs need; told where the deck gives another than fallback
+  std::string no_effect = {};  // reason, for keys that other programs need; reported if the value is not `fallback`
 };
 
 inline const char* const any_name = "(any name)";
@@ -59,19 +59,19 @@ struct Section {
   bool required = false;
   std::string meaning = {};
   std::vector<Key> keys = {};
-  std::optional<Key> any_key = {};  // what parameters are that the user names
+  std::optional<Key> any_key = {};  // for parameters that the user names
   std::vector<Section> sections = {};
   std::vector<Hint> hints = {};  // about keys and sections
 
-  // Where the key `selector` has the name of a case, the keys and sections of that case belong to this section too.
+  // If the key `selector` has the name of a case, the keys and sections of that case belong to this section, too.
   std::string selector = {};
   std::vector<Section> cases = {};
 };
 
-// `section` with the key `selector`, whose choices are the names of `cases`. Required but for one with a default.
+// `section` with the key `selector`, whose choices are the names of `cases`. Required unless it has a default.
 Section with_cases(Section section, Key selector, std::vector<Section> cases);
 
-// The sections of a table of cases, whose entries have one each as `schema`.
+// The sections of a table of cases, each in the member `schema` of an entry.
 template <class Entry>
 std::vector<Section> schemas_of(const std::vector<Entry>& entries) {
   std::vector<Section> all;

@@ -1,4 +1,4 @@
-// A section of a deck after checking: its keys as values of their declared types, defaults filled in.
+// A section of a deck after checking: the values of its keys in their declared types, with defaults.
 #pragma once
 
 #include <map>
@@ -12,15 +12,15 @@
 
 namespace strut::deck {
 
-// Nothing where the deck has a value that is among the problems.
+// monostate if the value in the deck is wrong.
 using Value = std::variant<std::monostate, bool, int, double, std::vector<double>, Vector, std::vector<int>,
                            std::string, std::vector<std::string>, Function>;
 
-// To ask for a key or section that the section does not declare is an error of the program, std::logic_error. A
-// section that is missing, what is among the problems, has nothing of what it is asked for.
+// Access to a key or section that is not declared is a programming error, std::logic_error. A missing section, which
+// has been reported, returns empty values.
 class Values {
  public:
-  Values() = default;  // of a missing section
+  Values() = default;  // for a missing section
   Values(std::string name, std::string path, const Section& section)
       : name_(std::move(name)), path_(std::move(path)), section_(&section) {}
 
@@ -28,10 +28,10 @@ class Values {
   const std::string& path() const { return path_; }
   std::string path_to(const Key& key) const;
 
-  bool given(const Key& key) const;  // in the deck, be it right or wrong
-  bool has(const Key& key) const;    // right, or by default
+  bool given(const Key& key) const;  // in the deck, right or wrong
+  bool has(const Key& key) const;    // valid, or by default
 
-  // The value; zero, empty or false where has(key) is false, so that checks can go on after a problem.
+  // The value; zero, empty or false if has(key) is false, so that checks can continue after a problem.
   template <class T>
   T operator[](const TypedKey<T>& key) const {
     const T* value = find<T>(key);
@@ -65,24 +65,24 @@ class Values {
     return all;
   }
 
-  // The case that the selector names; "" where it names none.
+  // The case that the selector names; "" if it names none.
   std::string chosen() const { return case_ ? case_->name : ""; }
 
   const std::vector<Values>& sections() const { return sections_; }
 
-  // A section that the deck has, or that has no required keys: an absent one is then as good as an empty one.
+  // A section that the deck has, or that has no required keys: an absent one then counts as an empty one.
   const Values* find_section(const std::string& name) const;
-  const Values& section(const std::string& name) const;  // an empty one where find_section() finds nothing
+  const Values& section(const std::string& name) const;  // empty if find_section() finds nothing
   bool has_section(const std::string& name) const;       // in the deck
 
-  // All values that have an effect, and the sections that the deck has, as text by their paths: to compare two decks.
+  // All values that have an effect, and the sections of the deck, as text by their paths: to compare two decks.
   static constexpr const char* section_text = "a section";
   void add_texts(std::map<std::string, std::string>& texts) const;
 
-  // To fill it.
+  // To fill it:
   void set(const std::string& key, Value value, bool given) { entries_.push_back({key, std::move(value), given}); }
   void choose(const Section* one) { case_ = one; }
-  const Value* value(const std::string& key) const;  // null where nothing is set
+  const Value* value(const std::string& key) const;  // null if nothing is set
   void add(Values section, bool given) {
     sections_.push_back(std::move(section));
     sections_.back().given_ = given;
@@ -104,7 +104,7 @@ class Values {
     return std::get_if<T>(value(key.name));
   }
 
-  // An expression says where it stands, later in the run, too.
+  // An expression knows its path, for messages later in the run, too.
   template <class T>
   T with_path(T value, const Key& key) const {
     if constexpr (std::is_same_v<T, Function>) value.set_path(path_to(key));
@@ -125,7 +125,7 @@ class Values {
   std::vector<Values> sections_;
 };
 
-// The entry of a table of cases (schemas_of) that the selector names; null where it names none.
+// The entry of a table of cases (schemas_of) that the selector names; null if it names none.
 template <class Entry>
 const Entry* chosen_of(const std::vector<Entry>& entries, const Values& values) {
   for (const Entry& entry : entries) {

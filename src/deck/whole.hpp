@@ -1,4 +1,4 @@
-// The schema of a whole deck, put together from its sections.
+// The schema of a whole deck, assembled from its sections.
 #pragma once
 
 #include "deck/schema.hpp"

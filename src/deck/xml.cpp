@@ -11,7 +11,7 @@ namespace strut::deck {
 
 namespace {
 
-// Teuchos writes file, throw number and condition before its own words: "XML parse error at line 7: …".
+// Teuchos writes file, throw number and condition before its own message: "XML parse error at line 7: …".
 void add_syntax_error(const std::string& what, Problems& problems) {
   const std::string mark = "XML parse error at ";
   const std::size_t begin = what.find(mark);
@@ -50,8 +50,8 @@ void report_duplicates(const List& list, const std::string& path, Problems& prob
   }
 }
 
-// Before Teuchos sees it, which calls itself for each level, and would take a document type's words for text. Quotes
-// hold no tags: a '<' in a value is refused by Teuchos.
+// Checks the text before Teuchos parses it, because Teuchos recurses for each level, and would take the words of a
+// document type for text. Quotes contain no tags: Teuchos rejects a '<' in a value.
 std::string problem_before_parsing(const std::string& text) {
   constexpr int deepest = 100;
   int depth = 0;

@@ -1,6 +1,6 @@
-// The XML of a deck as a tree of named lists. Teuchos parses it; the tree is made here and not by Teuchos' reader of
-// parameter lists, because that one lets "1.5e9x" pass for a number and "1.5" for the integer 1, keeps the last of two
-// parameters of one name, and stops at the first problem.
+// Parses the XML of a deck into a tree of named lists. Teuchos parses it, but the tree is made here, not by Teuchos'
+// reader of parameter lists, which accepts "1.5e9x" as a number and "1.5" as the integer 1, keeps the last of two
+// parameters with one name, and stops at the first problem.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace strut::deck {
 
 struct Parameter {
   std::string name;
-  std::string type;  // "double", "int", "bool", "string", "Array(double)" …, not checked yet
+  std::string type;  // "double", "int", "bool", "string", "Array(double)" …, not yet checked
   std::string value;
 };
 
@@ -23,7 +23,7 @@ struct List {
   std::vector<List> lists;
 };
 
-// Nothing where the text is not well-formed XML; the problem is then among the problems, with its line.
+// nullopt if the text is not well-formed XML; the problem is then reported with its line.
 std::optional<List> parse_xml(const std::string& text, Problems& problems);
 
 }  // namespace strut::deck

@@ -61,7 +61,7 @@ List read_list(const Teuchos::ParameterList& yaml, const std::string& path, Prob
   return list;
 }
 
-// Teuchos wants one key around all. A deck whose sections are the outermost keys is put into one.
+// Teuchos wants one outermost key. A deck whose sections are the outermost keys is wrapped in one.
 const std::string outermost = "deck:\n", indent = "  ";
 
 bool has_one_outermost_key(const std::string& text) {
@@ -84,7 +84,7 @@ std::string within_one_key(const std::string& text) {
   return all;
 }
 
-// "line 2 column 3", as in the text before it was put into one key.
+// "line 2 column 3", as in the text before it was wrapped.
 std::string place_in_deck(const std::string& place, bool was_put_into_one) {
   int line = 0, column = 0;
   if (!was_put_into_one || std::sscanf(place.c_str(), "line %d column %d", &line, &column) != 2) return place;
@@ -92,7 +92,7 @@ std::string place_in_deck(const std::string& place, bool was_put_into_one) {
          std::to_string(std::max(1, column - static_cast<int>(indent.size())));
 }
 
-// Of Teuchos' many lines: "Parser failure at line 2 column 3 of …" and, if it has one, its own last word.
+// Extracts from Teuchos' many lines: "Parser failure at line 2 column 3 of …" and, if it has one, its own last word.
 void add_syntax_error(const std::string& what, bool was_put_into_one, Problems& problems) {
   const std::string mark = "Parser failure at ";
   const std::size_t begin = what.find(mark);
@@ -113,7 +113,7 @@ void add_syntax_error(const std::string& what, bool was_put_into_one, Problems& 
       "text with aprepro's {…} is not read)");
 }
 
-// Teuchos and read_list call themselves for each level.
+// Teuchos and read_list recurse for each level.
 bool is_too_deep(const std::string& text) {
   constexpr int deepest = 100;
   int brackets = 0, most = 0;

@@ -1,4 +1,4 @@
-// The YAML of a deck, as Peridigm's newer decks are written, as a tree of named lists. Teuchos parses it.
+// Parses the YAML of a deck (Peridigm's newer decks) into a tree of named lists. Teuchos parses it.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace strut::deck {
 
-// Nothing where the text is not well-formed YAML; the problem is then among the problems.
+// nullopt if the text is not well-formed YAML; the problem is then reported.
 std::optional<List> parse_yaml(const std::string& text, Problems& problems);
 
-// The same of a text that is XML or YAML.
+// The same for a text in XML or YAML.
 std::optional<List> parse_xml_or_yaml(const std::string& text, Problems& problems);
 
 }  // namespace strut::deck

@@ -1,4 +1,4 @@
-// FNV-1a of values, word by word: a disk or a copy that has changed a bit is found out, and a file that is another.
+// FNV-1a checksum of values, word by word: detects a changed bit on a disk or in a copy, and exchanged files.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class CheckSum {
     for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   }
 
-  double value() const { return static_cast<double>(sum_ >> 12); }  // so much as a double holds exactly
+  double value() const { return static_cast<double>(sum_ >> 12); }  // the bits that a double holds exactly
 
  private:
   void add(std::uint64_t word) { sum_ = (sum_ ^ word) * 0x100000001b3u; }

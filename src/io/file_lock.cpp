@@ -36,7 +36,7 @@ void check_not_held(const std::filesystem::path& path) {
   if (is_held) fail_as_held(path);
 }
 
-// A lock of the open file, not of the process: libraries that open and close the same file do not let it go.
+// Locks the open file, not the process, so that libraries that open and close the same file do not release the lock.
 FileLock::FileLock(const std::filesystem::path& path, File file)
     : handle_(::open(path.c_str(), O_RDWR | O_CLOEXEC | (file == File::made ? O_CREAT : 0), 0666)) {
   if (handle_ < 0) {

@@ -1,16 +1,16 @@
-// One run a file.
+// A lock that allows only one run per file.
 #pragma once
 
 #include <filesystem>
 
 namespace strut::io {
 
-// Holds a file against other runs until it goes out of scope or the process ends,
-// however it ends. Throws Error: another run holds it, it cannot be created, or is not there. File systems without
-// locks hold nothing.
+// Locks a file against other runs until it goes out of scope or the process ends in any way. Throws Error if
+// another run holds it, if it cannot be created, or if it does not exist. File systems without locks lock
+// nothing.
 class FileLock {
  public:
-  enum class File { made, there };  // made if it is not there
+  enum class File { made, there };  // created if it does not exist
   explicit FileLock(const std::filesystem::path& path, File file = File::made);
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
@@ -20,7 +20,7 @@ class FileLock {
   int handle_ = -1;
 };
 
-// Throws Error: another run holds it. Nothing is held or made.
+// Throws Error if another run holds it. Locks and creates nothing.
 void check_not_held(const std::filesystem::path& path);
 
 }  // namespace strut::io

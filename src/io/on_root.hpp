@@ -1,4 +1,4 @@
-// Rank 0's part of what all ranks do.
+// Actions of rank 0 within collective operations.
 #pragma once
 
 #include <exception>
@@ -9,8 +9,8 @@
 
 namespace strut::io {
 
-// Actions one after the other on rank 0. After one that fails rank 0 does no more of them but goes on taking part in
-// what is collective between them, so that no rank waits for it; raise() then throws Error on all ranks.
+// Runs actions one after the other on rank 0. After one that fails, rank 0 skips the rest but still takes part in the
+// collective calls between them, so that no rank waits for it; raise() then throws Error on all ranks.
 class OnRoot {
  public:
   explicit OnRoot(const Communicator& communicator) : communicator_(communicator) {}

@@ -15,7 +15,7 @@ std::vector<std::int64_t> slice_counts(std::int64_t total, int ranks) {
   return counts;
 }
 
-// The last one whose slice begins there or before.
+// The last rank whose slice begins at this number or before.
 int slice_owner(std::int64_t total, int ranks, std::int64_t number) {
   return static_cast<int>(((number + 1) * ranks - 1) / total);
 }

@@ -1,4 +1,4 @@
-// How points stand in files, and how on ranks: by number in slices, one after the other, and as the partition has it.
+// Redistributes points between slices, in the order of their numbers as in files, and the partition of the ranks.
 #pragma once
 
 #include <cstdint>
@@ -10,43 +10,43 @@
 
 namespace strut::io {
 
-// Of `total` numbers 0, 1, … the slice of each rank: as many for each, to one.
+// The size of each rank's slice of the numbers 0, 1, … `total` − 1: equal to within one.
 std::vector<std::int64_t> slice_counts(std::int64_t total, int ranks);
 // The first number of the slice of `rank`.
 std::int64_t slice_begin(std::int64_t total, int ranks, int rank);
-// The rank whose slice has the number.
+// The rank whose slice contains the number.
 int slice_owner(std::int64_t total, int ranks, std::int64_t number);
 
-// Numbered things (points, nodes) that ranks have in any order, and the same in slices: each rank also keeps those
-// whose numbers are in its slice, in ascending order. Values travel either way between both without any rank having
-// more than its points and its slice.
+// Numbered items (points, nodes) that ranks have in any order, and the same items in slices: each rank also holds the
+// items with the numbers of its slice, in ascending order. Values are exchanged in both directions without any rank
+// having more than its items and its slice.
 class Slices {
  public:
-  // Collective. `ids`: numbers of this rank's, 0 or more; several ranks may have the same. `total`: one more than the
-  // largest may be; found where it is not given.
+  // Collective. `ids`: numbers of this rank's items, 0 or more; several ranks may have the same one. `total`: one more
+  // than the largest possible number; found if it is not given.
   Slices(const Communicator& communicator, std::span<const std::int64_t> ids, std::int64_t total = 0);
 
-  const std::vector<std::int64_t>& ids() const { return ids_; }        // of this rank's slice
-  const std::vector<std::int64_t>& counts() const { return counts_; }  // in the slice of each rank
-  std::int64_t first() const;                                          // how many are in the slices before
+  const std::vector<std::int64_t>& ids() const { return ids_; }        // in this rank's slice
+  const std::vector<std::int64_t>& counts() const { return counts_; }  // number in the slice of each rank
+  std::int64_t first() const;                                          // number in the slices before
   std::int64_t size() const;                                           // on all ranks
 
-  // Collective. Of `width` values for each of this rank's things, in the order of the ids given, the one of number
-  // `component`; those of the slice. Where several ranks have the same thing they must give the same.
+  // Collective. Of `width` values per item of this rank, in the order of the ids, returns value `component` for the
+  // items of the slice. If several ranks have the same item, they must give the same value.
   template <class T>
   std::vector<T> to_slices(std::span<const T> values, int width = 1, int component = 0) const {
     std::vector<T> result(ids_.size());
     place<T>(arriving(values, width, component), places_, result, 1, 0);
     return result;
   }
-  // Collective. All of them, one component at a time: so what travels is small beside them.
+  // Collective. All components, one at a time, so that messages are small compared with the data.
   template <class T>
   std::vector<T> rows_to_slices(std::span<const T> values, int width) const {
     std::vector<T> result(ids_.size() * static_cast<std::size_t>(width));
     for (int c = 0; c < width; ++c) place<T>(arriving(values, width, c), places_, result, width, c);
     return result;
   }
-  // Collective. The way back; `result` has room for `width` values for each of this rank's things.
+  // Collective. The opposite direction; `result` has `width` values for each item of this rank.
   template <class T>
   void rows_from_slices(std::span<const T> values, int width, std::span<T> result) const {
     for (int c = 0; c < width; ++c) {
@@ -77,9 +77,9 @@ class Slices {
   }
 
   Communicator communicator_;
-  std::vector<int> leaving_;                         // this rank's things, as they leave
-  std::vector<int> places_;                          // in the slice, of those that arrive
-  std::vector<std::int64_t> to_ranks_, from_ranks_;  // how many
+  std::vector<int> leaving_;                         // this rank's items, in the order of sending
+  std::vector<int> places_;                          // indices in the slice of received items
+  std::vector<std::int64_t> to_ranks_, from_ranks_;  // numbers of items
   std::vector<std::int64_t> ids_, counts_;
 };
 

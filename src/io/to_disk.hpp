@@ -4,7 +4,7 @@
 
 namespace strut::io {
 
-// What has been written to the file so far is on the disk when this returns: a power cut does not take it. Throws
+// Forces everything written to the file so far to the disk, so that a power failure does not lose it. Throws
 // Error.
 void force_to_disk(const std::filesystem::path& path);
 

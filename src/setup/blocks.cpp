@@ -47,16 +47,16 @@ std::optional<DamageModel> damage_of(const deck::Deck& deck, const deck::Block& 
   return deck.damage_models[*section.damage_model].model;
 }
 
-// Where bonds break by their stretch, springs as soft as they are elsewhere would let the tip of a crack open by
-// motions that no point's deformation gradient sees: it would grow at half the fracture energy (inputs/fracture).
+// If bonds break by their stretch, springs of the usual stiffness would let the tip of a crack open by motions that no
+// point's deformation gradient sees, and it would grow at half the fracture energy (inputs/fracture).
 Stabilization stabilization_of(const deck::Material& material, const std::optional<DamageModel>& damage) {
-  constexpr double usual = 0.01, if_bonds_break = 0.3;  // as the key says (deck/sections/materials.cpp)
+  constexpr double usual = 0.01, if_bonds_break = 0.3;  // as documented for the key (deck/sections/materials.cpp)
   const bool breaks_by_stretch = damage && !damage->ductility;
   return with_coefficient(material.stabilization,
                           material.stabilization_coefficient.value_or(breaks_by_stretch ? if_bonds_break : usual));
 }
 
-// The metal of a block whose points may fail is a law of its own; the deck has been asked whether there is one.
+// The law of a block's metal; points that may fail have a law of their own, whose existence the deck's check ensures.
 materials::AnyLaw law_of(const deck::Material& material, const deck::Block& section,
                          const std::optional<DamageModel>& damage) {
   materials::AnyLaw law =
@@ -87,7 +87,7 @@ std::vector<BlockMaterial> block_materials(const deck::Deck& deck, const PointCl
   return materials;
 }
 
-// Sections that are bodies of their own are numbered by their place, from 1; all others are body 0.
+// Sections that are separate bodies are numbered by their index, from 1; all others are body 0.
 std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cloud) {
   std::vector<BlockBonds> bonds;
   for (const std::string& name : cloud.block_names) {
@@ -98,7 +98,7 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
                                             : BlockBonds(*section->horizon, body));
     const deck::Material& material = deck.materials[section->material];
     const bool by_touch = is_quadratic(material) && cloud.joined;
-    const bool is_alike = deck.discretization.influence == Influence::one;  // others fade with the distance
+    const bool is_alike = deck.discretization.influence == Influence::one;  // others decrease with distance
     bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
     bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
     const bool any = bonds.back().touching || bonds.back().through_material;
@@ -110,9 +110,9 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
   return bonds;
 }
 
-// The mean spacing of each block's points over all ranks, m; 0 where it has none.
+// The mean spacing of each block's points over all ranks, m; 0 if it has none.
 std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& communicator) {
-  std::vector<double> sums(2 * cloud.block_names.size(), 0);  // spacings and number of points of each block
+  std::vector<double> sums(2 * cloud.block_names.size(), 0);  // sum of spacings and number of points for each block
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     sums[2 * cloud.blocks[i]] += cloud.spacings[i];
     sums[2 * cloud.blocks[i] + 1] += 1;
@@ -123,12 +123,12 @@ std::vector<double> mean_spacings(const PointCloud& cloud, const Communicator& c
   return result;
 }
 
-// A horizon in m that is smaller than the spacing, or a hundred times as large, is a slip of units.
+// Reports horizons in m that are smaller than the spacing or very much larger: an error of units.
 void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
                     deck::Problems& problems) {
   for (std::size_t b = 0; b < cloud.block_names.size(); ++b) {
     const deck::Block* section = section_of(deck, cloud.block_names[b]);
-    if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks tells of blocks without a section
+    if (!section || !section->horizon || spacings[b] == 0) continue;  // check_blocks reports blocks without a section
     if (*section->horizon > spacings[b] && *section->horizon < 20 * spacings[b]) continue;
     std::ostringstream text;
     text << *section->horizon << " m does not fit the points of block " << cloud.block_names[b]
@@ -141,7 +141,7 @@ void check_horizons(const deck::Deck& deck, const PointCloud& cloud, const std::
 std::string mass_of_shared_nodes(const Body& body, const std::vector<double>& taken) {
   constexpr double worth_telling = 0.01;
   const std::size_t blocks = body.blocks.size();
-  double more = 0;  // kg
+  double more = 0;  // kg, mass by which the points exceed the mesh
   for (std::size_t of_point = 0; of_point < blocks && !taken.empty(); ++of_point) {
     for (std::size_t of_element = 0; of_element < blocks; ++of_element) {
       more += taken[of_point * blocks + of_element] *

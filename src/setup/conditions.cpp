@@ -17,7 +17,7 @@ namespace strut {
 
 namespace {
 
-// The points of this rank in a node set, a block, or all, by a name that has been checked.
+// This rank's points of a node set, a block, or all; the name has been checked.
 std::vector<int> points_of(const PointCloud& cloud, const std::string& set) {
   const PointGroup group(cloud, set, "Node Set");
   std::vector<int> points;
@@ -37,7 +37,7 @@ template <ConditionType Type>
 void put(const Type& prototype, const std::string& name, std::vector<int> points, int place, double t, Scene& scene) {
   Type condition = prototype.on(std::move(points), place, scene.body);
   if constexpr (std::is_same_v<Type, RigidTool>) {
-    if (condition.free) condition.free->time = t;  // it stands until then
+    if (condition.free) condition.free->time = t;  // it rests until then
     condition.set_reaches(t, scene.body);
     scene.tools.push_back({name, condition.touched});
   }
@@ -49,8 +49,8 @@ void put(const ActsOnce auto& prototype, const std::string&, const std::vector<i
   prototype.set_initial_state(points, t, scene.body);
 }
 
-// A plane whose points other conditions hold in directions that are not across its normal pushes them in the directions
-// that these leave free: a part for each.
+// If other conditions hold points of a plane in directions not orthogonal to its normal, the plane pushes these points
+// in the directions that are left free: a separate condition for each such direction.
 void put(const SymmetryPlane& prototype, std::vector<int> points, int place, const SharedPoints& shared, Scene& scene) {
   SymmetryPlane whole = prototype.on(std::move(points), place, scene.body);
   std::vector<SymmetryPlane> parts;
@@ -74,7 +74,7 @@ void put(const SymmetryPlane& prototype, std::vector<int> points, int place, con
   for (SymmetryPlane& part : parts) scene.conditions.add(std::move(part));
 }
 
-// `place`: of the condition in the deck.
+// `place`: index of the condition in the deck.
 void add_condition(const deck::Condition& condition, int place, std::vector<int> points, const SharedPoints& shared,
                    double t, Scene& scene) {
   const auto add = [&]<class Type>(const Type& prototype) {
@@ -106,7 +106,7 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
   }
   communicator.sum(counts);
   for (std::size_t c = 0; c < counts.size(); ++c) {
-    const std::string& set = known[c]->node_set;  // whose expression may be among the problems
+    const std::string& set = known[c]->node_set;  // an error in its expression may have been reported
     if (counts[c] > 0 || problems.about("Node Sets > " + set) || problems.about("Boundary Conditions > " + set))
       continue;
     problems.add(path(*known[c]), "'" + set + "' holds no point");
@@ -115,14 +115,14 @@ void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Com
 
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator) {
   deck::Problems problems;
-  if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // once more
+  if (scene.dropped.points > 0) check_conditions(deck, scene.body.domain.cloud, communicator, problems);  // again
   PointsOfConditions points;
   for (const deck::Condition& one : deck.conditions) points.push_back(points_of(scene.body.domain.cloud, one.node_set));
   scene.warnings += let_the_last_count(deck, scene.body, points);
   check_contradictions(deck, points, scene.body, problems);
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   scene.warnings += sudden_motions(deck, points, scene.body);
-  // Who is held: a body that goes on behind a plane as its mirror image is so at points on the plane alone.
+  // Held points: for a body that continues behind a plane as its mirror image, only the points on the plane.
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);
     if (plane) points[c] = plane->on(std::move(points[c]), static_cast<int>(c), scene.body).points;

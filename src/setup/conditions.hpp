@@ -7,11 +7,11 @@
 
 namespace strut {
 
-// Collective. Every condition names a set that holds a point of some rank.
+// Collective. Checks that every condition names a set that contains a point of some rank.
 void check_conditions(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems);
 
-// Collective. Throws Error on all ranks for what only mesh and deck together show.
+// Collective. Throws Error on all ranks for errors that only mesh and deck together show.
 void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& communicator);
 
 }  // namespace strut

@@ -27,7 +27,7 @@ std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const 
     return static_cast<int>(std::find(cloud.block_names.begin(), cloud.block_names.end(), name) -
                             cloud.block_names.begin());
   };
-  std::map<std::pair<int, int>, contact::Model> models;  // the first entry of a pair holds
+  std::map<std::pair<int, int>, contact::Model> models;  // the first entry of a pair counts
   for (const deck::Interaction& one : deck.interactions) {
     if (!one.first_block.empty())
       models.emplace(std::minmax({block(one.first_block), block(one.second_block)}), model(one));

@@ -10,13 +10,13 @@
 
 namespace strut {
 
-// Every interaction names blocks of the mesh.
+// Checks that every interaction names blocks of the mesh.
 void check_interactions(const deck::Deck& deck, const PointCloud& cloud, deck::Problems& problems);
 
-// Interactions of blocks: the named ones, then every other pair where one names none.
+// Interactions of blocks: first the named ones, then all other pairs if an interaction names none.
 std::vector<contact::Interaction> interactions_of(const deck::Deck& deck, const PointCloud& cloud);
 
-// What contact between surfaces takes from the two bodies: their stiffness and spacing.
+// Sets the data of both bodies in contact laws between surfaces: stiffness and spacing.
 void set_surface_laws(const Body& body, std::vector<contact::Interaction>& interactions);
 
 }  // namespace strut

@@ -14,17 +14,17 @@ namespace {
 
 constexpr double round_off = 1e-9;  // of directions and values
 
-// Two directions this near to each other are one: what is across them would have to move a hundred times as fast.
+// Directions closer than this count as one: motion orthogonal to them would have to be a hundred times as fast.
 constexpr double smallest_part = 0.01;
 
-// What several conditions say is compared at so many times of a run; displacements and velocities, which are summed up
-// for it, to this part.
+// The values of several conditions are compared at this number of times in a run. If displacements and velocities are
+// mixed, velocities are integrated, and compared with this relative tolerance.
 constexpr int looks = 16;
 constexpr double of_sums = 1e-3;
 
 using Holds = std::vector<Hold>;
 
-// The holds that a condition has at each of its points.
+// The holds of a condition at each of its points.
 Holds holds_of(const deck::Condition& condition, int place) {
   Holds holds;
   if (const auto* motion = std::get_if<PrescribedMotion>(&condition.kind)) {
@@ -78,7 +78,7 @@ SharedPoints shared(const std::vector<Holds>& holds, const PointsOfConditions& p
   return all;
 }
 
-// The times at which the values of a run are compared.
+// The times in a run at which values are compared.
 struct Times {
   double start, end;
   int count;
@@ -86,7 +86,7 @@ struct Times {
   double middle(int k) const { return start + (k + 0.5) * step(); }
 };
 
-// What the hold asks for at the end of each interval between the times: velocities in their middle, or displacements.
+// Targets of a hold at the end of each interval: velocities at mid-interval, or displacements.
 std::vector<double> targets(const Hold& hold, const Vector& X, const Times& times, bool as_displacements) {
   std::vector<double> all(times.count, 0);
   if (!hold.value) return all;
@@ -103,9 +103,9 @@ std::vector<double> targets(const Hold& hold, const Vector& X, const Times& time
   return all;
 }
 
-using Pair = std::pair<int, int>;  // of conditions
+using Pair = std::pair<int, int>;  // two conditions
 
-// The earlier condition whose direction is nearest to that of the hold.
+// The hold's condition, with the earlier one whose direction is nearest to that of the hold.
 Pair pair_of(const Holds& holds, std::size_t h) {
   double nearest = -1;
   int other = holds[h].condition;
@@ -116,8 +116,8 @@ Pair pair_of(const Holds& holds, std::size_t h) {
   return std::minmax(other, holds[h].condition);
 }
 
-// The two conditions that leave the point no motion, if any do: one direction after the other is held, in what the ones
-// before leave free.
+// The two conditions that leave the point no motion, if any do: the directions are held one after the other, each in
+// the space that the earlier ones leave free.
 std::optional<Pair> contradiction(const Holds& holds, const Vector& X, const Times& times) {
   const auto is_velocity = [](const Hold& one) { return one.is_velocity; };
   const bool as_displacements = !std::all_of(holds.begin(), holds.end(), is_velocity);
@@ -148,11 +148,11 @@ bool depends_on_place(const Holds& holds) {
                      [](const Hold& one) { return one.value && one.value->depends_on_place(); });
 }
 
-// By pairs of conditions, the points at which they contradict each other.
+// For each pair of conditions, the points at which they contradict each other.
 std::map<Pair, std::vector<int>> contradicting_points(const SharedPoints& shared, const Body& body,
                                                       const Times& times) {
   std::map<Pair, std::vector<int>> all;
-  std::map<std::vector<int>, std::optional<Pair>> known;  // by conditions, where values are the same everywhere
+  std::map<std::vector<int>, std::optional<Pair>> known;  // by conditions, for values independent of position
   for (const auto& [i, holds] : shared) {
     std::vector<int> conditions;
     for (const Hold& one : holds) conditions.push_back(one.condition);
@@ -220,7 +220,7 @@ Vector push_of_plane(const std::vector<Hold>& holds, int condition) {
 
 namespace {
 
-// What two conditions have in common if they are of one kind: the axes. Else none.
+// The condition as one of type Type, else null.
 template <class Type>
 const Type* of_kind(const deck::Condition& condition) {
   return std::get_if<Type>(&condition.kind);

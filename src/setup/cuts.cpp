@@ -14,7 +14,7 @@ namespace strut {
 
 namespace {
 
-// What a step of a point of each block takes, in ns, roughly (tests/bench): its bonds and its update.
+// Approximate cost of a step of a point in each block, ns (tests/bench): its bonds and its update.
 std::vector<double> step_costs(const deck::Deck& deck, const PointCloud& cloud, std::vector<double> costs) {
   constexpr double update = 80, state = 150;
   for (std::size_t b = 0; b < costs.size(); ++b) {
@@ -35,9 +35,9 @@ std::vector<Eigen::AlignedBox3d> boxes_of_blocks(const PointCloud& cloud, const 
   return boxes;
 }
 
-// The axis along which two bodies lie one after the other, if there is one: they will meet on this way.
+// The axis along which two bodies lie one after the other, if there is one: they will meet along it.
 std::optional<int> way_between(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
-  constexpr double hardly = 0.1;  // of the smaller one's length
+  constexpr double hardly = 0.1;  // fraction of the smaller length that may overlap
   if (a.isEmpty() || b.isEmpty()) return std::nullopt;
   const Vector common = a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min());
   int axis = 0;
@@ -45,10 +45,10 @@ std::optional<int> way_between(const Eigen::AlignedBox3d& a, const Eigen::Aligne
                                                                                        : std::nullopt;
 }
 
-// Collective. A cut between two bodies that meet would leave all of the contact to one rank, and a cut along their way
-// shares it: a length along the way counts half. A cut across the pencils of a lattice leaves parts of them, with the
-// work of whole ones, to both ranks (an eighth of a step of 46³ points), one between planes twice the sums of some (2
-// %).
+// Collective. A cut between two bodies that meet would give all of the contact to one rank; a cut along their direction
+// of approach divides it, so lengths along that direction count half. A cut across the pencils of a lattice leaves
+// parts of pencils, each with the work of a whole one, on both ranks (an eighth of a step for 46³ points); a cut
+// between planes makes both ranks compute some sums (2 %).
 Vector lengths_for_cuts(const std::vector<contact::Interaction>& interactions, const std::vector<BlockBonds>& bonds,
                         bool by_stencils, const PointCloud& cloud, const Communicator& communicator) {
   const Vector alone = by_stencils ? Vector(0.7, 1, 0.95) : Vector(1, 1, 1);

@@ -1,4 +1,4 @@
-// What a partition weighs: the cost of each block's points, and along which axes cuts are cheap.
+// Partition weights: the cost of each block's points, and the axes along which cuts are cheap.
 #pragma once
 
 #include "deck/deck.hpp"
@@ -7,7 +7,7 @@
 
 namespace strut {
 
-// Collective. `spacings`: the mean one of each block, m.
+// Collective. `spacings`: mean spacing of each block, m.
 Cuts cuts(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
           const Communicator& communicator);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_lost = 0.01;  // of all points
 
-// So many points are in this piece, and were in that one before.
+// Number of points that are in the piece `now` and were in the piece `before`.
 struct Part {
   std::int64_t before, now, points;
 };
@@ -52,7 +52,7 @@ PiecesOfPoints pieces_of_points(const Domain& domain) {
   return all;
 }
 
-// Counted on rank 0.
+// The pieces are counted on rank 0.
 void take_pieces(const Domain& left, const PiecesOfPoints& before, Dropped& dropped) {
   const std::vector<Part> mine = parts_of_this_rank(left, before);
   std::map<std::int64_t, std::map<std::int64_t, std::int64_t>> pieces;

@@ -14,7 +14,7 @@ namespace strut {
 
 namespace {
 
-// Owned points whose family cannot carry a shape tensor; `text` tells of the first.
+// Owned points whose family has no invertible shape tensor; `text` describes the first one.
 std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain, std::string& text) {
   std::vector<int> found;
   std::vector<Formulation> formulations;  // of blocks
@@ -23,10 +23,10 @@ std::vector<int> degenerate_points(const deck::Deck& deck, const Domain& domain,
   }
   for (int i = 0; i < domain.owned; ++i) {
     const LatticeFamilies* stencil = domain.families.lattice(i);
-    if (stencil && stencil->spans_space(i)) continue;  // without a sum over the family
+    if (stencil && stencil->spans_space(i)) continue;  // needs no sum over the family
     const Formulation formulation = formulations[domain.cloud.blocks[i]];
     if (formulation == Formulation::ordinary && domain.families.size(i) > 0)
-      continue;  // chains and pairs are solids, too
+      continue;  // an ordinary solid may consist of chains and pairs
     const char* reason = degeneracy(domain.families.size(i), family_spread(domain, i));
     if (!reason && formulation == Formulation::quadratic && !spans_cell(domain, i)) reason = "they hardly span space";
     if (!reason) continue;
@@ -61,7 +61,7 @@ void refuse_degenerate(std::int64_t count, std::string text, const Communicator&
 
 }  // namespace
 
-// Families of the partitioned cloud, less the points that the deck lets go. Dropping one may expose others.
+// Builds the families of the partitioned cloud and drops degenerate points. Dropping one may make others degenerate.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
                                         const Communicator& communicator, Dropped& dropped) {
   const Timed timed(phase("Families"));

@@ -1,4 +1,4 @@
-// Families of the points that are left when those are dropped that cannot carry a shape tensor.
+// Families of the points that remain when those without an invertible shape tensor are dropped.
 #pragma once
 
 #include "deck/deck.hpp"
@@ -7,9 +7,9 @@
 
 namespace strut {
 
-// Collective. Families of the partitioned cloud, less the points that the deck lets go; `dropped` tells of these.
-// `mirrors`: by which bodies go on.
-// Throws Error on all ranks where the deck does not let them go.
+// Collective. Families of the partitioned cloud, without the points that the deck allows to be dropped; `dropped`
+// describes these. `mirrors`: planes of bodies with mirror images. Throws Error on all ranks if the deck does not allow
+// it.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
                                         const Communicator& communicator, Dropped& dropped);
 

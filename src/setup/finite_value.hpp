@@ -1,4 +1,4 @@
-// Values of a deck's expressions, which must be numbers.
+// Values of a deck's expressions, which must be finite.
 #pragma once
 
 #include "base/math/function.hpp"
@@ -6,8 +6,8 @@
 
 namespace strut {
 
-// The value at X (m) and t (s); throws Error where the arithmetic has no result (the root of a negative number, a
-// division by zero).
+// The value at X (m) and t (s). Throws Error if it is not finite (the root of a negative number, a division by
+// zero).
 double finite_value(const Function& function, const Vector& X, double t);
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// Points of all ranks of which something is told: how many there are, and where one of them is.
+// Points over all ranks that a message describes: their number, and the position of one of them.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct FoundPoints {
   Vector one = Vector::Zero();  // the reference position of the one with the least id, m
 };
 
-// Collective. Of each of these lists of owned points; there are as many lists on every rank.
+// Collective. One result for each list of owned points; every rank has the same number of lists.
 std::vector<FoundPoints> found_points(const Body& body, const std::vector<std::vector<int>>& lists);
 
 std::string place_text(const Vector& place);  // "(x, y, z) m"

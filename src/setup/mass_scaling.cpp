@@ -22,10 +22,10 @@ void scale(const std::vector<double>& densities, const std::vector<double>& boun
   }
 }
 
-// The highest bound of a point that a critical time step of `wanted` allows; 0 where it is that long without.
+// The highest frequency bound (1/s) for a critical time step of `wanted` (s); 0 if it is as long without scaling.
 double highest_for(double wanted, Body& body) {
   constexpr int most_trials = 20;
-  constexpr double lower = 0.99;  // each trial a hundredth below what the one before calls for
+  constexpr double lower = 0.99;  // factor by which each trial undershoots the estimate
   const std::vector<double> densities = body.density, bounds = frequency_bounds(body);
   advance_stress(body, 0, false);
   CriticalTimeStep estimate;
@@ -46,7 +46,7 @@ struct Added {
   double share() const { return mass > 0 ? added / mass : 0; }
 };
 
-// Of each block, and of all at last.
+// The added mass of each block, then of all.
 std::vector<Added> added_to(const Body& body) {
   const std::size_t blocks = body.blocks.size();
   std::vector<double> sums(4 * (blocks + 1), 0);

@@ -1,4 +1,4 @@
-// Mass scaling: mass for the points that would make the time step shorter than the deck wants it.
+// Mass scaling: adds mass to points that would make the time step shorter than the deck allows.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace strut {
 
-// Collective; of a body at rest that no step was made of. Scales the masses where the deck asks for it. Returns the
-// frequency that no point is to exceed, 1/s: 0 where nothing is scaled. `report`: the mass that was added, a line for
-// each block. Throws Error on all ranks where it would be more than the deck allows.
+// Collective; for a body at rest before its first step. Scales the masses if the deck asks for it. Returns the largest
+// frequency bound allowed for a point, 1/s; 0 if nothing is scaled. `report`: the added mass, a line for each block.
+// Throws Error on all ranks if it exceeds the limit in the deck.
 double scale_masses(const deck::Deck& deck, Body& body, std::string& report);
 
-// The same by the frequency that is known: a point whose bound (mechanics/frequency_bound.hpp) is higher has its
-// density times the square of the ratio.
+// The same with a given bound: the density of a point with a higher bound (mechanics/frequency_bound.hpp) is multiplied
+// by the square of the ratio.
 void scale_masses(double highest, Body& body);
 
 }  // namespace strut

@@ -23,7 +23,7 @@ namespace {
 
 const std::string mesh_key = "Discretization > Input Mesh File";
 
-// Whether anything meets the faces of cells: points at nodes lie on them.
+// True if tools or surface contact need the faces of cells; points at nodes lie on them.
 bool meets_faces(const deck::Deck& deck) {
   const auto is_tool = [](const deck::Condition& one) { return std::holds_alternative<RigidTool>(one.kind); };
   const auto is_of_surfaces = [](const deck::ContactModel& one) {
@@ -34,14 +34,14 @@ bool meets_faces(const deck::Deck& deck) {
           std::any_of(deck.contact_models.begin(), deck.contact_models.end(), is_of_surfaces));
 }
 
-// Whether anything needs to know what the points are cells of.
+// True if anything needs the shapes of cells.
 bool needs_cells(const deck::Deck& deck) {
   return std::any_of(deck.materials.begin(), deck.materials.end(), is_quadratic) || meets_faces(deck) ||
          std::any_of(deck.blocks.begin(), deck.blocks.end(),
                      [](const deck::Block& block) { return !block.across_voids.value_or(true); });
 }
 
-// The points with the numbers; how many.
+// Marks the points with these numbers; returns how many were found.
 std::size_t mark_numbers(const std::vector<int>& numbers, std::uint64_t bit, PointCloud& cloud) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -64,7 +64,7 @@ std::string path_of(const deck::NodeSet& set) {
   return (set.numbers ? "Boundary Conditions > " : "Node Sets > ") + set.name;
 }
 
-// A set that the mesh, or the deck, has already: which of both is meant is not known.
+// Reports a set that the mesh or the deck has already, because the name would be ambiguous.
 bool is_taken(const deck::NodeSet& set, const PointCloud& cloud, std::size_t sets_of_mesh, deck::Problems& problems) {
   const auto place = [&set](const std::vector<std::string>& names) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), set.name) - names.begin());
@@ -81,7 +81,7 @@ bool is_taken(const deck::NodeSet& set, const PointCloud& cloud, std::size_t set
   return false;
 }
 
-// Collective. Every number of a set is that of a point.
+// Collective. Checks that every number of a set belongs to a point.
 void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud, const Communicator& communicator,
                       deck::Problems& problems) {
   const std::vector<int>& numbers = *set.numbers;
@@ -93,8 +93,8 @@ void add_numbered_set(const deck::NodeSet& set, std::uint64_t bit, PointCloud& c
                                  "; it has " + std::to_string(points) + " points");
 }
 
-// Collective. The first point, in the order of the file, whose place is not known to a hundredth of its cell's edge;
-// "" where there is none.
+// Collective. The first point, in the order of the file, whose position is not resolved to a hundredth of its cell's
+// edge; "" if there is none.
 std::string unresolved_place(const PointCloud& cloud, const Communicator& communicator) {
   constexpr double least = 0.01, none = std::numeric_limits<double>::infinity();
   const auto round_off = [&](std::size_t i) {
@@ -163,7 +163,7 @@ void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communi
   const bool is_grid = deck.discretization.type == deck::MeshType::grid;
   if (!unresolved.empty()) return problems.add(is_grid ? "Discretization" : mesh_key, unresolved);
   if (is_grid || (cloud.at == PointsAt::nodes && !problems.empty())) return;
-  // Cells never overlap. Nodes may be at one place, of bodies that touch and of the faces of a crack, where no bond is
+  // Cells never overlap. Nodes may coincide, in bodies that touch and at the faces of a crack, if there is no bond
   // between them.
   std::vector<BlockBonds> bonds;
   if (cloud.at == PointsAt::nodes) bonds = block_bonds(deck, cloud);

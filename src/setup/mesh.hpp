@@ -1,4 +1,4 @@
-// The mesh that a deck names, and the node sets that it makes.
+// Reads the mesh of a deck, and makes the deck's node sets.
 #pragma once
 
 #include "deck/deck.hpp"
@@ -10,14 +10,14 @@ namespace strut {
 // Collective. The points of the mesh or of the built-in grid.
 PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator);
 
-// Collective. Names of the mesh that mean something else in a deck.
+// Collective. Reports names of the mesh that have another meaning in a deck.
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems);
 
-// Collective. Points that are at one place, and places that numbers do not resolve.
+// Collective. Reports coincident points, and positions that the floating-point numbers do not resolve.
 void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator,
                   deck::Problems& problems);
 
-// Collective. The node sets that the deck makes, added to those of the mesh.
+// Collective. Adds the node sets of the deck to those of the mesh.
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,
                    deck::Problems& problems);
 

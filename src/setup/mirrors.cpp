@@ -15,19 +15,19 @@ namespace strut {
 
 namespace {
 
-// Of a cell at the plane, how far its point is from it, by how far the cell reaches beyond the point in the direction
-// of the normal: a hexahedron 1, a tetrahedron 0.75 with a face on the plane, 2.2 with a corner; one layer behind 3.
+// Distance from the plane to the point of a cell at it, over the extent of the cell beyond its point along the normal:
+// 1 for a hexahedron, 0.75 for a tetrahedron with a face on the plane, 2.2 with a corner; 3 one layer behind.
 constexpr double nearest = 0.5, farthest_of_nearest = 1.5, farthest = 2.6;
 
-// What the points of a body say of a plane.
+// Statistics of the points of a body relative to a plane.
 struct Place {
-  double points = 0, in_set = 0;                  // how many
-  double before = 0, behind = 0;                  // how many are off the plane, on the sides of the normal
-  double distances = 0;                           // of those in the set, their sum; of cells in their reach
-  double least = HUGE_VAL, most = 0, most_m = 0;  // of those in the set; in m
-  double off = 0;                                 // of those in the set, off the plane
-  double cut = 0;                                 // cells of their own that count the plane as surface
-  double free = 0;                                // at the plane, but not in the set
+  double points = 0, in_set = 0;                  // numbers of points
+  double before = 0, behind = 0;                  // numbers of points off the plane, on either side of it
+  double distances = 0;                           // sum for those in the set, in units of the extent of their cells
+  double least = HUGE_VAL, most = 0, most_m = 0;  // for those in the set; most_m in m
+  double off = 0;                                 // number of those in the set that are off the plane
+  double cut = 0;                                 // number of partial cells that count the plane as surface
+  double free = 0;                                // number at the plane, but not in the set
 };
 
 bool is_in(const PointCloud& cloud, const std::string& set, std::size_t i) {
@@ -63,7 +63,7 @@ class Search {
       if (bonds_[cloud_.blocks[i]].body == plane_.body) visit(i);
     }
   }
-  // Of a node in spacings.
+  // For a node, in spacings.
   double distance(std::size_t i) const {
     const double in_m = std::abs(plane_.distance(cloud_.positions[i]));
     if (cloud_.at == PointsAt::nodes) return in_m / cloud_.spacings[i];
@@ -93,11 +93,11 @@ class Search {
   const Communicator& communicator_;
 };
 
-// Whether the points are on the plane, in the middle of a body that is whole: they stay there, and nothing is missing.
+// True if the points are on the plane in the middle of a whole body: they stay there, and nothing is missing.
 bool holds_the_middle(const Place& place) { return place.before > 0 && place.behind > 0 && place.off == 0; }
 
-// Why the plane is none by which the body goes on; empty: it is one. `whole_cells`: whether its formulation asks for
-// whole cells, of which nodes on the plane have a half.
+// The reason why the body does not continue behind the plane as its mirror image; empty if it does. `whole_cells`: its
+// formulation needs whole cells, of which nodes on the plane have a half.
 std::string objection(const Place& place, PointsAt at, bool whole_cells) {
   std::ostringstream text;
   text.precision(3);
@@ -131,7 +131,7 @@ std::string warning_of_cells(const deck::Deck& deck, const Mirror& plane, double
   return text.str();
 }
 
-// Planes of one body that are not parallel meet at 180°/n, or the images of the body would overlap.
+// Planes of one body that are not parallel must meet at 180°/n, or the images of the body would overlap.
 void check_angles(const deck::Deck& deck, const std::vector<Mirror>& planes) {
   for (std::size_t a = 0; a < planes.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
@@ -148,7 +148,7 @@ void check_angles(const deck::Deck& deck, const std::vector<Mirror>& planes) {
   }
 }
 
-// Whether a block of the body is by quadratic correspondence.
+// True if a block of the body is by quadratic correspondence.
 bool is_quadratic_body(const deck::Deck& deck, const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
                        int body) {
   for (std::size_t b = 0; b < bonds.size(); ++b) {

@@ -1,4 +1,4 @@
-// Symmetry planes of the deck, by which bodies go on as mirror images.
+// Symmetry planes of the deck behind which bodies continue as mirror images.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace strut {
 
-// Those of node sets; where all points are named, or a block, they keep their distance to the plane (plane strain).
+// The planes of node sets. Points of `all` or of a block keep their distance to the plane instead (plane strain).
 std::vector<Mirror> symmetry_planes(const deck::Deck& deck);
 
 struct Mirrors {
-  std::vector<Mirror> planes;  // of each body that ends there, normals inward
-  std::string warnings;        // a line for each that is none
+  std::vector<Mirror> planes;  // of each body that ends there; normals point into the body
+  std::string warnings;        // a line for each plane without mirror images
 };
 
-// Collective. A body ends at a plane where its points are on one side of it and those at the plane are in the set, and
-// no others. Throws Error on all ranks where planes of one body meet at an angle that is not 180°/n.
+// Collective. A body ends at a plane if its points are on one side of it and exactly those at the plane are in the set.
+// Throws Error on all ranks if planes of one body meet at an angle that is not 180°/n.
 Mirrors mirrors(const deck::Deck& deck, const PointCloud& cloud, const Communicator& communicator);
 
 }  // namespace strut

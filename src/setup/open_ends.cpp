@@ -11,10 +11,10 @@ namespace strut {
 
 namespace {
 
-// Neighbors so much farther along the normal are of another layer, in spacings.
+// Neighbors farther than this along the normal are in another layer, in spacings.
 constexpr double next_layer = 0.5;
 
-// How the family of a point lies along a direction, in spacings.
+// The extent of a point's family along a direction, in spacings.
 struct Extent {
   double ahead = 0, behind = 0, sum = 0;
   bool is_inside() const { return ahead > next_layer && behind > next_layer; }
@@ -30,7 +30,7 @@ Extent extent_along(const Vector& direction, const Domain& domain, int i) {
   return extent;
 }
 
-// What is there of the cell of a point, as a part: a half on a symmetry plane, the rest is its image's.
+// The computed fraction of a point's cell: a half on a symmetry plane, whose other half belongs to the image.
 double part_between_planes(const Domain& domain, int i) {
   std::vector<Vector> outward;
   for (const Mirror& mirror : planes_through(domain, i)) {
@@ -45,7 +45,7 @@ double part_between_planes(const Domain& domain, int i) {
 
 struct EndsOfPoint {
   std::vector<Vector> normals;  // outward
-  int last;                     // the place in the deck of the last one
+  int last;                     // index in the deck of the last one
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Non-reflecting ends of a scene, all of them together: each is one layer of points, and what lies beyond them is taken
-// off the inertia of their points.
+// Non-reflecting ends of a scene: checks that each is one layer of points, and reduces the inertia of their points by
+// the part beyond the ends.
 #pragma once
 
 #include "deck/deck.hpp"
@@ -8,7 +8,7 @@
 
 namespace strut {
 
-// Collective; with all conditions in the scene. The same problems on all ranks.
+// Collective; call it when all conditions are in the scene. Reports the same problems on all ranks.
 void take_off_what_is_beyond_ends(const deck::Deck& deck, Scene& scene, deck::Problems& problems);
 
 }  // namespace strut

@@ -17,7 +17,7 @@
 
 namespace strut {
 
-// A rigid tool of the deck, of which the closing report tells whether it was touched.
+// A rigid tool of the deck; the closing report says whether it was touched.
 struct ToolOfScene {
   std::string name;
   std::shared_ptr<bool> touched;  // on this rank
@@ -27,15 +27,15 @@ struct Scene {
   Body body;
   Conditions conditions;
   contact::Contact contact;
-  std::optional<Fracture> fracture;  // where bonds may break
+  std::optional<Fracture> fracture;  // if bonds may break
   StepControl control;
-  std::optional<QuasiStaticControl> quasi_static;  // in its place
-  Cuts cuts;                                       // what the partition was made by
+  std::optional<QuasiStaticControl> quasi_static;  // instead of `control`, for equilibria
+  Cuts cuts;                                       // the partition weights
   std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
   Dropped dropped;
   std::vector<ToolOfScene> tools = {};  // as tools_of(conditions)
-  std::string warnings;                 // what the set-up found that may be meant otherwise, a line each
-  double highest_frequency = 0;         // 1/s, that mass scaling leaves to a point; 0: any
+  std::string warnings;                 // of the set-up, a line each
+  double highest_frequency = 0;         // 1/s, largest frequency bound after mass scaling; 0: no limit
 };
 
 }  // namespace strut

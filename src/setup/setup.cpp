@@ -27,7 +27,7 @@ std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
   return QuasiStaticControl{with_tangent, load_steps, {tolerance, most_iterations}};
 }
 
-// From the partitioned cloud on.
+// Builds the scene from the partitioned cloud.
 Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Communicator& communicator) {
   Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);

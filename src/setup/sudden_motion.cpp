@@ -14,18 +14,18 @@ namespace strut {
 
 namespace {
 
-// Spacings. A step is some tenths of the time in which a wave goes a spacing: what jumps by a hundredth is thrown at
-// some hundredths of the wave speed.
+// Spacings. A step is some tenths of the time that a wave takes for one spacing, so a jump by a hundredth of a spacing
+// throws points at some hundredths of the wave speed.
 constexpr double no_jump = 1e-6, sudden = 0.01;
 
-constexpr int looks = 1000;   // at a function of time in a run
-constexpr int halvings = 40;  // of the time between two looks, to see whether it jumps or is only steep
+constexpr int looks = 1000;   // samples of a function of time in a run
+constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
 
 struct Jump {
   double time = 0, length = 0;  // s, m
 };
 
-// Where `of_time` changes most between two looks: how much of it is left when these come close.
+// The largest change of `of_time` between two samples, and how much of it remains as they approach each other.
 template <class OfTime>
 Jump largest_jump(const OfTime& of_time, double start, double end) {
   double from = start, to = start, most = 0;
@@ -62,7 +62,7 @@ Where where(const std::vector<int>& points, const Body& body) {
   return all;
 }
 
-// The worst at the corners of the box.
+// The largest jump at the corners of the box.
 Jump largest_jump(const Function& value, const Where& where, double start, double end) {
   Jump worst;
   for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
@@ -79,7 +79,7 @@ const PrescribedMotion* displacement_of(const deck::Condition& condition) {
   return motion && !motion->is_velocity ? motion : nullptr;
 }
 
-// Of the functions of time that lead points or a tool from place to place.
+// The functions of time that give positions of points or of a tool.
 std::vector<Function> ways_of(const deck::Condition& condition) {
   if (const PrescribedMotion* motion = displacement_of(condition)) return {motion->value};
   if (const auto* tool = std::get_if<RigidTool>(&condition.kind)) {

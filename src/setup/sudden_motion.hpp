@@ -1,4 +1,4 @@
-// Values of conditions over a run that throw points from one place to another within a step.
+// Values of conditions that move points by a jump within one step.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace strut {
 
-// Collective. Displacements that are not zero at the initial time, where bodies are undeformed: with explicit steps a
-// problem, the same on all ranks; else told.
+// Collective. Displacements that are not zero at the initial time, when bodies are undeformed: with explicit steps an
+// error, the same on all ranks; else a warning.
 std::string check_initial_displacements(const deck::Deck& deck, const PointsOfConditions& points, const Body& body,
                                         deck::Problems& problems);
 
-// Collective. Of explicit steps: displacements and travels of tools that jump, a line each.
+// Collective. For explicit steps: warns of jumps in displacements and in the travel of tools, a line each.
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
 }  // namespace strut

@@ -19,7 +19,7 @@ double distance(double a, double b) {
   return std::isnan(gap) ? infinity : gap;
 }
 
-// NaN and infinity are no measure for others.
+// The largest finite magnitude: NaN and infinity are no scale for other values.
 double magnitude(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) {
@@ -96,7 +96,7 @@ std::string time_problem(const Series& a, const Series& b, const Tolerance& tole
   return "";
 }
 
-// Where a body stands is not in its variables.
+// Compares the positions of the nodes, which are not among the variables.
 std::string place_problem(const Series& a, const Series& b, const Tolerance& tolerance) {
   double extent = 0;
   for (const Series* one : {&a, &b}) {

@@ -41,7 +41,7 @@ Series read_history(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;
   int row = 0;
-  do {  // what begins with # says who wrote it
+  do {  // skips lines that begin with #, which describe the writer
     if (!std::getline(file, line)) throw Error(path.string() + ": it is empty");
     ++row;
   } while (line.starts_with("#"));

@@ -1,4 +1,4 @@
-// What two results are compared by: named variables with a value per frame and place.
+// The content of a result for a comparison: named variables with a value per frame and entity.
 #pragma once
 
 #include <array>
@@ -10,19 +10,19 @@ namespace strut::compare {
 
 struct Variable {
   std::string name;
-  std::string place;                        // what an index within a frame counts: "node", "element", "row"
+  std::string place;                        // the entity that an index within a frame counts: "node", "element", "row"
   std::vector<std::vector<double>> frames;  // [frame][place]
 };
 
 struct Series {
-  std::vector<double> times;  // of the frames; none where a frame has no time
-  // x, y, z of the undeformed nodes, m; none of a history.
+  std::vector<double> times;  // of the frames; empty if a frame has no time
+  // x, y, z of the undeformed nodes, m; empty for a history.
   std::array<std::vector<double>, 3> places = {};
   std::vector<Variable> variables;
 };
 
-// An Exodus result: a frame a time step. A CSV history (by its ending ".csv"): one frame, whose places are the rows, so
-// that a value is measured against the largest of its column.
+// An Exodus result: a frame per time step. A CSV history (with the suffix ".csv"): one frame, whose entities are the
+// rows, so that a value is compared with the largest of its column.
 Series read_series(const std::filesystem::path& path);
 
 }  // namespace strut::compare

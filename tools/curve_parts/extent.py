@@ -1,4 +1,4 @@
-"""How large the body of a mesh (Exodus II) is, by its elements: their points are inside of it, and gathered cells reach
+"""The size of the body in a mesh (Exodus II), from its elements: points are inside of it, and gathered cells extend
 beyond it."""
 import os
 
@@ -10,7 +10,7 @@ NUMBERS = ["centroid_x", "centroid_y", "centroid_z", "moment_xx", "moment_yy", "
 
 
 def size_of(path, block):
-    """Edges (m) of the box around the elements of a block, or of all; None where the mesh does not say."""
+    """Edges (m) of the box around the elements of a block, or of all; None if the mesh does not contain it."""
     if not os.path.isfile(path):
         return None
     try:
@@ -28,7 +28,7 @@ def names_of(file, variable):
 
 
 def nodes_of(file, number):
-    """The places of the nodes of each element of a block; None where it has points alone."""
+    """The node positions of each element of a block; None if it has only points."""
     elements = file.variables[f"connect{number}"]
     if not elements.elem_type.upper().startswith(SOLIDS):
         return None
@@ -36,8 +36,8 @@ def nodes_of(file, number):
 
 
 def prisms_of(file, number):
-    """Of cells that are partly filled, each taken for a prism: its middle and its half edges (√3 times its radii of
-    gyration); None of others."""
+    """Partly filled cells as prisms: centers and half edges (√3 times their radii of gyration); None for other
+    elements."""
     names = names_of(file, f"attrib_name{number}") if f"attrib_name{number}" in file.variables else []
     if not all(name in names for name in NUMBERS):
         return None
@@ -46,7 +46,7 @@ def prisms_of(file, number):
 
 
 def cells_of(file, number):
-    """Of the elements of a block the edges of their boxes, their middles and half edges, m; None where it has points alone."""
+    """For the elements of a block: edges of their boxes, centers and half edges, m; None if it has only points."""
     places = nodes_of(file, number)
     if places is None:
         return None
@@ -55,7 +55,7 @@ def cells_of(file, number):
 
 
 def box_of(file, number):
-    """Both corners, of the nodes of a block; None where it has points alone."""
+    """Both corners of the box around the nodes of a block; None if it has only points."""
     places = nodes_of(file, number)
     if places is None:
         return None
@@ -65,8 +65,8 @@ def box_of(file, number):
 
 
 def box_of_cells(places, middle, half, low, high):
-    """Of cells that are partly filled: a face of the box is where the material of the cells beside it ends in the middle of
-    them all."""
+    """The box of partly filled cells: each face is at the median of the ends of the material in the cells adjacent to
+    it."""
     box = [low.copy(), high.copy()]
     for c in range(3):
         least, most = places[:, :, c].min(axis=1), places[:, :, c].max(axis=1)

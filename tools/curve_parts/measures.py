@@ -1,4 +1,4 @@
-"""What ISO 13314:2011 and the literature read off a curve of compression: nominal stress (Pa) over nominal strain.
+"""Measures of a compression curve by ISO 13314:2011 and the literature: nominal stress (Pa) over nominal strain.
 
 Sources. ISO: ISO 13314:2011, Mechanical testing of metals, ductility testing, compression test for porous and cellular
 metals. Efficiency: Li, Magkiriadis & Harrigan, Compressive strain at the onset of densification of cellular solids,
@@ -12,10 +12,10 @@ import numpy as np
 
 PLATEAUS = {"": (0.2, 0.3), "_20_40": (0.2, 0.4)}
 END_OF_PLATEAU = 1.3  # times the plateau stress (ISO)
-ENERGY_TO = 0.5       # strain to which energy is given where the plateau has no end before (ISO)
-GRADIENT = (0.2, 0.7)  # parts of the plateau stress between which gradients are taken (ISO: of the loop)
-MOST_UNLOADED = 0.5   # a loop unloads at least this part of the stress
-MOST_APART = 0.05     # the stresses of both ends, of their mean: else they are of no material (Ravichandran & Subhash)
+ENERGY_TO = 0.5       # strain up to which energy is given if the plateau does not end before (ISO)
+GRADIENT = (0.2, 0.7)  # fractions of the plateau stress between which gradients are taken (ISO: of the loop)
+MOST_UNLOADED = 0.5   # least fraction of the stress by which a loop unloads
+MOST_APART = 0.05     # relative difference of the stresses at both ends without equilibrium (Ravichandran & Subhash)
 OFFSETS = {"": 0.002, "_1": 0.01}  # plastic strains of offset stress and proof strength
 
 
@@ -25,16 +25,16 @@ class Measure:
     value: float | None  # None: the curve does not have it
     unit: str
     meaning: str
-    why: str = ""        # it does not have it
-    over: tuple | None = None  # strains that it is of; None: not of a material in equilibrium
+    why: str = ""        # reason if there is no value
+    over: tuple | None = None  # range of strains; None: independent of equilibrium
 
     def said(self):
-        """The definition, and why there is no value."""
+        """The definition, and the reason if there is no value."""
         return self.meaning if self.value is not None or not self.why else f"{self.meaning}; none: {self.why}"
 
 
 def loading(strain, stress):
-    """The rows in which the strain is larger than ever before: without loops of unloading."""
+    """The rows in which the strain exceeds all previous ones: without unloading loops."""
     before = np.concatenate([[-np.inf], np.maximum.accumulate(strain)[:-1]])
     keep = strain > before
     return strain[keep], stress[keep]
@@ -46,7 +46,7 @@ def energies(strain, stress):
 
 
 def mean_between(strain, stress, low, high):
-    """∫ σ dε / ∫ dε, the bounds interpolated: the mean at equal intervals of strain. None beyond the curve."""
+    """∫ σ dε / ∫ dε with interpolated bounds: the mean at equal intervals of strain. None beyond the curve."""
     if len(strain) < 2 or strain[0] > low or strain[-1] < high:
         return None
     inside = (strain > low) & (strain < high)
@@ -56,7 +56,7 @@ def mean_between(strain, stress, low, high):
 
 
 def crossing(x, y, level):
-    """The x from which on y stays above a level; None where it does not, or always is."""
+    """The x from which y stays above a level; None if it does not, or always is."""
     below = np.flatnonzero(y < level)
     if len(below) == 0 or below[-1] == len(y) - 1:
         return None
@@ -73,8 +73,8 @@ def first_crossing(x, y, level):
 
 
 def line(strain, stress, low, high):
-    """Slope, and strain where it is zero, of the straight line through the rows with stresses from low to high; None with
-    fewer than three."""
+    """Slope, and strain at zero stress, of the straight line through the rows with stresses from low to high; None for
+    fewer than three rows."""
     there = (stress >= low) & (stress <= high)
     if there.sum() < 3 or np.ptp(strain[there]) == 0:
         return None
@@ -83,14 +83,14 @@ def line(strain, stress, low, high):
 
 
 def quasi_elastic_line(strain, stress, scale):
-    """Of the first rise, between the two parts of the scale."""
+    """The line through the first rise, between the two fractions of the scale."""
     end = np.flatnonzero(stress > GRADIENT[1] * scale)
     rows = slice(0, end[0] if len(end) else len(stress))
     return line(strain[rows], stress[rows], GRADIENT[0] * scale, GRADIENT[1] * scale)
 
 
 def offset_stress(strain, stress, gradient, foot, offset):
-    """Where the curve comes under the line of this gradient from the foot, so much further along; None where it does not."""
+    """The stress at which the curve falls below the line of this gradient, offset from the foot; or None."""
     above = stress - gradient * (strain - foot - offset)
     rows = 1 + np.flatnonzero((above[1:] <= 0) & (above[:-1] > 0))
     if len(rows) == 0:
@@ -101,8 +101,8 @@ def offset_stress(strain, stress, gradient, foot, offset):
 
 
 def elastic_gradient(strain, stress, scale):
-    """Of the longest unloading, between the two parts of the scale, and its rows; None where none goes down to the lower
-    part."""
+    """Gradient of the longest unloading between the two fractions of the scale, and its rows; None if none reaches the
+    lower fraction."""
     best = None
     start = 0
     for i in range(1, len(strain) + 1):
@@ -117,19 +117,19 @@ def elastic_gradient(strain, stress, scale):
 
 
 def densification(strain, stress):
-    """The strain at which the efficiency ∫ σ dε / σ is largest, of the last of equal ones, and the efficiency there; None
-    where it is largest at the end: it may rise further."""
+    """The strain of the largest efficiency ∫ σ dε / σ, the last of equal ones, and the efficiency there; None if it is
+    largest at the end, where it may still rise."""
     W = energies(strain, stress)
     with np.errstate(divide="ignore", invalid="ignore"):
         efficiency = np.where(stress > 0, W / stress, 0)
-    # Beyond the first rise alone: before it stress is next to nothing, and the efficiency anything.
+    # Only beyond the first rise: before it the stress is almost zero, and the efficiency meaningless.
     efficiency[:np.argmax(stress >= 0.5 * np.median(stress))] = 0
     i = len(efficiency) - 1 - int(np.argmax(efficiency[::-1]))
     return None if i == len(efficiency) - 1 else (float(strain[i]), float(efficiency[i]))
 
 
 def apart(strain, stress, other, low, high):
-    """By how much both ends differ from low to high, of the mean of both, at equal intervals of strain."""
+    """Difference of both ends from low to high, relative to their mean, at equal intervals of strain."""
     low, high = max(low, float(strain[0])), min(high, float(strain[-1]))
     differences = mean_between(strain, np.abs(stress - other), low, high) if high > low else None
     both = mean_between(strain, 0.5 * (np.abs(stress) + np.abs(other)), low, high) if high > low else None
@@ -137,8 +137,8 @@ def apart(strain, stress, other, low, high):
 
 
 def of_curve(strain, stress, other=None):
-    """All measures of a curve with loops of unloading or without; `other`: the stress at the other end. Where both differ
-    there is no material that they could be measures of."""
+    """All measures of a curve, with or without unloading loops; `other`: the stress at the other end. Where both differ
+    too much there is no equilibrium, and no measure of the material."""
     strain, stress = np.asarray(strain, float), np.asarray(stress, float)
     found = of_one_end(strain, stress)
     e, s = loading(strain, stress)
@@ -149,7 +149,7 @@ def of_curve(strain, stress, other=None):
 
 
 def in_equilibrium(measure, e, s, o):
-    """Without its value where both ends differ by too much."""
+    """The measure, without its value if both ends differ too much."""
     if measure.value is None or measure.over is None:
         return measure
     by = apart(e, s, o, *measure.over)
@@ -159,7 +159,7 @@ def in_equilibrium(measure, e, s, o):
 
 
 def measures_of_ends(e, s, o):
-    """What both ends bear, equilibrium or not."""
+    """Stresses of both ends, in equilibrium or not."""
     low, high = PLATEAUS[""]
     one_end, ends = "the history has the force at one end only", f"the curve ends at a strain of {e[-1]:.3g}"
     there = e[-1] >= high and e[0] <= low
@@ -207,7 +207,7 @@ def of_one_end(strain, stress):
 
 
 def offset_measures(e, s, rise, unloading):
-    """Of both gradients, from where the line of the first rise begins."""
+    """Offset stresses by both gradients, measured from the foot of the first rise."""
     found = []
     for name, of, gradient in (("offset_stress", "quasi-elastic", rise and rise[0]), ("proof_strength", "elastic", unloading)):
         known = rise is not None and gradient

@@ -1,4 +1,4 @@
-"""The options of tools/curve, of which a study has a line."""
+"""The options of tools/curve, which a study may also set in a line."""
 import math
 
 from strut_tools import Parser

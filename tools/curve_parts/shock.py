@@ -1,4 +1,4 @@
-"""The front that an impact sends through a foam, from the mean velocities of its layers (a profile of the history).
+"""The front of an impact in a foam, from the mean velocities of its layers (a profile of the history).
 
 All in reference coordinates, from the end that is hit: a layer at the distance X. The front is where the velocity is half
 way between those of both ends. Its speed U_s there gives, across it, the jump of strain dv / U_s and of nominal stress
@@ -12,31 +12,31 @@ import numpy as np
 LEAST_LAYERS = 4
 LEAST_JUMP = 0.5      # of the usual difference of the velocities of both ends
 MEASURES = ("front_speed", "front_scatter", "velocity_jump", "strain_behind", "strain_by_speed", "shock_stress", "stress_jump")
-MIDDLE = (0.15, 0.85)  # of the height: where speed, strain and jump are taken, apart from both ends
+MIDDLE = (0.15, 0.85)  # of the height: where speed, strain and jump are taken, away from both ends
 
 
 @dataclass
 class Front:
-    places: np.ndarray    # m, from the end that is hit: of the layers that it has passed
+    places: np.ndarray    # m, from the hit end: of the layers that it has passed
     arrivals: np.ndarray  # s
-    speed: float          # m/s, of the line that fits the middle best
-    scatter: float        # m, root of the mean square from that line
-    jump_of_velocity: float  # m/s, behind less ahead, its magnitude
-    strain: float         # behind, by the places of layers
+    speed: float          # m/s, of the best-fit line through the middle
+    scatter: float        # m, root mean square distance from that line
+    jump_of_velocity: float  # m/s, magnitude of velocity behind minus velocity ahead
+    strain: float         # behind the front, from the positions of layers
     strain_by_speed: float
-    behind: float         # s: when half of the middle was passed
+    behind: float         # s: when it had passed half of the middle
 
 
 
 
 def strains(places):
-    """Of the gaps between layers: 1 - (z_k+1 - z_k)/(Z_k+1 - Z_k); places: rows x layers, the first row of reference."""
+    """Strain of the gaps between layers: 1 - (z_k+1 - z_k)/(Z_k+1 - Z_k); places: rows x layers, row 0: reference."""
     gaps = np.diff(places, axis=1)
     return 1 - gaps / gaps[0]
 
 
 def arrivals(times, velocities):
-    """When each layer first has the mean of the velocities of both ends at that time; NaN: never. The hit end first."""
+    """Time at which each layer first has the mean of both ends' velocities; NaN: never. The hit end comes first."""
     middle = 0.5 * (velocities[:, 0] + velocities[:, -1])
     sign = np.sign(velocities[0, -1] - velocities[:, 0].mean()) or 1.0
     ahead = sign * (velocities - middle[:, None])  # positive: not yet passed
@@ -51,13 +51,13 @@ def arrivals(times, velocities):
 
 
 def front(times, places, velocities):
-    """places, velocities: rows x layers, from the end that is hit. None where no front has come through the middle."""
+    """places, velocities: rows x layers, from the hit end. None if no front has passed the middle."""
     X = np.abs(places[0] - places[0, 0])
     when = arrivals(times, velocities)
     middle = np.isfinite(when) & (X > MIDDLE[0] * X[-1]) & (X < MIDDLE[1] * X[-1])
     if middle.sum() < LEAST_LAYERS:
         return None
-    # Places over times, not the other way round: all layers have their place, and times scatter.
+    # Fits times over positions: all layers have an exact position, and times scatter.
     inverse, start = np.polyfit(X[middle], when[middle], 1)
     if not inverse > 0:
         return None
@@ -67,7 +67,7 @@ def front(times, places, velocities):
     apart = np.abs(velocities[:, -1] - velocities[:, 0])
     jump = float(apart[row_at(times, behind)])
     if jump < LEAST_JUMP * np.median(apart):
-        return None  # an elastic wave, ahead of crushing that comes later and everywhere
+        return None  # an elastic wave, ahead of crushing that follows later everywhere
     return Front(X[np.isfinite(when)], when[np.isfinite(when)], float(speed), scatter, jump,
                  strain_behind(times, places, X, when, middle), jump / speed, behind)
 
@@ -77,7 +77,7 @@ def row_at(times, t):
 
 
 def strain_behind(times, places, X, when, middle):
-    """The mean over gaps of the middle that are passed when the front leaves it, but for the last few layers behind it."""
+    """Mean over the middle gaps that the front has passed when it leaves the middle, without the last few behind it."""
     row = row_at(times, np.nanmax(when[middle]))
     e = strains(places)[row]
     centers = 0.5 * (X[1:] + X[:-1])

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from strut_tools import save_picture
 
-# How the tables begin.
+# The beginnings of the tables.
 CURVE = ["Time (s)", "Strain (1)"]
 MEASURES = ["Measure", "Value", "Unit", "Definition"]
 FRONT = ["Distance from the end that is hit (m)", "Arrival of the front (s)"]
@@ -47,7 +47,7 @@ def write_front(path, front):
 
 
 def scaled(pascals):
-    """A factor and its unit for axes."""
+    """A factor and its unit for the axes."""
     largest = np.abs(pascals).max()
     return next(((f, u) for f, u in ((1e-9, "GPa"), (1e-6, "MPa"), (1e-3, "kPa")) if largest * f >= 1), (1, "Pa"))
 

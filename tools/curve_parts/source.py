@@ -1,4 +1,4 @@
-"""From a deck and its history to nominal stress and strain: which columns are force and shortening, area and height."""
+"""Nominal stress and strain from a deck and its history: the columns of force and shortening, area and height."""
 import csv
 import os
 import re
@@ -15,7 +15,7 @@ LAYERS = re.compile(r"Mean_(Velocity|Coordinate)_([XYZ])\((.+) (\d+)\)")
 
 
 def history(path):
-    """Columns by name, in their order. A run may be writing: a last line without its end does not count."""
+    """Columns by name, in their order. An incomplete last line, which a run may be writing, is ignored."""
     if not os.path.isfile(path):
         fail(f"{path} does not exist: --results names the folder that the run was started from")
     try:
@@ -46,7 +46,7 @@ class Sample:
     area: float      # m²
     height: float    # m
     density: float | None  # kg/m³, mass over area and height
-    found: dict = field(default_factory=dict)  # how
+    found: dict = field(default_factory=dict)  # how each was found
 
 
 def column(table, name, option):
@@ -56,7 +56,7 @@ def column(table, name, option):
 
 
 def forces(table, words):
-    """The names of the columns of force along the axis, the chosen ones first; and the axis, 0 to 2."""
+    """The names of the force columns along the axis, the chosen ones first; and the axis, 0 to 2."""
     named = [name for name in (words.force, words.other) if name]
     for name in named:
         column(table, name, "--force")
@@ -78,19 +78,19 @@ def forces(table, words):
 
 
 def is_equilibrium(deck):
-    """Whether the run is one of load steps, each an equilibrium."""
+    """True if the run consists of load steps, each an equilibrium."""
     return deck is not None and deck.section("Solver", "QuasiStatic") is not None
 
 
 def are_means(path, name):
-    """Whether the column of a force has means since the row before, as the first line of the history says."""
+    """True if a force column has means since the previous row, according to the first line of the history."""
     with open(path, newline="") as file:
         units, names = (re.split(r"units: *", file.readline().strip())[-1].split(","), file.readline().strip().split(","))
     return len(units) == len(names) and units[names.index(name)].strip() == "N (mean)"
 
 
 def signed(values):
-    """Compression counts positive: the sign by which the largest magnitude is."""
+    """Makes compression positive: the value of largest magnitude decides the sign."""
     values = np.asarray(values, float)
     return values if values.max() + values.min() >= 0 else -values
 
@@ -99,7 +99,7 @@ def signed(values):
 
 
 def motion_of(deck, axis, times):
-    """{condition: how far it has moved along the axis at these times}, of those whose deck says so."""
+    """{condition: its displacement along the axis at these times}, for conditions with a prescribed motion."""
     letter, moves = "xyz"[axis], {}
     for name, keys in deck.sections("Boundary Conditions").items():
         kind, value = value_in(keys, "Type"), value_in(keys, "Value")
@@ -117,7 +117,7 @@ def motion_of(deck, axis, times):
 
 
 def shortening(deck, table, axis, words):
-    """In m, positive, and how it was found."""
+    """The shortening in m, positive, and how it was found."""
     letter, times = "XYZ"[axis], table["Time"]
     if words.shortening:
         if words.shortening in table:
@@ -131,7 +131,7 @@ def shortening(deck, table, axis, words):
         return signed(table[means[0]] - (table[means[1]] if len(means) == 2 else 0)), " less ".join(means)
     moves = motion_of(deck, axis, times) if deck else {}
     ways = list(moves.values())
-    if any(np.ptp(way) > 0 for way in ways):  # a rim that is held says nothing
+    if any(np.ptp(way) > 0 for way in ways):  # a fixed rim gives no shortening
         low, high = min(ways, key=lambda w: w[-1]), max(ways, key=lambda w: w[-1])
         other = high if len(ways) > 1 else np.zeros(len(times))
         return signed(low - other), f"the motion of {', '.join(f'`{m}`' for m in moves)}"
@@ -145,7 +145,7 @@ def shortening(deck, table, axis, words):
 
 
 def layers(table, axis, wanted=None):
-    """Places and velocities (rows x layers) of a profile of the history, and how many; None where there is none."""
+    """Positions and velocities (rows x layers) of a profile of the history, and the number of layers; or None."""
     found = {}
     for name in table:
         match = LAYERS.fullmatch(name)
@@ -196,7 +196,7 @@ def size_of(deck, block, words, found):
 
 
 def result_of(deck, words):
-    """The result of the deck, opened; None where there is none (yet)."""
+    """The result of the deck, opened; None if there is none (yet)."""
     from picture_parts.result import Result
 
     name = deck and deck.get("Output", "Output Filename")
@@ -218,7 +218,7 @@ def points_of(result, block):
 
 
 def block_of(deck, names, words):
-    """The block that is crushed: --block, that of a contact force, else the only one or that called foam; None: all."""
+    """The crushed block: --block, that of a contact force, else the only one or the one named foam; None: all."""
     if words.block:
         return words.block
     for name in names:
@@ -253,7 +253,7 @@ def density_of(deck, block, volume, words, found):
 
 
 def material_density(deck, block):
-    """kg/m³ of the material of a block, or of the only one."""
+    """Density of the material of a block, or of the only one, kg/m³."""
     for keys in deck.sections("Blocks").values():
         names = (value_in(keys, "Block Names") or "").split()
         if block is None or block in names or "all" in names:

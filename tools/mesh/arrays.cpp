@@ -23,7 +23,7 @@ static_assert(std::endian::native == std::endian::little, "the arrays are little
 
 constexpr const char* magic = "strut-mesh arrays 1";
 constexpr std::size_t longest_line = 1000;
-constexpr std::size_t chunk = 1 << 16;  // numbers that are read at once
+constexpr std::size_t chunk = 1 << 16;  // numbers per read
 constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t most_voxels = most / 8;  // solid ones: the corners of cells are counted
 constexpr int most_factor = 16;
@@ -42,7 +42,7 @@ io::PartialCell cell_of(const CellNumbers& x) {
   return cell;
 }
 
-// What a line "voxels" announces.
+// Content of a line "voxels".
 struct VoxelHeader {
   std::string user;  // for messages
   std::string name;
@@ -51,7 +51,7 @@ struct VoxelHeader {
   Vector origin;
   Gathering gathering;
   bool grey = false;
-  double thickness = 0;  // of members, voxels; 0: not told
+  double thickness = 0;  // of members, voxels; 0: unknown
 };
 
 class ArraysReader {
@@ -73,7 +73,7 @@ class ArraysReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw Error(source_ + ": " + what); }
 
-  // Without its end; what is longer than any header is data that a wrong count has left.
+  // Without its end; text longer than any header is data left over by a wrong count.
   std::string line() {
     std::string text;
     char c = 0;
@@ -107,7 +107,7 @@ class ArraysReader {
     return value;
   }
 
-  // Calls take(number) for each of the next `numbers`.
+  // Calls take(number) for each of the next `numbers` numbers.
   template <class Number, class Take>
   void each(std::int64_t numbers, const std::string& user, const Take& take) {
     std::vector<Number> buffer(std::min<std::int64_t>(numbers, chunk));
@@ -146,7 +146,7 @@ class ArraysReader {
         "[THICKNESS]', 'set NAME COUNT' or 'end'");
   }
 
-  // Of a block of hexahedra that has been read and has none.
+  // The block of hexahedra with this name; it must have been read, and have no cells yet.
   io::Mesh::Block& block_for_cells(const std::string& name, std::int64_t count, const std::string& user) {
     const auto block = std::find_if(mesh_.blocks.begin(), mesh_.blocks.end(),
                                     [&](const io::Mesh::Block& b) { return b.name == name; });
@@ -206,7 +206,7 @@ class ArraysReader {
     return voxels;
   }
 
-  // NaN: the word is no number.
+  // Returns NaN if the word is no number.
   static double number(const std::string& word) {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -225,7 +225,7 @@ class ArraysReader {
     fail(user + ": the smallest cell is '" + word + "', expected a number from 0 to 0.9");
   }
 
-  // Edges of a voxel and the lower corner of the box.
+  // Reads the edges of a voxel and the lower corner of the box.
   void read_place(VoxelHeader& voxels) {
     std::vector<double> numbers;
     each<double>(6, voxels.user, [&](double number) { numbers.push_back(number); });
@@ -283,7 +283,7 @@ class ArraysReader {
     bodies_.push_back(std::move(body));
   }
 
-  // Faces that the material does not touch have no set.
+  // Names the block and the sets; faces that the material does not touch have no set.
   void give_names(io::Mesh& body, const std::string& name) {
     body.blocks[0].name = name;
     std::erase_if(body.node_sets, [](const io::Mesh::NodeSet& set) { return set.nodes.empty(); });

@@ -8,9 +8,9 @@
 
 namespace strut::mesh {
 
-// Throws Error, with `source` in front, where the stream ends early or holds what is not a mesh. Memory is taken as
-// data arrive, never because a count in a header says so.
-// `summary`: lines about voxels that were gathered in cells.
+// Throws Error, beginning with `source`, if the stream ends early or does not describe a mesh. Memory is
+// allocated as data arrive, never for a count in a header. `summary`: lines about voxels that were gathered in
+// cells.
 io::Mesh read_arrays(std::istream& stream, const std::string& source, std::string* summary = nullptr);
 
 }  // namespace strut::mesh

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double most_cells = 1e8;
 
-// The radius at zmax over that at zmin.
+// The radius at zmax divided by that at zmin.
 double taper_of(const Body& body) { return body.shape == Body::Shape::cone ? body.top_radius / body.radius : 1; }
 
-// Of the area of cross-sections that grow linearly by factors from `a` to `b`: its mean over the one at factor 1.
+// Mean area of cross-sections whose width grows linearly by factors from `a` to `b`, relative to that at factor 1.
 double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3; }
 
 double exact_volume(const Body& body) {
@@ -41,7 +41,7 @@ void check_cells(const Body& body, const Vector& extent) {
 void check_size(const Body& body) {
   const double across = 2 * std::max(body.radius, body.top_radius);
   check_cells(body, body.shape == Body::Shape::box ? body.size : Vector(across, across, body.length));
-  // A lattice's cubes take the thickness of a layer, which must not be far from what was asked for.
+  // Cubes of a lattice have the thickness of a layer, which must be close to the requested spacing.
   if (body.shape != Body::Shape::box && body.length < body.spacing / 2) {
     throw Error("body '" + body.name + "' is shorter than half a cell: the spacing is too large");
   }
@@ -49,13 +49,13 @@ void check_size(const Body& body) {
 
 Section section_of(const Body& body, double layer) {
   if (body.shape == Body::Shape::box) return rectangle(body.size.x(), body.size.y(), body.spacing);
-  // The cells of a cone are as wide as wanted halfway up.
+  // The cells of a cone have the requested width at half height.
   if (body.method == Body::Method::fitted) return fitted_disc(body.radius, layer / (0.5 + 0.5 * taper_of(body)));
   return lattice_disc(body.radius, layer, body.centered);  // cubes: the fitted spacing in the plane, too
 }
 
-// A body in the making: a section, the heights of its layers' faces, in the body's own coordinates, and how much wider
-// the section is at the last than at the first.
+// An extruded body: a section, the heights of its layers' faces in the body's own coordinates, and the ratio of the
+// section's width at the last to that at the first.
 struct Extrusion {
   const Section& section;
   const std::vector<double>& levels;
@@ -69,7 +69,7 @@ struct Extrusion {
   static std::vector<int> repeated(const std::vector<int>& base, int stride, int times);
 };
 
-// The numbers of `base` in each of `times` layers that hold `stride` numbers each.
+// The numbers of `base` in each of `times` layers with `stride` numbers each.
 std::vector<int> Extrusion::repeated(const std::vector<int>& base, int stride, int times) {
   std::vector<int> numbers;
   for (int k = 0; k < times; ++k) {
@@ -105,7 +105,7 @@ io::Mesh Extrusion::hexahedra() const {
   return mesh;
 }
 
-// One for each cell, in the sets that one of the cell's nodes would be in: the same points as from hexahedra.
+// One sphere per cell, in the sets that any of the cell's nodes would be in: the same points as from hexahedra.
 io::Mesh Extrusion::spheres() const {
   io::Mesh mesh;
   const int stride = static_cast<int>(section.cells.size());
@@ -113,7 +113,7 @@ io::Mesh Extrusion::spheres() const {
   block.type = "SPHERE";
   for (int k = 0; k < layers; ++k) {
     const double a = width(k), b = width(k + 1), h = levels[k + 1] - levels[k];
-    const double volume = mean_square(a, b) * h;                        // ∫ w² dz, of a cell of area 1
+    const double volume = mean_square(a, b) * h;                        // ∫ w² dz, for a cell of area 1
     const double outward = (a + b) * (a * a + b * b) / 4 * h / volume;  // ∫ w³ dz over it
     const double height = (levels[k] + levels[k + 1]) / 2 + h * (b * b - a * a) / (12 * mean_square(a, b));
     for (std::size_t cell = 0; cell < section.cells.size(); ++cell) {
@@ -196,7 +196,7 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
   return names;
 }
 
-// Bodies have names of their own, but blocks and sets from a file may be called like another's.
+// Bodies have distinct names, but blocks and sets of a file may have the names of others.
 void check_new(const std::vector<std::string>& names, const std::vector<std::string>& more, const std::string& what) {
   for (const std::string& name : more) {
     if (std::find(names.begin(), names.end(), name) == names.end()) continue;
@@ -207,7 +207,7 @@ void check_new(const std::vector<std::string>& names, const std::vector<std::str
 io::Mesh extruded(const Body& body, std::string& summary) {
   check_size(body);
   const std::vector<double> levels = levels_of(body, height(body));
-  // The cells of a uniform cylinder are as wide as its layers are thick; where layers grow, as the spacing.
+  // Cells of a uniform cylinder are as wide as its layers are thick; with growing layers they have the spacing.
   const double across = body.grading > 1 ? body.spacing : height(body) / static_cast<double>(levels.size() - 1);
   const Section section = section_of(body, across);
   const Extrusion extrusion{section, levels, taper_of(body)};
@@ -215,7 +215,7 @@ io::Mesh extruded(const Body& body, std::string& summary) {
   return body.elements == Body::Elements::spheres ? extrusion.spheres() : extrusion.hexahedra();
 }
 
-// The voxels whose center lies in the body: all of a box, or those of a cylinder about the middle of the grid.
+// The voxels whose center is in the body: all for a box, or those of a cylinder around the center of the grid.
 std::vector<int> voxels_in(const Body& body, const VoxelGrid& grid) {
   std::vector<int> voxels;
   const Vector h = grid.spacing();
@@ -226,7 +226,7 @@ std::vector<int> voxels_in(const Body& body, const VoxelGrid& grid) {
   return voxels;
 }
 
-// Of a cylinder: cubes, with a corner or a center of them on the axis.
+// The grid of a cylinder: cubes, with a corner or a center on the axis.
 VoxelGrid grid_around(const Body& body) {
   if (body.shape == Body::Shape::box) return grid_of(body.size, body.spacing, body.cells);
   const int layers = std::max(1, static_cast<int>(std::lround(body.length / body.spacing)));

@@ -1,4 +1,4 @@
-// A body as a mesh: a cross-section drawn along z in layers, the struts of a foam, or a mesh that is there.
+// The mesh of a body: a cross-section extruded along z in layers, the struts of a foam, or an existing mesh.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace strut::mesh {
 
-// One block and its node sets "<name>_zmin", "<name>_zmax" (a box and a foam also have those of x and y), or what a
-// file holds.
+// One block and its node sets "<name>_zmin", "<name>_zmax" (a box and a foam also have those of x and y), or the
+// content of a file.
 io::Mesh mesh_of(const Body& body, std::string& summary);
 
-// Moves nodes and what elements hold.
+// Moves nodes and the data of elements.
 void shift(io::Mesh& mesh, const Vector& by);
 
-// Adds a body's mesh. Throws Error where a block or set of it has a name that is taken.
+// Adds a body's mesh. Throws Error if one of its blocks or sets has a name that exists already.
 void append(io::Mesh& mesh, const io::Mesh& body);
 
 }  // namespace strut::mesh

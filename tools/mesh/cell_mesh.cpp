@@ -1,4 +1,4 @@
-// Cells -> hexahedra that share nodes where the material of the cells hangs together.
+// Makes hexahedra from cells; they share nodes where the material of the cells is connected.
 #include <algorithm>
 #include <cstdio>
 

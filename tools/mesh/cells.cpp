@@ -16,7 +16,7 @@ VoxelGrid coarse_grid(const VoxelGrid& fine, int factor) {
   return {fine.spacing().array() * factor * cells.cast<double>(), cells};
 }
 
-// Merges the small pieces into their neighbors. What cannot be merged waits until its neighbors have changed.
+// Merges small pieces into their neighbors. A piece that cannot be merged waits until its neighbors have changed.
 class SmallPieces {
  public:
   SmallPieces(const Material& material, const VoxelGrid& grid, double limit, Pieces& pieces)
@@ -51,7 +51,7 @@ class SmallPieces {
     const int into = merging_.merge(piece);
     if (into < 0) return;
     ++cells.merged;
-    // It, and those that may have waited for a change of it.
+    // Notes this piece, and those that may have waited for its change.
     note(into);
     for (const int other : merging_.links(into)) {
       note(other);
@@ -62,7 +62,7 @@ class SmallPieces {
   std::vector<Piece>& list_;
   Merging merging_;
   double limit_;
-  std::set<std::pair<double, int>> small_;  // by size, those to be looked at
+  std::set<std::pair<double, int>> small_;  // by size, pieces still to be processed
 };
 
 }  // namespace

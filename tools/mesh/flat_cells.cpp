@@ -10,12 +10,12 @@ namespace strut::mesh {
 
 namespace {
 
-// What a run asks for: neighbors, and their mean square distance in any direction, in spacings²
+// Requirements of a run: number of neighbors, and their mean square distance in any direction, in spacings²
 // (src/mechanics/formulation/cell_fit.hpp).
 constexpr std::size_t least_neighbors = 4;
 constexpr double least_spread = 0.02;
 
-// In spacings. The longer a merged cell, the smaller the critical time step (of a recipe foam: 1 % smaller at 3, 8 % at
+// In spacings. A longer merged cell reduces the critical time step (for a foam of a recipe by 1 % at 3, by 8 % at
 // 4).
 constexpr double longest = 3;
 
@@ -76,12 +76,12 @@ Tensor FlatCells::spread(int cell) const {
   return volume > 0 ? Tensor(sum / volume) : sum;
 }
 
-// Halves are no thinner than the smallest cell, so that they do not limit the critical time step.
+// Halves must not be thinner than the smallest cell, so that they do not limit the critical time step.
 bool FlatCells::is_cut(int cell) const {
   const int axis = normal_[cell];
   if (axis < 0) return false;
   const double thickness = std::sqrt(12 * cells_.parts[cell].moments[axis]) / cells_.grid.spacing()[axis];
-  const double one_layer = 1.0 / gathering_.factor;  // of voxels: it has no halves
+  const double one_layer = 1.0 / gathering_.factor;  // of voxels: it cannot be halved
   return thickness >= std::max(2 * gathering_.smallest, 1.5 * one_layer);
 }
 
@@ -105,14 +105,14 @@ void FlatCells::give_upper_halves(const std::vector<int>& upper) {
     if (n < 0 || upper[n] < 0) continue;
     const int axis = normal_[n];
     const double at = (material_.grid.cell(material_.voxels[v])[axis] + 0.5) * h[axis];
-    // A layer of voxels in the very middle stays below, whatever the rounding.
+    // A layer of voxels at the exact middle stays below, whatever the round-off.
     if (at > cells_.parts[n].centroid[axis] + 1e-6 * h[axis]) pieces_.of[v] = upper[n];
   }
 }
 
-// Into cells that have what these lack: a wire of flat cells would only become one of long ones. Those with the fewest
-// contacts first, from the tips to what holds them. A cell whose neighbor has changed waits for the next round, since
-// it may have enough now.
+// Merges flat cells into cells that are not flat: a wire of flat cells would only become one of long ones. It begins
+// with those that have the fewest contacts, from the tips inward. A cell whose neighbor has changed waits for the next
+// round, because it may have enough neighbors now.
 bool FlatCells::merge() {
   Merging merging(pieces_, links_, cells_.grid);
   std::stable_sort(flat_.begin(), flat_.end(), [&](int a, int b) { return links_[a].size() < links_[b].size(); });
@@ -131,7 +131,7 @@ bool FlatCells::merge() {
   return cells_.flat_merged > before;
 }
 
-// A cell that a run leaves out is no neighbor of others, so that they may be left out, too.
+// A cell that a run drops is no neighbor of others, which may then be dropped, too.
 void FlatCells::count_left_out() {
   while (!flat_.empty()) {
     for (const int n : flat_) {

@@ -1,4 +1,4 @@
-// Cells whose neighbors hardly span space: they are cut in two layers, or merged.
+// Cells whose neighbors hardly span space: they are cut into two layers, or merged.
 #pragma once
 
 #include <set>
@@ -8,15 +8,15 @@
 
 namespace strut::mesh {
 
-// A run learns how a cell deforms from where its neighbors go. Where all of them lie in one plane, as in a strut that
-// a wall of the box has cut along its length, it learns nothing about the normal of the plane, and leaves the cell out.
-// Cut in two along the normal, the cells are each other's neighbors on either side of the plane.
+// The deformation of a cell follows from the motion of its neighbors. If these are all in one plane, as in a strut that
+// a wall of the box cuts along its length, it is undetermined along the normal, and a run drops the cell. If the cells
+// are cut in two along the normal, they are each other's neighbors on either side of the plane.
 class FlatCells {
  public:
   FlatCells(const Material& material, const Gathering& gathering, Pieces& pieces, Cells& cells)
       : material_(material), gathering_(gathering), pieces_(pieces), cells_(cells) {}
 
-  // Puts what the pieces hold into the cells, and changes both where they are flat.
+  // Sets the cells from the pieces, and changes both where cells are flat.
   void mend();
 
  private:
@@ -34,10 +34,10 @@ class FlatCells {
   Pieces& pieces_;
   Cells& cells_;
   std::vector<std::set<int>> links_;
-  std::vector<std::vector<int>> near_;  // those that share a node
+  std::vector<std::vector<int>> near_;  // cells that share a node
   std::vector<int> flat_;
-  std::vector<int> normal_;  // axis of a cell whose neighbors lie in a plane, -1: of others
-  std::vector<char> alive_;  // what a run keeps
+  std::vector<int> normal_;  // axis of a cell whose neighbors are in a plane, else -1
+  std::vector<char> alive_;  // kept by a run
 };
 
 }  // namespace strut::mesh

@@ -14,9 +14,9 @@ namespace strut::mesh {
 
 namespace {
 
-constexpr double fewest_voxels_in_a_cell = 4;  // across it: fewer cannot show struts and pores
-constexpr double thin = 8;                     // voxels: thinner struts should be no stairs
-constexpr double too_much = 1.05;              // times the wanted density: the pieces met too late
+constexpr double fewest_voxels_in_a_cell = 4;  // per foam cell diameter: fewer cannot resolve struts and pores
+constexpr double thin = 8;                     // voxels: thinner struts should not be stairs
+constexpr double too_much = 1.05;              // times the wanted density: the pieces connected too late
 
 std::string number(double value) {
   char text[40];
@@ -34,7 +34,7 @@ void check(const Body& body) {
   }
 }
 
-// Struts thinner than a voxel are dust, until their radius lets it join, and then they are too many.
+// Struts thinner than a voxel are disconnected until the radius connects them, and then there are too many voxels.
 void check(const Body& body, const Struts& struts, std::size_t wanted) {
   if (static_cast<double>(struts.voxels.size()) <= too_much * static_cast<double>(wanted)) return;
   throw Error("body '" + body.name +
@@ -72,7 +72,7 @@ std::string summary_of(const Body& body, const VoxelGrid& grid, const Skeleton& 
          std::to_string(times_by_stairs) + " times smaller\n";
 }
 
-// As it is drawn: in voxels, where these are gathered in cells.
+// The body in voxels, if these are gathered in cells.
 Body drawn(Body body) {
   if (body.cells > 0) body.spacing /= body.cells;
   return body;

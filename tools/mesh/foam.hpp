@@ -8,8 +8,8 @@
 
 namespace strut::mesh {
 
-// One block and six node sets without names, the lower corner of the box at the origin. Throws Error where voxels are
-// too coarse for connected struts of the wanted density, or the box does not hold a cell.
+// One block and six node sets without names, with the lower corner of the box at the origin. Throws Error if voxels are
+// too coarse for connected struts of the wanted density, or if the box does not contain a foam cell.
 io::Mesh foam_mesh(const Body& body, std::string& summary);
 
 }  // namespace strut::mesh

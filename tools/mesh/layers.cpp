@@ -24,7 +24,7 @@ double next_thickness(const Body& body, double thickness, double level) {
 std::vector<double> graded_levels(const Body& body, double height) {
   std::vector<double> levels{0};
   double thickness = body.spacing;
-  // As many layers as come nearest to the height.
+  // The number of layers closest to the height.
   while (levels.size() == 1 || levels.back() + thickness / 2 <= height) {
     levels.push_back(levels.back() + thickness);
     thickness = next_thickness(body, thickness, levels.back());

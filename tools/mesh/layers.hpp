@@ -1,4 +1,4 @@
-// The layers of a body that is drawn along z.
+// The layers of a body that is extruded along z.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace strut::mesh {
 
-// Heights of the layers' faces over a body of this height (m), from 0 to it: all layers alike, as thick as the spacing
-// but for rounding; or graded. Graded ones have the spacing as their thickness over the length `uniform`, then each is
-// `grading` times as thick as the one below, up to `coarsest`; then all are scaled to fit the height.
+// Heights of the layers' faces over a body of this height (m), from 0 to it: equal layers, as thick as the spacing up
+// to rounding; or graded ones, with the spacing over the length `uniform`, then each `grading` times as thick as the
+// one below, up to `coarsest`; then all are scaled to fit the height.
 std::vector<double> levels_of(const Body& body, double height);
 
 }  // namespace strut::mesh

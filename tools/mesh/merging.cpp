@@ -10,7 +10,7 @@ namespace {
 
 using Triple = Eigen::Array3i;
 
-// The edge of a bar with these moments along its length, in spacings.
+// The length of a bar with these moments, in spacings.
 double length_of(const io::PartialCell& part, const Vector& spacing) {
   const auto scale = spacing.cwiseInverse().asDiagonal();
   const Tensor moments = scale * to_tensor(part.moments) * scale;
@@ -34,7 +34,7 @@ void Merging::finish() {
   }
 }
 
-// Whether a piece at `place` would touch all those that `piece` has contacts with, `other` aside.
+// True if a piece at `place` would touch all pieces that `piece` has contacts with, except `other`.
 bool Merging::reaches(int place, int piece, int other) const {
   const Triple at = grid_.cell(place);
   return std::all_of(links_[piece].begin(), links_[piece].end(), [&](int linked) {

@@ -1,4 +1,4 @@
-// Pieces of a body that become parts of their neighbors, one by one.
+// Merges pieces of a body into their neighbors, one by one.
 #pragma once
 
 #include <limits>
@@ -9,16 +9,16 @@
 
 namespace strut::mesh {
 
-// Nodes can join cells only whose places touch: what would tear material apart, because a merged cell has a contact
-// beyond, is not done.
+// Nodes can join only cells at touching positions. So a merge that would separate material, because the merged cell has
+// a contact farther away, is not made.
 class Merging {
  public:
-  // `links`: of each piece those that it can be merged into.
+  // `links`: for each piece, those that it can be merged into.
   Merging(Pieces& pieces, std::vector<std::set<int>> links, const VoxelGrid& grid);
 
-  // Merges a piece into the one of its links that is `allowed` and leaves the two most compact, no longer than
-  // `longest` cells. The result is at the place of the latter or, where only this keeps its neighbors, of the former.
-  // Returns the piece that holds both, -1: none.
+  // Merges a piece into the one of its links that is `allowed`, gives the most compact result, and is no longer than
+  // `longest` cells. The result is at the position of that link or, if only that keeps its neighbors, of the piece.
+  // Returns the piece that contains both, or -1.
   template <class Allowed>
   int merge(int piece, double longest, const Allowed& allowed) {
     candidates_.clear();
@@ -35,13 +35,13 @@ class Merging {
   bool alive(int piece) const { return alive_[piece]; }
   const std::set<int>& links(int piece) const { return links_[piece]; }
 
-  // Gives the voxels of merged pieces to those that hold them.
+  // Assigns the voxels of merged pieces to the pieces that contain them.
   void finish();
 
  private:
   struct Choice {
     int into = -1;  // a piece; -1: none is possible
-    int place = 0;  // of both, merged
+    int place = 0;  // of the merged piece
   };
 
   int merge_into_best(int piece, double longest);
@@ -55,7 +55,7 @@ class Merging {
   std::vector<std::set<int>> links_;
   const VoxelGrid& grid_;
   std::vector<char> alive_;
-  std::vector<int> into_;  // what a merged piece became part of
+  std::vector<int> into_;  // the piece that a merged piece became part of
   std::vector<int> candidates_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 using Triple = Eigen::Array3i;
 
-// Both the voxels and their neighbors ascend, so that one walk along the list finds all; no array of the grid's size.
+// Voxels and their neighbors both ascend, so that one pass over the list finds all without an array of the grid's size.
 std::vector<Upper> upper_neighbors(const std::vector<int>& voxels, const VoxelGrid& grid) {
   std::vector<Upper> upper(voxels.size(), {-1, -1, -1});
   const Upper stride = {1, grid.cells[0], grid.cells[0] * grid.cells[1]};
@@ -27,7 +27,7 @@ std::vector<Upper> upper_neighbors(const std::vector<int>& voxels, const VoxelGr
   return upper;
 }
 
-// For each voxel the fullest one that it has a face in common with, -1: none is fuller than it is.
+// For each voxel the fullest one with a common face, -1: none is fuller than it is.
 std::vector<int> fullest_neighbors(const std::vector<double>& fills, const std::vector<Upper>& upper) {
   std::vector<int> fullest(upper.size(), -1);
   const auto offer = [&](int to, int other) {
@@ -43,8 +43,8 @@ std::vector<int> fullest_neighbors(const std::vector<double>& fills, const std::
   return fullest;
 }
 
-// Grey voxels that are less than half full are the rims of struts, and hang on their fullest neighbor alone: two
-// struts whose rims meet are still two.
+// Grey voxels less than half full are the surface of struts, and are connected only to their fullest neighbor: two
+// struts whose surfaces meet remain separate.
 std::vector<Upper> joined_neighbors(const std::vector<double>& fills, std::vector<Upper> upper) {
   if (fills.empty()) return upper;
   const std::vector<int> fullest = fullest_neighbors(fills, upper);
@@ -61,7 +61,7 @@ Vector lower_corner(const VoxelGrid& grid, int place) {
   return grid.cell(place).cast<double>() * grid.spacing().array();
 }
 
-// Sums over the voxels of a piece, in voxels from the lower corner of its place: exact for whole ones.
+// Sums over the voxels of a piece, in voxels from the lower corner of its cell: exact for whole voxels.
 struct Sums {
   double filled = 0;
   Vector first = Vector::Zero();
@@ -75,7 +75,7 @@ struct Sums {
   }
   void put_into(io::PartialCell& part, const Vector& corner, const Vector& h) const {
     const Vector mean = first / filled;
-    const Tensor central = second / filled - mean * mean.transpose() + Tensor::Identity() / 12;  // and of a voxel
+    const Tensor central = second / filled - mean * mean.transpose() + Tensor::Identity() / 12;  // with that of a voxel
     part.volume = filled * h.prod();
     part.centroid = corner + Vector((mean.array() + 0.5) * h.array());
     part.moments = symmetric_part(h.asDiagonal() * central * h.asDiagonal());
@@ -107,12 +107,12 @@ void set_volumes(const Material& material, const VoxelGrid& coarse, int factor, 
   }
 }
 
-// Of two voxels that are filled differently, the emptier one has the surface between them: it runs through that one.
-// Dropped voxels are void: grey ones that hang on nothing can have faces in common with kept ones.
+// The surface between two voxels with different fills belongs to the emptier one, through which it runs. Dropped voxels
+// are void: unconnected grey ones can have common faces with kept ones.
 void add_surfaces(const Material& material, Pieces& pieces) {
   const Vector h = material.grid.spacing();
   std::vector<std::array<bool, 3>> has_lower(material.voxels.size(), {false, false, false});
-  // `side`: 0 or 1, the face of voxel v along the axis that the area is on.
+  // `side`: 0 or 1, the face of voxel v across the axis.
   const auto add = [&](int v, int axis, double outward, int side) {
     io::PartialCell& part = pieces.list[pieces.of[v]].part;
     Vector at = material.grid.cell(material.voxels[v]).cast<double>() + 0.5;
@@ -151,7 +151,7 @@ Pieces connected_within(const Material& material, const VoxelGrid& coarse, int f
       if (w >= 0 && places[v] == places[w]) groups.join(v, w);
     }
   }
-  std::vector<std::pair<int, int>> firsts;  // place and first voxel of each piece
+  std::vector<std::pair<int, int>> firsts;  // position and first voxel of each piece
   for (int v = 0; v < material.size(); ++v) {
     if (groups.first(v) == v) firsts.emplace_back(places[v], v);
   }
@@ -188,7 +188,7 @@ void renumber(Pieces& pieces) {
   for (const int piece : pieces.of) {
     if (piece >= 0) used[piece] = 1;
   }
-  std::vector<std::pair<int, int>> order;  // place and piece
+  std::vector<std::pair<int, int>> order;  // position and piece
   for (int p = 0; p < static_cast<int>(used.size()); ++p) {
     if (used[p]) order.emplace_back(pieces.list[p].place, p);
   }
@@ -208,7 +208,7 @@ void absorb(io::PartialCell& part, const io::PartialCell& other) {
   const double a = part.volume / volume, b = other.volume / volume;
   const Vector apart = other.centroid - part.centroid;
   part.moments = a * part.moments + b * other.moments + a * b * symmetric_part(apart * apart.transpose());
-  // About the common centroid, which lies b apart from the one and −a apart from the other.
+  // Relative to the common centroid, which is b · apart from the first one and −a · apart from the other.
   part.surface_moments += other.surface_moments + (a * other.surface - b * part.surface) * apart.transpose();
   part.centroid += b * apart;
   part.volume = volume;

@@ -1,4 +1,4 @@
-// Cells in the making: which voxels belong together, and what each of these pieces is.
+// Pieces: the connected voxels of a cell, before cells are final.
 #pragma once
 
 #include <set>
@@ -8,15 +8,15 @@
 
 namespace strut::mesh {
 
-using Upper = std::array<int, 3>;  // a voxel's neighbors along x, y, z as places in the list, -1: void
+using Upper = std::array<int, 3>;  // a voxel's neighbors along x, y, z as indices in the list, -1: void
 
-// What is solid: voxels by their places in a list.
+// The solid voxels, by their indices in a list.
 struct Material {
   const std::vector<int>& voxels;
   const std::vector<double>& fills;
   const VoxelGrid& grid;
   std::vector<Upper> upper;
-  std::vector<Upper> joined;  // the same, where they hang together
+  std::vector<Upper> joined;  // the same, if connected
 
   double fill(int voxel) const { return fills.empty() ? 1 : fills[voxel]; }
   int size() const { return static_cast<int>(voxels.size()); }
@@ -24,32 +24,32 @@ struct Material {
 
 Material material_of(const std::vector<int>& voxels, const std::vector<double>& fills, const VoxelGrid& grid);
 
-// A cell in the making.
+// A cell before merging is complete.
 struct Piece {
   int place;
-  double filled = 0;  // voxels: whole numbers but for grey ones, so that sizes compare exactly
+  double filled = 0;  // in voxels: integers except for grey ones, so that sizes compare exactly
   io::PartialCell part;
 };
 
-// The pieces by place, and for each voxel the one that it is in, -1: none, it is dropped.
+// The pieces by position, and the piece of each voxel, -1: dropped.
 struct Pieces {
   std::vector<Piece> list;
   std::vector<int> of;
 };
 
-// The voxels of each cell of the coarse grid that hang together within it.
+// The voxels of each cell of the coarse grid that are connected within it.
 Pieces connected_within(const Material& material, const VoxelGrid& coarse, int factor);
 
-// What the pieces hold, from their voxels.
+// Sets volume, centroid, moments and surface of the pieces from their voxels.
 void measure(const Material& material, const VoxelGrid& coarse, int factor, Pieces& pieces);
 
-// For each piece those that have a face in common with it.
+// For each piece, those with a common face.
 std::vector<std::set<int>> links_of(const Material& material, const Pieces& pieces);
 
-// Orders the pieces by their places; those without voxels are left out.
+// Sorts the pieces by position and removes those without voxels.
 void renumber(Pieces& pieces);
 
-// Makes one cell of two: volume, moments and surface of both.
+// Merges two cells: volume, moments and surface of both.
 void absorb(io::PartialCell& part, const io::PartialCell& other);
 
 }  // namespace strut::mesh

@@ -30,7 +30,7 @@ struct Entry {
   int line = 0;
 };
 
-// The entries of one body, and what is wrong with them.
+// The entries of one body, and their errors.
 class Entries {
  public:
   explicit Entries(int line) : line_(line) {}
@@ -41,7 +41,7 @@ class Entries {
     const auto place = entries_.find(key);
     return place == entries_.end() ? nullptr : &place->second;
   }
-  // All of `defaults` that this does not have itself.
+  // Takes all of `defaults` that this does not have itself.
   void take_defaults(const Entries& defaults) { entries_.insert(defaults.entries_.begin(), defaults.entries_.end()); }
 
  private:
@@ -55,12 +55,12 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-// Lines to entries; only whether a line is a known key with a value is checked here.
+// Parses lines into entries; checks only whether a line is a known key with a value.
 class Lines {
  public:
   explicit Lines(std::vector<std::string>& problems) : problems_(problems) {}
 
-  // Throws Error of one line where this is another file: most of its first lines are no lines of a recipe.
+  // Throws Error of one line if this is another kind of file: most of its first lines are no lines of a recipe.
   std::vector<Entries> read(std::istream& stream) {
     std::string text;
     int lines = 0;
@@ -85,7 +85,7 @@ class Lines {
                 " and others; meshes of other programs are for tools/tetrahedra, images for tools/voxels");
   }
 
-  // A line that is none of a recipe.
+  // A line that cannot be of a recipe.
   void take_foreign(const std::string& content) {
     if (foreign_++ > 0) return;
     for (const char c : content.substr(0, 60)) first_foreign_ += c >= ' ' && c <= '~' ? c : '?';
@@ -126,7 +126,7 @@ class Lines {
   std::vector<Entries> bodies_;
 };
 
-// Entries to a Body.
+// Converts entries to a Body.
 class Converter {
  public:
   // `folder`: of the recipe.
@@ -230,7 +230,7 @@ class Converter {
     if (const Entry* entry = entries_.find("seed")) body.seed = whole(*entry);
   }
 
-  // Of cubes only: after the method and the elements.
+  // For cubes only: call it after the method and the elements.
   void convert_gathering(Body& body) {
     const Entry* cells = entries_.find("cells");
     if (cells == nullptr) return refuse({"smallest_cell"}, "body without the key 'cells'");

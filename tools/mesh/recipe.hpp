@@ -1,4 +1,4 @@
-// What a mesh shall be: "key = value" lines, sections "[body]". tools/README.md has the table of keys.
+// The recipe of a mesh: "key = value" lines, sections "[body]". tools/README.md has the table of keys.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace strut::mesh {
 struct Body {
   enum class Shape { cylinder, cone, box, foam, file };
   enum class Method { lattice, fitted };
-  enum class Centered { point, corner };  // what of the lattice lies on a cylinder's axis
+  enum class Centered { point, corner };  // the point of the lattice on a cylinder's axis
   enum class Elements { hexahedra, spheres };
 
   std::string name = "body";
@@ -22,11 +22,11 @@ struct Body {
   Method method = Method::lattice;
   Centered centered = Centered::corner;
   Elements elements = Elements::hexahedra;
-  double spacing = 0;              // m, wanted
-  int cells = 0;                   // voxels along an edge of a cell, which gathers them; 0: a cell is a voxel
-  double smallest_cell = 0.3;      // of a whole cell: what is smaller is merged into a neighbor
-  double grading = 1;              // largest ratio of the thicknesses of neighboring layers; 1: all alike
-  double uniform = 0;              // m, at zmin, where layers are not yet growing
+  double spacing = 0;              // m, requested
+  int cells = 0;                   // voxels along an edge of a gathered cell; 0: a cell is a voxel
+  double smallest_cell = 0.3;      // of a whole cell: smaller ones are merged into a neighbor
+  double grading = 1;              // largest ratio of the thicknesses of adjacent layers; 1: equal layers
+  double uniform = 0;              // m, length of equal layers at zmin
   double coarsest = 0;             // m, largest thickness of a layer; 0: no limit
   double length = 0;               // m, of a cylinder or cone, along z
   double radius = 0;               // m
@@ -34,14 +34,14 @@ struct Body {
   Vector size = Vector::Zero();    // m, of a box
   Vector origin = Vector::Zero();  // m, center of a round body's lower face, lower corner of a box, shift of a file
   double cell = 0;                 // m, mean diameter of a foam's cells
-  double relative_density = 0;     // volume of a foam's struts in that of its box
-  double irregularity = 0.5;       // 0: all cells alike, 1: as random as they get
+  double relative_density = 0;     // volume of a foam's struts over that of its box
+  double irregularity = 0.5;       // 0: equal foam cells, 1: the most random ones
   std::uint64_t seed = 1;          // of the random numbers
   std::filesystem::path file;      // of a mesh, relative to the working folder
 };
 
-// Keys before the first "[body]" hold for all bodies; without such a line there is one body.
-// Throws Error with all that is wrong, each with its line.
+// Keys before the first "[body]" hold for all bodies; without such a line there is one body. Throws Error with all
+// problems, each with its line.
 std::vector<Body> read_recipe(const std::filesystem::path& path);
 
 }  // namespace strut::mesh

@@ -1,11 +1,11 @@
-// How well the cells of a mesh resolve its struts.
+// The resolution of struts by the cells of a mesh.
 #pragma once
 
 #include <string>
 
 namespace strut::mesh {
 
-// A line, indented, about `members` (struts) so many cells thick: what a run is to be expected to be wrong by.
+// An indented line about `members` (struts) this many cells thick: the errors to expect in a run.
 std::string resolution_of(const std::string& members, double cells);
 
 }  // namespace strut::mesh

@@ -10,7 +10,7 @@ namespace strut::mesh {
 
 namespace {
 
-// n × m cells of which `keep(i, j)` stay, the nodes (i, j) at `position(i, j)`; only nodes of a kept cell are numbered.
+// n × m cells; those with `keep(i, j)` stay, with nodes (i, j) at `position(i, j)`. Only their nodes are numbered.
 Section grid(int n, int m, const std::function<bool(int, int)>& keep, const std::function<Point(int, int)>& position) {
   Section section;
   std::vector<int> numbers(static_cast<std::size_t>(n + 1) * (m + 1), -1);
@@ -32,8 +32,8 @@ Section grid(int n, int m, const std::function<bool(int, int)>& keep, const std:
 
 bool all(int, int) { return true; }
 
-// Shirley & Chiu's map of the square [-1, 1]² to the unit disc: squares about the origin become circles, and areas are
-// all multiplied by π/4, so that equal squares give cells of equal area (but for the sagitta of their edges).
+// Shirley & Chiu's map of the square [-1, 1]² to the unit disc: squares around the origin become circles, and all areas
+// are multiplied by π/4, so that equal squares give cells of equal area (except for the sagitta of their edges).
 Point disc_of_square(double u, double v) {
   if (u == 0 && v == 0) return Point::Zero();
   const double quarter = std::numbers::pi / 4;
@@ -74,7 +74,7 @@ Section lattice_disc(double radius, double spacing, Body::Centered centered) {
   const bool corner = centered == Body::Centered::corner;
   const int half = static_cast<int>(std::ceil(radius / spacing)) + 1;
   const int n = corner ? 2 * half : 2 * half + 1;
-  // In units of half a spacing, these are exact integers: the section is symmetric to the last bit.
+  // In units of half a spacing these are exact integers, so the section is symmetric to the last bit.
   const double square = std::pow(2 * radius / spacing, 2) * (1 + 1e-12);
   const auto keep = [&](int i, int j) {
     const double x = 2 * i + 1 - n;
@@ -88,7 +88,7 @@ Section lattice_disc(double radius, double spacing, Body::Centered centered) {
 }
 
 Section fitted_disc(double radius, double spacing) {
-  // n² cells for the area π radius² at the spacing; an odd n would have a much smaller cell in the middle.
+  // n² cells for the area π radius² at the spacing; an odd n would give a much smaller cell in the middle.
   const double wanted = radius * std::sqrt(std::numbers::pi) / spacing;
   const int n = std::max(2, 2 * static_cast<int>(std::lround(wanted / 2)));
   return grid(n, n, all, [&](int i, int j) -> Point {

@@ -1,4 +1,4 @@
-// Cross-sections of quadrilaterals, the bodies' shapes in the plane.
+// Cross-sections of quadrilaterals: the bodies' shapes in the plane.
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,13 +25,13 @@ struct Section {
   Shape shape(std::size_t cell) const;
 };
 
-// Squares of the spacing whose centers lie within the radius; the axis meets a center or a corner of four.
+// Squares of the spacing with their centers within the radius; the axis is at a center, or at a corner of four.
 Section lattice_disc(double radius, double spacing, Body::Centered centered);
 
-// An even number of cells across, all of nearly the same area, the outer nodes on the circle.
+// An even number of cells across, all with nearly the same area; the outer nodes are on the circle.
 Section fitted_disc(double radius, double spacing);
 
-// The lower corner at the origin; sides xmin, xmax, ymin, ymax.
+// The lower corner is at the origin; sides xmin, xmax, ymin, ymax.
 Section rectangle(double a, double b, double spacing);
 
 }  // namespace strut::mesh

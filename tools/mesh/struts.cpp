@@ -13,10 +13,10 @@ namespace strut::mesh {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double same = 1e-9;  // spacings: distances that differ by rounding only
+constexpr double same = 1e-9;  // spacings: differences by round-off
 
 struct Candidate {
-  double distance;  // m, of the center from the nearest edge
+  double distance;  // m, from the center to the nearest edge
   int voxel;
 };
 
@@ -26,13 +26,13 @@ double squared_distance(const Edge& edge, const Vector& along, double inverse_sq
   return (from - t * along).squaredNorm();
 }
 
-// Lowers the distances of the voxels in the box around an edge and its `reach`. Edges are short beside the grid, so
-// that each meets few voxels, and each voxel the few edges near it.
+// Lowers the distances of the voxels in the box around an edge and its `reach`. Edges are short compared with the grid,
+// so that each meets few voxels, and each voxel the few edges near it.
 void lower_distances(const Edge& edge, const VoxelGrid& grid, double reach, std::vector<double>& squared) {
   const Vector h = grid.spacing();
   const Vector along = edge.b - edge.a;
   const double inverse_square = along.squaredNorm() > 0 ? 1 / along.squaredNorm() : 0;
-  // In cells, clamped before they become integers.
+  // In cells, clamped before conversion to integers.
   const auto cells = [&](const Eigen::Array3d& x) {
     return (x / h.array()).floor().max(-1).min(grid.cells.cast<double>()).cast<int>().eval();
   };
@@ -49,7 +49,7 @@ void lower_distances(const Edge& edge, const VoxelGrid& grid, double reach, std:
   }
 }
 
-// All voxels within `reach` of an edge, by distance.
+// All voxels within `reach` of an edge, sorted by distance.
 std::vector<Candidate> candidates_within(double reach, const std::vector<Edge>& edges, const VoxelGrid& grid) {
   std::vector<double> squared(grid.count(), infinity);
   for (const Edge& edge : edges) lower_distances(edge, grid, reach, squared);
@@ -63,7 +63,7 @@ std::vector<Candidate> candidates_within(double reach, const std::vector<Edge>& 
   return candidates;
 }
 
-// Voxels join one by one; which are connected by faces, and how many the largest piece has.
+// Adds voxels one by one, and tracks the pieces connected by faces and the size of the largest one.
 class Pieces {
  public:
   explicit Pieces(const VoxelGrid& grid) : grid_(grid), place_(grid.count(), -1) {}
@@ -104,13 +104,13 @@ class Pieces {
   }
 
   const VoxelGrid& grid_;
-  std::vector<int> place_;          // of a voxel in the order of joining; -1: not yet
-  std::vector<int> parent_, size_;  // of a place; the size is right for roots
+  std::vector<int> place_;          // index of a voxel in the order of adding; -1: not yet
+  std::vector<int> parent_, size_;  // by index; the size is valid for roots
   int largest_ = 0;
   std::size_t pieces_ = 0;
 };
 
-// False where the candidates do not suffice.
+// Returns false if there are not enough candidates.
 bool grow(const std::vector<Candidate>& candidates, const VoxelGrid& grid, std::size_t wanted, Struts& struts) {
   Pieces pieces(grid);
   const double tolerance = same * grid.spacing().minCoeff();
@@ -119,7 +119,7 @@ bool grow(const std::vector<Candidate>& candidates, const VoxelGrid& grid, std::
   while (n < candidates.size() && candidates[n].distance - candidates[n - 1].distance <= tolerance) {
     pieces.add(candidates[n++].voxel);
   }
-  if (n == candidates.size()) return false;  // the next one could be as near
+  if (n == candidates.size()) return false;  // the next one could have the same distance
   struts.radius = (candidates[n - 1].distance + candidates[n].distance) / 2;
   for (std::size_t c = 0; c < n; ++c) {
     if (pieces.in_largest(candidates[c].voxel)) struts.voxels.push_back(candidates[c].voxel);
@@ -137,7 +137,7 @@ Struts struts_around(const std::vector<Edge>& edges, const VoxelGrid& grid, std:
   for (const Edge& edge : edges) length += length_within(edge, grid.size);
   if (!(length > 0)) throw Error("no edge of the foam's cells meets the box: it is too small for this cell");
   wanted = std::max<std::size_t>(wanted, 1);
-  // Separate cylinders of the wanted volume; where they overlap, at the vertices, they must be thicker.
+  // Separate cylinders with the wanted volume; because they overlap at the vertices, they must be thicker.
   const double volume = static_cast<double>(wanted) * grid.spacing().prod();
   double reach = 1.2 * std::sqrt(volume / (std::numbers::pi * length)) + grid.spacing().maxCoeff();
   Struts struts;

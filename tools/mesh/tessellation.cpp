@@ -11,17 +11,17 @@ namespace strut::mesh {
 
 namespace {
 
-// All lengths in this file are in halves of the lattice constant: voro++ has absolute tolerances, and the sites of the
-// BCC lattice are the points whose integer coordinates are all even or all odd.
+// Lengths in this file are in halves of the lattice constant: voro++ has absolute tolerances, and the sites of the BCC
+// lattice are the points whose integer coordinates are all even or all odd.
 using Site = Eigen::Array3i;
 
-const double nearest = std::sqrt(3.0);  // distance of neighbors
-// Beyond the box, on each side: an empty sphere among the seeds has a radius of 1.12 on the lattice and at most 1.99 in
-// the most disturbed one, so that no vertex near the box has a seed, or a wall of the container, farther out.
+const double nearest = std::sqrt(3.0);  // distance of nearest neighbors
+// Margin around the box: an empty sphere among the seeds has a radius of 1.12 on the lattice and at most 1.99 in the
+// most irregular one, so no vertex near the box depends on a seed, or a wall of the container, beyond the margin.
 constexpr double margin = 5;
 constexpr int most_tries = 100;
 
-// Uniform in [-1, 1), the same on every machine: the library's distributions are not.
+// Uniform in [-1, 1), the same on every machine, unlike the library's distributions.
 double uniform(std::mt19937_64& random) { return std::ldexp(static_cast<double>(random() >> 11), -52) - 1; }
 
 Vector in_unit_ball(std::mt19937_64& random) {
@@ -52,7 +52,7 @@ class Seeds {
   }
 
   const std::vector<Vector>& positions() const { return positions_; }
-  // Of a box about the origin that holds all of them.
+  // Half width of a box around the origin that contains all of them.
   Vector half_width() const { return reach_.cast<double>() + 1; }
 
  private:
@@ -65,7 +65,7 @@ class Seeds {
     return placed_[(static_cast<std::size_t>(place[2]) * width_[1] + place[1]) * width_[0] + place[0]];
   }
 
-  // A seed that finds no room stays on its site, where there always is: neighbors come no closer than `least_`.
+  // A seed without room stays on its site, where there always is room: neighbors are at least `least_` apart.
   void place(const Site& site) {
     const Vector lattice = site.cast<double>();
     Vector x = lattice;
@@ -80,7 +80,7 @@ class Seeds {
     positions_.push_back(x);
   }
 
-  // Sites that are 3 or more apart cannot get too close: they come together by 2 radius_ at most.
+  // Sites 3 or more apart cannot get too close: they approach by 2 radius_ at most.
   bool has_room(const Site& site, const Vector& x) {
     const Site low = (site - 2).max(-reach_), high = (site + 2).min(reach_);
     for (int k = low[2]; k <= high[2]; ++k) {
@@ -100,7 +100,7 @@ class Seeds {
   std::mt19937_64 random_;
 };
 
-// One cell as voro++ returns it.
+// A cell as returned by voro++.
 struct Cell {
   std::vector<double> vertices;
   std::vector<int> faces;      // for each: number of vertices, then these in order
@@ -109,9 +109,9 @@ struct Cell {
   Vector vertex(int n) const { return {vertices[3 * n], vertices[3 * n + 1], vertices[3 * n + 2]}; }
 };
 
-// An edge is shared by three cells and taken from the one of the smallest number. Edges on a wall are left out.
+// An edge is shared by three cells, and is taken from the one with the smallest number. Edges on a wall are left out.
 void add_edges(const Cell& cell, int number, std::vector<Edge>& edges) {
-  std::map<std::pair<int, int>, int> open;  // edges of one face so far, and the neighbor behind that
+  std::map<std::pair<int, int>, int> open;  // edges of one face so far, with the neighbor behind it
   std::size_t begin = 0;
   for (const int neighbor : cell.neighbors) {
     const int count = cell.faces[begin++];
@@ -126,7 +126,7 @@ void add_edges(const Cell& cell, int number, std::vector<Edge>& edges) {
 }
 
 std::vector<Edge> tessellation_edges(const std::vector<Vector>& seeds, const Vector& half) {
-  const Eigen::Array3i bins = (half.array() * 0.75).ceil().cast<int>();  // about 5 seeds each, as voro++ advises
+  const Eigen::Array3i bins = (half.array() * 0.75).ceil().cast<int>();  // about 5 seeds each, as voro++ recommends
   voro::container container(-half[0], half[0], -half[1], half[1], -half[2], half[2], bins[0], bins[1], bins[2], false,
                             false, false, 8);
   for (std::size_t n = 0; n < seeds.size(); ++n) {
@@ -149,7 +149,7 @@ std::vector<Edge> tessellation_edges(const std::vector<Vector>& seeds, const Vec
 }  // namespace
 
 Skeleton foam_skeleton(const Vector& size, double cell, double irregularity, std::uint64_t seed) {
-  // Two cells of volume π cell³ / 6 in each cube of the lattice.
+  // Two foam cells of volume π cell³ / 6 in each cube of the lattice.
   const double unit = cell * std::cbrt(std::numbers::pi / 3) / 2;
   const Vector half = size / (2 * unit);
   const Seeds seeds(half, irregularity, seed);
@@ -164,7 +164,7 @@ Skeleton foam_skeleton(const Vector& size, double cell, double irregularity, std
 }
 
 double length_within(const Edge& edge, const Vector& size) {
-  double begin = 0, end = 1;  // of what is left of it
+  double begin = 0, end = 1;  // fractions of the remaining part
   for (int k = 0; k < 3; ++k) {
     const double along = edge.b[k] - edge.a[k];
     if (along == 0 && (edge.a[k] < 0 || edge.a[k] > size[k])) return 0;

@@ -1,4 +1,4 @@
-// The skeleton of an open-cell foam: the edges of a Voronoi tessellation of disturbed BCC seeds.
+// The skeleton of an open-cell foam: the edges of a Voronoi tessellation of irregular BCC seeds.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ struct Edge {
 };
 
 struct Skeleton {
-  std::vector<Edge> edges;  // all that a box of the size at the origin holds, and more around it; none is cut
-  std::size_t cells = 0;    // whose seed lies in the box
+  std::vector<Edge> edges;  // all in a box of this size at the origin, and more around it, uncut
+  std::size_t cells = 0;    // number with their seed in the box
 };
 
-// Seeds on a body-centered cubic lattice, one of them in the middle of the box, each moved by a random vector within a
-// ball of `irregularity` (0 to 1) times half the distance of neighbors, so that no two come closer than
-// (1 - irregularity / 2) of that distance. The lattice goes on around the box: nothing in the box knows of its walls.
-// `cell`: diameter (m) of the sphere that has the mean volume of a cell.
+// Seeds are on a body-centered cubic lattice with one in the center of the box, each displaced by a random vector
+// within a ball of `irregularity` (0 to 1) times half the distance of nearest neighbors, so that seeds are at least (1
+// - irregularity / 2) of that distance apart. The lattice continues around the box, so that the walls have no effect.
+// `cell`: diameter (m) of the sphere with the mean volume of a foam cell.
 Skeleton foam_skeleton(const Vector& size, double cell, double irregularity, std::uint64_t seed);
 
 // The length of the part of the edge within the box.

@@ -9,7 +9,7 @@ namespace {
 
 using Triple = Eigen::Array3i;
 
-// In the order that other bodies have: zmin and zmax first.
+// In the order of other bodies: zmin and zmax first.
 struct Face {
   const char* name;
   int axis;
@@ -22,8 +22,8 @@ constexpr std::array<Face, 6> faces = {{{"zmin", 2, false},
                                         {"ymin", 1, false},
                                         {"ymax", 1, true}}};
 
-// Numbers the corners of voxels as they are met. Voxels come layer by layer, so that the numbers of the corners below
-// and above a layer are all that is kept.
+// Numbers the corners of voxels as they occur. Voxels are processed layer by layer, so that only the numbers of the
+// corners below and above a layer are stored.
 class Corners {
  public:
   Corners(io::Mesh& mesh, const VoxelGrid& grid) : mesh_(mesh), grid_(grid) {
@@ -65,7 +65,7 @@ void add_hexahedra(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGr
   }
 }
 
-// The same points as from hexahedra: a sphere is in the sets that its voxel's corners would be in.
+// The same points as from hexahedra: a sphere is in the sets of its voxel's corners.
 void add_spheres(io::Mesh& mesh, const std::vector<int>& voxels, const VoxelGrid& grid) {
   for (const int voxel : voxels) {
     const int number = static_cast<int>(mesh.nodes.size());

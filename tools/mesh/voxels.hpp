@@ -1,4 +1,4 @@
-// A box of voxels of which some are kept: those around the edges of a skeleton, and the mesh of them.
+// A box of voxels of which some are kept, namely those around the edges of a skeleton, and their mesh.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace strut::mesh {
 
-// The lower corner at the origin.
+// A grid with its lower corner at the origin.
 struct VoxelGrid {
   Vector size;           // m, of the box
   Eigen::Array3i cells;  // along each axis
@@ -24,31 +24,31 @@ struct VoxelGrid {
   }
 };
 
-// As many cells as come nearest to the spacing, each divided in `factor` voxels along each axis.
+// The number of cells closest to the spacing, each divided into `factor` voxels along each axis.
 VoxelGrid grid_of(const Vector& size, double spacing, int factor);
 
 struct Struts {
-  std::vector<int> voxels;         // indices, ascending: one piece, voxels that share faces
+  std::vector<int> voxels;         // indices, ascending: one piece, connected through faces
   double radius = 0;               // m
   std::size_t dropped_pieces = 0;  // smaller ones within the same radius
   std::size_t dropped_voxels = 0;
 };
 
-// The voxels whose center lies within a radius of an edge, the radius such that the largest piece has at least `wanted`
-// voxels. Voxels at the same distance are kept or left out together, so that symmetry is kept, too.
+// The voxels whose center is within a radius of an edge; the radius is the one for which the largest piece has at least
+// `wanted` voxels. Voxels at equal distances are kept or left out together, which preserves symmetry.
 Struts struts_around(const std::vector<Edge>& edges, const VoxelGrid& grid, std::size_t wanted);
 
-// One empty block of this type, and empty node sets zmin, zmax, xmin, xmax, ymin, ymax. No names yet.
+// One empty block of this type, and empty node sets zmin, zmax, xmin, xmax, ymin, ymax, all without names.
 io::Mesh empty_mesh(const std::string& type);
 
-// Puts node `number` at the place `at` (0 to `last` along each axis) into the sets of the faces that it lies on.
+// Adds node `number` at the position `at` (0 to `last` along each axis) to the sets of the faces that it is on.
 void add_to_sets(io::Mesh& mesh, int number, const Eigen::Array3i& at, const Eigen::Array3i& last);
 
-// The corners of a hexahedron from its lower one, in the order of Exodus.
+// The corners of a hexahedron, relative to its lower one, in the order of Exodus.
 inline const std::array<Eigen::Array3i, 8> hexahedron_corners = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-// Hexahedra or spheres; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box. No names yet.
+// Hexahedra or spheres; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all without names.
 io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements);
 
 }  // namespace strut::mesh

@@ -1,4 +1,4 @@
-"""A result (Exodus II) of material points: names, frames and columns, read when asked for."""
+"""A result (Exodus II) of material points: names, frames and columns, read on demand."""
 import difflib
 import os
 
@@ -23,7 +23,7 @@ def title(name):
 
 
 def clock_of(longest):
-    """What times up to `longest` (s) are multiplied with, and the unit: slow loading has times of a second and more."""
+    """Factor and unit for times up to `longest` (s): slow loading takes seconds or more."""
     return (1, "s") if longest >= 0.5 else (1e3, "ms") if longest >= 1e-4 else (1e6, "µs")
 
 
@@ -43,7 +43,7 @@ class Block:
 
 
 class Result:
-    """Values are given for each node, which is a point; columns of a frame are read when they are asked for."""
+    """Values are per node, and each node is a point; columns of a frame are read on demand."""
 
     def __init__(self, path):
         self.path, self.file = path, opened(path)
@@ -76,7 +76,7 @@ class Result:
         return name in self.names or name in self.nodal
 
     def values(self, name, frame):
-        """A variable; of a vector its length. NaN where the variable is not defined."""
+        """A variable; for a vector its magnitude. NaN where the variable is not defined."""
         if name in self.nodal:
             return self._column(name, frame)
         if name + "X" in self.nodal and name + "Y" in self.nodal and name + "Z" in self.nodal:

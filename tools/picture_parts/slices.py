@@ -1,4 +1,4 @@
-"""Three slices through the middle of a scan, and of what was made of it."""
+"""Three slices through the middle of a scan, and of the solid made from it."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -9,7 +9,7 @@ PLANES = (("z", "x", "y"), ("y", "x", "z"), ("x", "y", "z"))  # across, to the r
 
 
 def slice_of(values, across):
-    """Through the middle; rows go up."""
+    """A slice through the middle; rows go up."""
     axis = 2 - "xyz".index(across)
     return values.take(values.shape[axis] // 2, axis)
 
@@ -24,7 +24,7 @@ def draw(axes, values, cell, plane, **style):
 
 
 def picture(path, title, values, cell, how, solid=None, solid_cell=None):
-    """values: the scan (z, y, x), voxels of the edges cell (m); solid: what is kept of it, or the numbers of materials."""
+    """values: the scan (z, y, x), with voxel edges cell (m); solid: the kept part, or the numbers of materials."""
     rows = 1 if solid is None else 2
     figure, panels = plt.subplots(rows, 3, figsize=(13, 4.2 * rows), layout="constrained", squeeze=False)
     low, high = (float(f(slice_of(values, a))) for f, a in ((np.min, "z"), (np.max, "z")))

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view blanks = " \t\r";
 const std::string columns = "seven numbers separated by commas: time, xx, yy, zz, xy, yz, zx";
 
-// All of `line` as numbers with commas between, or nothing.
+// The numbers of `line`, separated by commas, or nullopt.
 std::optional<std::vector<double>> numbers_of(const std::string& line) {
   std::vector<double> numbers;
   const char *at = line.data(), *const end = line.data() + line.size();
@@ -35,7 +35,7 @@ std::optional<std::vector<double>> numbers_of(const std::string& line) {
   }
 }
 
-// What is wrong with the next row, or nothing.
+// The error of the next row, or nothing.
 std::string problem_of(const std::vector<Row>& rows, const Row& row) {
   if (rows.empty()) return row.value.isZero(0) ? "" : "the first row is the unloaded start: all its components are 0";
   return row.time > rows.back().time ? "" : "the time does not rise";

@@ -1,4 +1,4 @@
-// The path of a material point: what is prescribed, and when. From a file, or uniaxial. Units: s, Pa, strain -.
+// The path of a material point: prescribed components over time. From a file, or uniaxial. Units: s, Pa, strain -.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace strut::point {
 
 struct Row {
   double time;
-  Symmetric value;  // of each component the stress where that is prescribed, else the logarithmic strain
+  Symmetric value;  // for each component the stress if it is prescribed, else the logarithmic strain
 };
 
 // Linear between rows. The first row is the unloaded start.
@@ -21,10 +21,10 @@ struct Path {
   int steps = 1;  // between two rows
 };
 
-// Along x at `rate` > 0 to the strain `final`, which may be negative. The sides are held, or free of stress.
+// Along x at `rate` > 0 (1/s) to the strain `final`, which may be negative. The sides are held, or free of stress.
 Path uniaxial(const StressPrescribed& prescribed, double rate, double final);
 
-// Lines "time, xx, yy, zz, xy, yz, zx" after a header, if any; empty lines and lines that start with # are skipped.
+// Lines "time, xx, yy, zz, xy, yz, zx" after an optional header; empty lines and lines that start with # are skipped.
 // Throws Error with file and line.
 Path read_path(const std::filesystem::path& file, const StressPrescribed& prescribed);
 

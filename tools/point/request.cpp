@@ -26,7 +26,7 @@ double number_of(const std::string& option, const std::string& word) {
   return value;
 }
 
-// The words of a command line, taken from the front.
+// The words of a command line, consumed from the front.
 class Words {
  public:
   explicit Words(const std::vector<std::string>& words) : words_(words) {}

@@ -15,7 +15,7 @@ struct Request {
   Path path;
 };
 
-// Throws Error that says what is wrong.
+// Throws Error with a description of the problem.
 Request parse(const std::vector<std::string>& words);
 
 }  // namespace strut::point

@@ -1,12 +1,12 @@
-"""Exodus files are opened whole, or not at all: of a classic netCDF file that is cut off, netCDF takes what is missing for
-zeros. The header says how long the file is (as src/io/netcdf/classic_netcdf.cpp reads it)."""
+"""Opens Exodus files only if they are complete: netCDF reads missing data of a truncated classic netCDF file as zeros.
+The header gives the length of the file (as in src/io/netcdf/classic_netcdf.cpp)."""
 import os
 import struct
 
 from strut_tools import fail
 
 SIZES = {1: 1, 2: 1, 3: 2, 4: 4, 5: 4, 6: 8, 7: 1, 8: 2, 9: 4, 10: 8, 11: 8}  # bytes of a number, by type
-STREAMING = 0xffffffff  # number of records left open by a writer that cannot seek
+STREAMING = 0xffffffff  # number of records if the writer could not seek
 
 
 class Header:
@@ -23,7 +23,7 @@ class Header:
         self.file.seek((length + 3) // 4 * 4, os.SEEK_CUR)
 
     def repeated(self, one):
-        self.number(">I")  # the tag: which list
+        self.number(">I")  # the tag of the list
         return [one() for _ in range(self.number())]
 
     def dimension(self):
@@ -36,18 +36,18 @@ class Header:
         self.skip(self.number() * size)
 
     def variable(self, dimensions):
-        """(has it an entry for each record, bytes of one, its place)"""
+        """(whether it has an entry per record, bytes of one, its offset)"""
         self.skip(self.number())
         lengths = [dimensions[self.number()] for _ in range(self.number())]
         self.repeated(self.attribute)
         size = SIZES[self.number(">I")]
         for length in lengths:
             size *= length or 1
-        self.number()  # the size as stored, which wraps around for large variables
+        self.number()  # the stored size, which wraps around for large variables
         return 0 in lengths, size, self.number(self.offset_form)
 
     def promised(self):
-        """What the header says that the file's size is. Padding at the end may be unwritten."""
+        """The file size that the header implies. Padding at the end may be unwritten."""
         records = self.number()
         dimensions = self.repeated(self.dimension)
         self.repeated(self.attribute)
@@ -60,7 +60,7 @@ class Header:
 
 
 def problem(path):
-    """What is wrong with the file; None: nothing, or it is no classic netCDF, which netCDF itself looks at."""
+    """The defect of the file; None: none, or no classic netCDF file, which netCDF itself checks."""
     with open(path, "rb") as file:
         magic = file.read(4)
         if magic[:3] != b"CDF" or magic[3:] not in (b"\1", b"\2", b"\5"):
@@ -74,7 +74,7 @@ def problem(path):
 
 
 def opened(path):
-    """By netCDF4, without masks."""
+    """The file opened by netCDF4, without masks."""
     import netCDF4
 
     if not os.path.isfile(path):

@@ -1,4 +1,4 @@
-"""How ranks are started on this machine."""
+"""Starts ranks on this machine."""
 import functools
 import subprocess
 
@@ -10,5 +10,5 @@ def is_open_mpi(program="mpirun"):
 
 
 def mpirun(ranks):
-    """The words that start so many ranks; Open MPI's mpirun must be asked for runs that share cores."""
+    """The command that starts this many ranks; Open MPI's mpirun needs options for runs that share cores."""
     return ["mpirun", *(["--oversubscribe", "--bind-to", "none"] if is_open_mpi() else []), "-np", str(ranks)]

@@ -1,4 +1,4 @@
-"""What the Python tools share: installing what is missing, ending with one line, handing a mesh to strut-mesh, tables in pages."""
+"""Shared by the Python tools: install missing packages, end with one line, pass a mesh to strut-mesh, fill pages."""
 import argparse
 import contextlib
 import csv
@@ -15,12 +15,12 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 
 
 def fail(text):
-    """Ends the tool: one line that says which tool, and status 1."""
+    """Ends the tool with one line that names it, and status 1."""
     sys.exit(f"tools/{os.path.basename(sys.argv[0])}: {text}")
 
 
 def install_missing(packages):
-    """{module: Debian's package}: installs them, and runs the script once more by Debian's Python, which sees them."""
+    """{module: Debian's package}: installs missing ones, and restarts the script with Debian's Python."""
     import importlib.util
 
     missing = [package for module, package in packages.items() if importlib.util.find_spec(module) is None]
@@ -55,8 +55,8 @@ def number(word):
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse that says one line, knows the nearest option, and takes as many numbers after an option as there are, none
-    where that is one of its counts: a file's name may follow them, and they may be negative."""
+    """argparse with one-line errors and the nearest option. An option takes as many numbers as follow it, or none if
+    that is one of its counts: a file's name may follow them, and they may be negative."""
 
     def __init__(self, **words):
         super().__init__(allow_abbrev=False, formatter_class=argparse.RawDescriptionHelpFormatter, **words)
@@ -99,20 +99,20 @@ class Parser(argparse.ArgumentParser):
         fail(f"{message}; --help has all options")
 
 
-# What is written. A file that the user names is replaced, unless it is one that is read; one that a tool names by itself is
-# made anew, never written through a link
+# Output files. A file that the user names is replaced, unless it is an input; one that a tool names by itself is
+# created anew, never written through a link
 
 
 def same_file(one, other):
-    """By whatever name, link or hard link."""
+    """True if both names denote one file, through links and hard links."""
     try:
         return os.path.samefile(one, other)
-    except OSError:  # one of them is not there
+    except OSError:  # one of them does not exist
         return False
 
 
 def check_output(path, *read):
-    """Before the work is done rather than after it. `read`: the files that it is done from."""
+    """Checks an output path before the work is done. `read`: the input files."""
     folder = os.path.dirname(path) or "."
     if os.path.isdir(path):
         fail(f"{path} is a folder, expected the name of a file to write")
@@ -125,14 +125,14 @@ def check_output(path, *read):
 
 
 def check_input(path):
-    """A pipe without a writer would be waited for without an end."""
+    """Checks an input path: a pipe without a writer would block for ever."""
     if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
         fail(f"{path} is a pipe or a device, expected a file")
 
 
 def own_file(folder, name, *read, is_ours=None):
-    """The path of a file that a tool names by itself, ready to be written: what is there is no file that is read, and if it is
-    a link to anything, that stays. `is_ours`: whether what is there is by this tool; else it is the user's, and stays, too."""
+    """The path of a file that a tool names by itself, ready for writing: it must not be an input, and the target of a
+    link is preserved. `is_ours`: tells if an existing file is of this tool; else it is the user's, and preserved."""
     path = os.path.join(folder, name)
     check_output(path, *read)
     if is_ours and os.path.isfile(path) and not os.path.islink(path) and not is_ours(path):
@@ -148,16 +148,16 @@ def begins(path, text):
         return file.read(len(text)) in (text.encode(), b"")
 
 
-MARK = "strut"  # as the program that made a picture
+MARK = "strut"  # the program that made a picture
 
 
 def save_picture(figure, path, **words):
-    """A picture that says who made it, as own_file asks."""
+    """Saves a picture with a mark of its program, which own_file checks."""
     figure.savefig(path, metadata={"Software": MARK} if path.endswith(".png") else None, **words)
 
 
 def is_our_picture(path):
-    """Or empty."""
+    """True for a picture with our mark, or an empty file."""
     with open(path, "rb") as file:
         head = file.read(4096)
     return not head or b"Software\0" + MARK.encode() in head
@@ -167,7 +167,7 @@ def is_our_picture(path):
 
 
 def run_guarded(main, no_memory):
-    """main() in a process of its own: where a damaged file makes a library crash, this one is left to say so."""
+    """Runs main() in a child process: if a damaged file makes a library crash, this process can report it."""
     sys.stdout.flush()
     child = os.fork()
     if child == 0:
@@ -177,7 +177,7 @@ def run_guarded(main, no_memory):
             fail(no_memory)
         except OSError as error:
             fail(str(error))
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal tells both
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal signals both
     signal.signal(signal.SIGTERM, lambda *_: os.kill(child, signal.SIGTERM))
     _, status = os.waitpid(child, 0)
     code = os.waitstatus_to_exitcode(status)
@@ -192,7 +192,7 @@ class Said:
     text = ""
 
     def error(self):
-        """The first thing that sounds like an error, without what VTK prints before it (date, file, address)."""
+        """The first line that looks like an error, without VTK's prefix (date, file, address)."""
         text = re.sub(r"^\d{4}-\d\d-\d\d .*?\| |(ERROR|Warning): In \S+, line \d+\n|vtk\w+ \(0x[0-9a-f]+\): ",
                       "", re.sub(r"\x1b\[[0-9;]*m", "", self.text), flags=re.M)
         lines = [line.strip() for line in text.splitlines() if line.strip()]
@@ -203,7 +203,7 @@ class Said:
 
 @contextlib.contextmanager
 def captured():
-    """What libraries print, also those in C, is kept: .text holds it afterwards."""
+    """Captures the output of libraries, also those in C: .text contains it afterwards."""
     said = Said()
     sys.stdout.flush()
     sys.stderr.flush()
@@ -227,7 +227,7 @@ def captured():
 
 
 def programs(*names):
-    """strut, strut-mesh: of this source tree, built where they are stale, or of an installed one."""
+    """Paths of programs such as strut: of this source tree, built if they are stale, or of an installed tree."""
     prepare = os.path.join(ROOT, "tools", "prepare")
     if not os.path.exists(prepare):
         return [os.path.join(ROOT, "..", "..", "bin", name) for name in names]
@@ -238,12 +238,12 @@ def programs(*names):
 
 
 def mesh_program():
-    """STRUT_MESH, or the one that belongs to this tool."""
+    """STRUT_MESH, or the program that belongs to this tool."""
     return os.environ.get("STRUT_MESH") or programs("strut-mesh")[0]
 
 
 def parts_of(nodes, blocks, sets):
-    """The stream that strut-mesh --arrays reads (tools/README.md), piece by piece."""
+    """The stream that strut-mesh --arrays reads (tools/README.md), in parts."""
     yield f"strut-mesh arrays 1\nnodes {len(nodes)}\n".encode()
     yield nodes, "<f8"
     for name, kind, elements, volumes in blocks:
@@ -278,7 +278,7 @@ def write_stream(path, parts):
                 part = np.ascontiguousarray(part[0], part[1]).reshape(-1).view(np.uint8)
             run.stdin.write(part)
     except BrokenPipeError:
-        pass  # it says why, below
+        pass  # the program reports the reason, below
     out, errors = run.communicate()
     if run.returncode < 0:
         fail(f"strut-mesh was ended by signal {-run.returncode}")
@@ -289,8 +289,8 @@ def write_stream(path, parts):
 
 
 def run_deck(deck, folder, ranks=None, limit=None):
-    """tools/run of a deck in a folder: the text of its log, which stays there as NAME.log. `limit`: seconds after which the
-    run is ended, and no failure."""
+    """tools/run of a deck in a folder: the text of its log, which is kept there as NAME.log. `limit`: seconds after
+    which the run is stopped, which is no failure."""
     log = os.path.join(folder, os.path.splitext(os.path.basename(deck))[0] + ".log")
     command = [os.path.join(ROOT, "tools/run"), *(["-np", str(ranks)] if ranks else []), str(deck)]
     if limit:
@@ -302,8 +302,8 @@ def run_deck(deck, folder, ranks=None, limit=None):
 
 
 def rows_of(path):
-    """The rows of a history, as text by column; lines that begin with # say who wrote it, and the units. Ends the tool where
-    one is cut off, of which a number may be another one."""
+    """The rows of a history, as text by column; lines that begin with # give the writer and the units. Ends the tool if
+    a row is incomplete, because a truncated number has another value."""
     with open(path, newline="") as history:
         lines = history.readlines()
     if lines and not lines[-1].endswith("\n"):
@@ -317,31 +317,31 @@ def rows_of(path):
 
 
 def history_of(path):
-    """The same as numbers."""
+    """The same rows as numbers."""
     return [{key: float(value) for key, value in row.items()} for row in rows_of(path)]
 
 
 def with_core_seconds(run):
-    """What run() returns, and the processor's time of the programs that it has run."""
+    """The result of run(), and the processor time of the programs that it ran, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     result = run()
     return result, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def seconds_of_phase(report, phase):
-    """On the clock, as strut's closing table has it; 0 where it has no such row."""
+    """Wall time of a phase, s, from strut's closing table; 0 if it has no such row."""
     found = re.search(rf"^{phase} +([0-9.]+)", report, re.M)
     return float(found.group(1)) if found else 0.0
 
 
 def put_into_page(page, name, body):
-    """Replaces what stands between <!-- name --> and <!-- end --> in the file `page` (a pathlib.Path)."""
+    """Replaces the text between <!-- name --> and <!-- end --> in the file `page` (a pathlib.Path)."""
     pattern = re.compile(f"(<!-- {name} -->\n).*?(<!-- end -->)", re.S)
     page.write_text(pattern.sub(lambda m: m.group(1) + body + "\n" + m.group(2), page.read_text()))
 
 
 def run_parts(page, parts):
-    """Of a script that fills the tables of a page: those parts that its words name, or all. {name: what gives the text}"""
+    """For a script that fills the tables of a page: runs the parts in its command line, or all. {name: function}"""
     chosen = sys.argv[1:] or list(parts)
     for name in chosen:
         if name not in parts:
@@ -352,7 +352,7 @@ def run_parts(page, parts):
 
 
 def percent(value, known, digits=1):
-    """By how much a value is off, signed."""
+    """The signed relative error of a value."""
     return f"{100 * (value / known - 1):+.{digits}f} %"
 
 

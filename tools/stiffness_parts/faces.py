@@ -1,4 +1,4 @@
-"""The box of a sample, and which of its points are those of a face: the outermost layer alone."""
+"""The box of a sample, and the points of its faces: only the outermost layer."""
 import classic_netcdf
 import numpy as np
 from curve_parts import extent
@@ -8,8 +8,8 @@ FACES = [f"{axis}{side}" for axis in "xyz" for side in ("min", "max")]
 
 
 class Sample:
-    """Points of the elements: their numbers, places and half lengths (m), and the box that the material fills. Partly filled
-    cells are taken for prisms, and the box ends where the material does: whole cells may reach beyond it."""
+    """Points of the elements: numbers, positions and half lengths (m), and the box that the material fills. Partly
+    filled cells count as prisms, and the box ends where the material does: whole cells may extend beyond it."""
 
     def __init__(self, mesh):
         file = classic_netcdf.opened(mesh)
@@ -29,8 +29,8 @@ class Sample:
         self.high = np.max([high for _, high in boxes], axis=0)
 
     def held(self, face, layers):
-        """The numbers of the points in so many layers at a face. In the innermost of them those count that have no other one
-        of it between them and the face, as the second half of a flat cell has."""
+        """The numbers of the points in this many layers at a face. In the innermost layer, only points without another
+        one of it between them and the face count, which excludes the second half of a flat cell."""
         axis = "xyz".index(face[0])
         depth = self.places[:, axis] - self.low[axis] if face.endswith("min") else self.high[axis] - self.places[:, axis]
         edge = self.edge[axis] * (1 + 1e-9)
@@ -39,7 +39,7 @@ class Sample:
         return np.sort(self.numbers[np.setdiff1d(near, self.behind(innermost, axis, depth))])
 
     def behind(self, members, axis, depth):
-        """Those of the members that have another one in front of more than their middle."""
+        """Those of the members that have another one in front of more than their center."""
         across = [a for a in range(3) if a != axis]
         bins = np.floor(self.places[members][:, across] / self.edge[across]).astype(int)
         there = {}

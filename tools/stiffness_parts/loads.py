@@ -19,7 +19,7 @@ HELD = """<ParameterList name="{name}">
 
 
 def strain_tensor(case):
-    """Of unit strain, engineering strain where it is shear."""
+    """A unit strain; engineering strain for shear."""
     i, j = PAIRS[case]
     e = np.zeros((3, 3))
     e[i, j] += 0.5
@@ -28,7 +28,7 @@ def strain_tensor(case):
 
 
 def displacement(cases, axis, strain, center):
-    """Of one component, at the time n that of the n-th of the cases, as an expression."""
+    """One component as an expression; at the time n it is that of the n-th case."""
     terms = []
     for n, case in enumerate(cases, 1):
         row = strain * strain_tensor(case)[axis]
@@ -39,9 +39,9 @@ def displacement(cases, axis, strain, center):
 
 
 def held(kind, cases, face):
-    """The components that a face has prescribed: all, or by mixed conditions (Pahr & Zysset, Influence of boundary
-    conditions on computed apparent elastic properties of cancellous bone, Biomech. Model. Mechanobiol. 7 (2008) 463) the
-    normal one; in shear ij on faces of i and j the tangential ones."""
+    """The prescribed components of a face: all, or by mixed conditions (Pahr & Zysset, Influence of boundary conditions
+    on computed apparent elastic properties of cancellous bone, Biomech. Model. Mechanobiol. 7 (2008) 463) the normal
+    one; for shear ij, the tangential ones on faces of i and j."""
     if kind == "kinematic":
         return (0, 1, 2)
     normal = "xyz".index(face[0])
@@ -51,7 +51,7 @@ def held(kind, cases, face):
 
 
 def deck_of(deck, kind, cases, center, strain, sets):
-    """The deck of some cases by load steps, one after the other. `sets`: {face: its points, by number or expression}."""
+    """The deck of some cases as successive load steps. `sets`: {face: its points, by number or expression}."""
     root = tree.Element("ParameterList")
     parts = [tree.tostring(deck.section(name), "unicode") for name in KEPT if deck.section(name) is not None]
     text = tree.tostring(root, "unicode").replace(" />", ">") + "\n" + "\n".join(parts)
@@ -99,12 +99,12 @@ def box_set(face):
 
 
 def expression(face, low, high, depth):
-    """Of the places of points so far in at the most."""
+    """An expression of the points at most this deep below a face."""
     axis = "xyz".index(face[0])
     if face.endswith("min"):
         return f"{face[0]} &lt; {low[axis] + depth:.17g}"
     return f"{face[0]} &gt; {high[axis] - depth:.17g}"
 
 
-# The runs: of kinematic conditions one, as all cases have the same points held; of mixed ones those along the axes together.
+# The runs: one for kinematic conditions, because all cases hold the same points; for mixed ones axial cases together.
 RUNS = {"kinematic": [(0, 1, 2, 3, 4, 5)], "mixed": [(0, 1, 2), (3,), (4,), (5,)]}

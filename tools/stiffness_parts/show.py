@@ -35,7 +35,7 @@ def write(path, found):
 
 
 def figure(path, title, found):
-    """Young's modulus of all directions as a surface, of the last kind; and in the three planes, of each."""
+    """Young's modulus in all directions as a surface, for the last kind; and in the three planes, for each kind."""
     drawing = plt.figure(figsize=(15, 4.2), layout="constrained")
     kind, (C, _) = list(found.items())[-1]
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 73), np.linspace(0, np.pi, 37))

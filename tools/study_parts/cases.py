@@ -16,7 +16,7 @@ from strut_tools import fail, own_file, programs
 
 from . import inputs
 
-EARLY = 3  # the exit status of a run that a signal or its wall time has ended
+EARLY = 3  # exit status of a run that a signal or its wall time has ended
 
 
 class Case:
@@ -28,19 +28,19 @@ class Case:
         if recipe is not None:
             self.texts[self.recipe] = text
         self.process, self.started = None, 0.0
-        self.cost = 1.0  # beside other runs, for the time that is left
+        self.cost = 1.0  # relative to other runs, for the remaining time
 
     @property
     def log(self):
         return os.path.join(self.folder, "log")
 
     def mark(self):
-        """Of what is run: another deck or recipe is another run, or another file that they read."""
+        """Identifies the run: it changes with the deck, the recipe, and the files that they read."""
         read = {name: [os.path.getsize(file), os.path.getmtime(file)] for name, file in self.links.items()}
         return hashlib.sha256(json.dumps([self.texts, read], sort_keys=True).encode()).hexdigest()
 
     def state(self):
-        """What is known of the run: {mark, over, error, seconds}; empty where there is none of this deck."""
+        """The recorded state of the run: {mark, over, error, seconds}; empty if there is none for this deck."""
         try:
             with open(os.path.join(self.folder, "state.json")) as file:
                 found = json.load(file)
@@ -56,7 +56,7 @@ class Case:
         return self.state().get("over", False)
 
     def prepare(self):
-        """Whether there is something to go on with. Else the folder is made anew."""
+        """True if the run can be resumed. Else the folder is created anew."""
         if self.state() and glob.glob(os.path.join(glob.escape(self.folder), "*.restart*")):
             return True
         if os.path.isdir(self.folder) and not os.path.isfile(os.path.join(self.folder, "state.json")):
@@ -79,13 +79,13 @@ class Case:
             if not goes_on and not self.make_mesh(programs, log):
                 return self.put_state(over=True, error=last_line(self.log), seconds=0)
             self.started = time.monotonic()
-            # A group of its own: a Ctrl-C at the terminal is handed on by this program alone.
+            # A process group of its own: only this program passes on a Ctrl-C from the terminal.
             self.process = subprocess.Popen(self.command(programs, ranks, *(["--continue"] if goes_on else [])), cwd=self.folder,
                                             stdout=log, stderr=log, env=environment(), start_new_session=True)
         return None
 
     def make_mesh(self, programs, log):
-        """Whether that went well."""
+        """True if it succeeded."""
         return not self.recipe or subprocess.run([programs.mesh, self.recipe, self.mesh], cwd=self.folder, stdout=log,
                                                  stderr=log).returncode == 0
 
@@ -93,7 +93,7 @@ class Case:
         return [*(mpirun(ranks) if ranks > 1 else []), programs.strut, *options, self.deck]
 
     def check(self, programs, ranks):
-        """What strut --check says, in a folder that is thrown away."""
+        """The output of strut --check, in a temporary folder."""
         with tempfile.TemporaryDirectory() as folder:
             trial = copy.copy(self)
             trial.folder = os.path.join(folder, "trial")
@@ -106,7 +106,7 @@ class Case:
                 return log.read()
 
     def ended(self, stopped=False):
-        """Whether the run has come to its end, now or before. One that a signal has ended goes on another time."""
+        """True if the run has ended, now or before. One ended by a signal is resumed another time."""
         if self.process is None:
             return True
         status = self.process.poll()
@@ -119,15 +119,15 @@ class Case:
         return True
 
     def stop(self, ranks):
-        """strut leaves a checkpoint. Open MPI's mpirun would leave its ranks a second, so they are told; MPICH's, of which
-        they are no children, hands the signal on and waits."""
+        """Stops strut, which leaves a checkpoint. Open MPI's mpirun would give its ranks only a second, so they get the
+        signal directly; MPICH's, whose children they are not, passes it on and waits."""
         if ranks > 1 and is_open_mpi():
             subprocess.run(["pkill", "-TERM", "-P", str(self.process.pid), "-x", "strut"])
         else:
             self.process.terminate()
 
     def part(self):
-        """Of its time that is computed, 0 to 1."""
+        """Fraction of its simulated time that is computed, 0 to 1."""
         try:
             with open(self.log) as file:
                 found = re.findall(r"^ *(\d+) %  t = ", file.read(), re.M)
@@ -141,8 +141,8 @@ def environment():
 
 
 def claim(out, path, *written):
-    """The folder `out` is that of one study or deck: makes it, and refuses that of another one. `written`: what is put there
-    beside the runs."""
+    """Claims the folder `out` for one study or deck: creates it, and refuses that of another one. `written`: files
+    there besides the runs."""
     os.makedirs(out, exist_ok=True)
     note, own = os.path.join(out, "runs-of.json"), os.path.realpath(path)
     try:
@@ -163,15 +163,15 @@ def claim(out, path, *written):
 
 
 def last_line(path):
-    """What a program has said of its error."""
+    """The error message of a program."""
     with open(path, errors="replace") as file:
         lines = [line.strip() for line in file if line.strip()]
     own = [line for line in lines if re.match(r"strut[\w-]*: ", line)]
-    return (own or lines or ["it said nothing"])[-1]  # what MPI adds comes after
+    return (own or lines or ["it said nothing"])[-1]  # MPI's messages come after it
 
 
 class Programs:
-    """STRUT and STRUT_MESH, or those that belong to this tool."""
+    """The programs STRUT and STRUT_MESH, or those that belong to this tool."""
 
     def __init__(self):
         self.strut, self.mesh = os.environ.get("STRUT"), os.environ.get("STRUT_MESH")
@@ -180,7 +180,7 @@ class Programs:
 
 
 def run_all(cases, jobs, ranks, tell):
-    """Several at a time. Returns whether all have come to their end: not where a signal has ended them."""
+    """Runs several at a time. Returns True if all have ended, False if a signal has stopped them."""
     programs = Programs()
     waiting, running, stopped = [c for c in cases if not c.done()], [], []
 
@@ -210,7 +210,7 @@ def run_all(cases, jobs, ranks, tell):
 
 
 def left(began, ahead, to_do):
-    """Seconds that are left, by what has been done since the start; None where that is next to nothing."""
+    """Remaining seconds, from the progress since the start; None if that is almost nothing."""
     done = ahead - to_do
     return (time.monotonic() - began) / done * to_do if done > 0.02 else None
 

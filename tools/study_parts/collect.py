@@ -18,7 +18,7 @@ FACTS = {"points": r"^([\d,]+) points,", "steps": r"^(\d+) (?:load )?steps,", "s
 
 
 def facts_of(case):
-    """What the log of a run says; the last of each."""
+    """The facts in the log of a run, the last one of each kind."""
     with open(case.log, errors="replace") as file:
         text = file.read()
     found = {name: re.findall(pattern, text, re.M) for name, pattern in FACTS.items()}
@@ -35,7 +35,7 @@ def last_row(case):
 
 
 def measures_of(case, options):
-    """By tools/curve; its files stay in the folder of the case."""
+    """The measures of tools/curve; its files stay in the folder of the case."""
     stem = os.path.splitext(case.deck)[0]
     path = os.path.join(case.folder, f"{stem}-measures.csv")
     command = [sys.executable, os.path.join(ROOT, "tools/curve"), case.deck, *options.split()]
@@ -50,7 +50,7 @@ def measures_of(case, options):
 
 
 def rows_of(study, cases):
-    """Of each case: {name: value} of what varies, of the run and of what is collected; and the units."""
+    """For each case, {name: value} of the varied, the run's and the collected values; and the units."""
     rows, units = [], {"seconds": "s"}
     for case in cases:
         error = case.state().get("error")
@@ -84,7 +84,7 @@ def shown(value):
 
 
 def table(rows, plots, study):
-    """The columns that matter, to read."""
+    """The important columns, for reading."""
     names = [n for vary, _ in study.vary for n in vary] + ["points", "seconds"]
     names += study.collect or list(dict.fromkeys(p.y for p in plots)) or ["plateau_stress"]
     lines = [" | ".join(names), " | ".join("---" for _ in names)]
@@ -120,7 +120,7 @@ def figure(path, study, rows, units):
 
 
 def draw(axes, plot, rows):
-    """A line through the means at each x, with their scatter where there are several, for each value of `by`."""
+    """For each value of `by`, a line through the means at each x, with their scatter if there are several."""
     for by in dict.fromkeys(row[plot.by] if plot.by else None for row in rows):
         pairs = [(number(r.get(plot.x)), number(r.get(plot.y))) for r in rows if not plot.by or r[plot.by] == by]
         pairs = np.array([p for p in pairs if None not in p]).reshape(-1, 2)

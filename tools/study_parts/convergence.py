@@ -11,13 +11,13 @@ from dataclasses import dataclass
 
 SAFETY = {2: 3.0, 3: 1.25}  # factors of the index, by the number of grids (Roache)
 LOWEST, HIGHEST = 0.5, 2.5  # orders of the asymptotic range: not below half (Eça & Hoekstra), nor half an order above the second
-SAME = 1e-8                 # of the value: tables have nine digits
+SAME = 1e-8                 # relative: tables have nine digits
 GOOD_RATIO = 1.3            # of refinement; below it the observed order is uncertain (Celik et al.)
 
 
 @dataclass
 class Found:
-    grids: int                  # that it is from, the finest ones
+    grids: int                  # number of grids used, the finest ones
     finding: str
     order: float | None = None  # observed
     limit: float | None = None  # f0
@@ -49,7 +49,7 @@ def observed_order(sizes, values):
 
 
 def of_grids(sizes, values, theory):
-    """Of the finest three grids or of two; the finest first. `theory`: the order that two grids are taken to have."""
+    """Evaluates the finest three grids, or two; the finest first. `theory`: the order that is assumed for two grids."""
     count = min(len(sizes), 3)
     sizes, values = sizes[:count], values[:count]
     if count < 2:

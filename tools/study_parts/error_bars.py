@@ -8,7 +8,7 @@ NUMBERS = ("order", "limit", "error_bar", "error_bar_percent", "safety_factor", 
 
 
 def rows_of(study, name, kinds, rows, units, theory):
-    """One of each kind of run and measure; grids without a value do not count. The finest grid comes first."""
+    """A row for each kind of run and measure; grids without a value are ignored. The finest grid comes first."""
     row_of = {tuple(row[n] for names, _ in study.vary for n in names): row for row in rows}
     varied = {n for names, _ in study.vary for n in names}
     measures = [n for n in dict.fromkeys(n for row in rows for n in row) if n not in varied | {"error", *collect.FACTS}]
@@ -29,7 +29,7 @@ def row_of_measure(name, kind, measure, values, unit, theory):
 
 
 def spread(values):
-    """Of the values on the grids, in % of the finest grid's."""
+    """The spread of the values on the grids, in % of the finest grid's."""
     return 100 * (max(values) - min(values)) / abs(values[0]) if len(values) > 1 and values[0] != 0 else None
 
 
@@ -41,7 +41,7 @@ def write(path, rows):
 
 
 def text(name, kinds, rows, theory):
-    """The same to read, with how it was found."""
+    """The same as text, with the method."""
     parts = []
     for kind in kinds:
         own = [row for row in rows if all(row[k] == v for k, v in kind.values.items())]

@@ -1,4 +1,4 @@
-"""The grids of a study of convergence: which runs belong together, the spacing of each, and what they will cost."""
+"""The grids of a convergence study: the runs that belong together, the spacing of each, and their cost."""
 import math
 import re
 from dataclasses import dataclass
@@ -13,8 +13,8 @@ from .cases import duration
 
 @dataclass
 class Kind:
-    """Runs that differ in their grid alone."""
-    values: dict  # what they have in common, of what varies
+    """Runs that differ only in their grid."""
+    values: dict  # values of the other varied names
     sizes: list   # the finest first
     cases: list
 
@@ -26,7 +26,7 @@ class Kind:
 
 
 def study_of_deck(path):
-    """All measures of tools/curve where its history has a force, else what it asks the history for."""
+    """All measures of tools/curve if the history has a force, else the columns of the deck's history."""
     columns = names.columns_of(Deck(path))[len(names.ALWAYS):]
     if any(source.FORCES.fullmatch(name) for name in columns):
         return plan.Study(path, path, curve="")
@@ -36,7 +36,7 @@ def study_of_deck(path):
 
 
 def refine(study, ratio, count):
-    """Lets the spacing of the recipe vary: as it is, and `count` - 1 times finer by `ratio`; of several bodies in proportion."""
+    """Varies the spacing of the recipe: as it is, and `count` - 1 times finer by `ratio`; of several bodies alike."""
     deck, recipe = plan.files_of(study, study.cases()[0])
     if recipe is None:
         fail(f"{deck.path}: its mesh has no recipe beside it whose spacing could be refined: expected one, or a study that varies "
@@ -78,8 +78,8 @@ def whole(x):
 
 
 def spacing_of(recipe):
-    """What strut-mesh makes of the spacing of the (first) foam, else of the first body: a whole number of cells along each
-    side; the cube root of the volume of a cell (tools/mesh). None where no line tells it."""
+    """The spacing that strut-mesh uses for the (first) foam, else for the first body: an integer number of cells along
+    each side; the cube root of the volume of a cell (tools/mesh). None if no line gives it."""
     bodies = spaced(recipe)
     if not bodies:
         return None
@@ -94,11 +94,11 @@ def spacing_of(recipe):
         radius = 0.5 * (float(body["radius"]) + float(body.get("top_radius", body["radius"])))
         return (math.pi * (radius / (2 * whole(radius * math.sqrt(math.pi) / h / 2)))**2 * layer)**(1 / 3)
     except (KeyError, ValueError, ZeroDivisionError):
-        return None  # strut-mesh says what is wrong
+        return None  # strut-mesh reports the error
 
 
 def sizes_of(study, name, cases):
-    """As meshed where the recipe's spacing varies, else the values themselves."""
+    """The spacings as meshed if the recipe's spacing varies, else the values themselves."""
     recipes = [plan.files_of(study, case.values)[1] for case in cases]
     sizes = [spacing_of(recipe) for recipe in recipes]
     if len(set(map(asked_of, recipes))) == 1 or None in sizes:
@@ -110,7 +110,7 @@ def sizes_of(study, name, cases):
 
 
 def kinds_of(study, name, cases):
-    """The runs by what else varies: in lines `vary` of their own; what stands in one line with `name` belongs to the grid."""
+    """The runs by the other varied names, in separate lines `vary`; a name in one line with `name` is of the grid."""
     others = [n for together, _ in study.vary if name not in together for n in together]
     found = {}
     for size, case in sorted(zip(sizes_of(study, name, cases), cases), key=lambda pair: pair[0]):
@@ -133,7 +133,7 @@ def check_sizes(study, name, kind):
 
 
 def expect(study, name):
-    """Ends the tool where the study does not vary it."""
+    """Ends the tool if the study does not vary `name`."""
     varied = [n for together, _ in study.vary for n in together]
     if name not in varied and name != "spacing":
         fail(f"--converge: the study does not vary '{name}'{nearest(name, varied + ['spacing'])}; expected "
@@ -153,14 +153,14 @@ class Cost:
     basis: str
 
     def at(self, size, equilibrium):
-        """Of another grid: cells as h^-3, steps as h^-1 (load steps stay, their iterations grow so), time as h^-4."""
+        """The cost of another grid: cells as h^-3, steps as h^-1 (iterations, not load steps), time as h^-4."""
         finer = self.size / size
         powers = (self.points, 3), (self.steps, 0 if equilibrium else 1), (self.seconds, 4)
         return [value and value * finer**power for value, power in powers]
 
 
 def cost_of(kind, programs, ranks):
-    """Of the finest run that is done, else of the coarsest by strut --check."""
+    """The cost of the finest completed run, else of the coarsest by strut --check."""
     for size, case in zip(kind.sizes, kind.cases):
         state = case.state()
         if state.get("over") and not state.get("error") and state.get("seconds"):
@@ -179,7 +179,7 @@ def cost_of(kind, programs, ranks):
 
 
 def plan_of(name, kinds, programs, ranks):
-    """What will be run and what it costs, to read; gives each run its part of all costs, for the progress."""
+    """The planned runs and their cost, for reading; sets the cost fraction of each run, for the progress."""
     lines = [f"| run | {name} as meshed | cells | steps | time |", "|---|---|---|---|---|"]
     left, bases = [], []
     largest = max(size for kind in kinds for size in kind.sizes)

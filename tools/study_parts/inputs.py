@@ -1,5 +1,5 @@
-"""The files of a run: those that its deck and its recipe read are linked into its folder, those that it writes stay there.
-Nothing else that lies beside the deck belongs to it, results of other runs least of all."""
+"""The files of a run: those that its deck and its recipe read are linked into its folder, those that it writes stay
+there. No other file beside the deck belongs to it, in particular no results of other runs."""
 import os
 import re
 
@@ -7,12 +7,12 @@ from decks import Deck, value_in
 from strut_tools import fail
 
 WRITTEN = (("Output", "Output Filename"), ("History", "Filename"), ("Restart", "Filename"))
-OWN = ("log", "curve.log", "state.json")  # that a study writes into the folder of each run
+OWN = ("log", "curve.log", "state.json")  # written by a study into the folder of each run
 
 
 def of(deck, recipe):
-    """The deck and the text of its recipe (None: it has none), both as they are in the folder of a run; the name of the mesh
-    that is made there (None: none); and {name in the folder: file} of what they read."""
+    """The deck and the text of its recipe (None if it has none), both as in the folder of a run; the name of the mesh
+    made there (None if none is); and {name in the folder: file} for the files that they read."""
     links, here = {}, os.path.dirname(os.path.abspath(deck.path))
     mesh, made = deck.get("Discretization", "Input Mesh File"), None
     if mesh and recipe is not None:
@@ -21,7 +21,7 @@ def of(deck, recipe):
     elif mesh:
         deck = linked(deck, "Discretization > Input Mesh File", mesh, here, links)
     conditions = deck.section("Boundary Conditions")
-    for element in [] if conditions is None else conditions.findall("Parameter"):  # Peridigm's sets, by a file of numbers
+    for element in [] if conditions is None else conditions.findall("Parameter"):  # Peridigm's sets, by a file
         if "Node Set" in element.get("name"):
             deck = linked(deck, f"Boundary Conditions > {element.get('name')}", element.get("value"), here, links)
     text = recipe and re.sub(r"(?m)^(\s*file\s*=\s*)([^#\n]*[^#\s])", lambda m: m[1] + link(m[2], here, links), recipe.text)
@@ -30,7 +30,7 @@ def of(deck, recipe):
 
 
 def name_within(path):
-    """Within the folder of a run, wherever the file is."""
+    """The name within the folder of a run, wherever the file is."""
     return os.path.basename(path) if leads_out(path) else os.path.normpath(path)
 
 
@@ -47,7 +47,7 @@ def linked(deck, key, path, here, links):
 
 
 def link(path, here, links):
-    """Its name in the folder; what is no file, as a list of numbers, stays as it is."""
+    """Its name in the folder; a value that is no file, such as a list of numbers, stays as it is."""
     file = os.path.join(here, path)
     if not os.path.isfile(file):
         return path
@@ -59,7 +59,7 @@ def link(path, here, links):
 
 
 def check_written(deck, taken):
-    """Runs write into their own folders, and not over what they read."""
+    """Checks that runs write into their own folders, and not over files that they read."""
     for section, key in WRITTEN:
         for element in (e for e in deck.root.findall("ParameterList") if (e.get("name") or "").startswith(section)):
             name = value_in(element, key)

@@ -1,4 +1,4 @@
-"""What a study asks for, looked at before its runs: columns of the history, measures of tools/curve, its options."""
+"""Checks the names in a study before its runs: columns of the history, measures of tools/curve, its options."""
 import re
 
 import numpy as np
@@ -9,14 +9,14 @@ from strut_tools import Parser, fail, nearest
 
 from .collect import FACTS
 
-# Of every history, in front of what the deck asks for (src/output/writers.cpp).
+# The first columns of every history (src/output/writers.cpp).
 ALWAYS = ("Time", "Step_Size", "Kinetic_Energy", "Elastic_Energy", "Plastic_Work", "Stabilization_Energy", "Fracture_Energy",
           "Heat", "Tool_Kinetic_Energy", "Tool_Work", "Contact_Work", "External_Work", "Balance_Error", "Momentum_X", "Momentum_Y",
           "Momentum_Z")
 
 
 def columns_of(deck):
-    """Of the history that the deck writes; none without one."""
+    """The columns of the deck's history; empty without one."""
     if deck.section("History") is None:
         return []
     layers = {name: int(value_in(keys, "Layers") or 0) for name, keys in deck.sections("History", "Profiles").items()}
@@ -42,7 +42,7 @@ def expect(study, name, known, what):
 
 
 def check(study, deck):
-    """Ends the tool where a name of `collect`, `plot` or `curve` is nothing that a run of the deck will have."""
+    """Ends the tool if a name in `collect`, `plot` or `curve` will not exist in a run of the deck."""
     columns, read = columns_of(deck), measures_of(study)
     if study.curve is not None:
         check_curve(study, columns)

@@ -1,4 +1,4 @@
-"""A study: a deck, what varies, what follows from it. The file has lines `key = value`; `#` starts a comment."""
+"""A study: a deck, its varied values and settings. The file has lines `key = value`; `#` starts a comment."""
 import itertools
 import os
 import re
@@ -15,27 +15,27 @@ class Plot:
     x: str
     y: str
     by: str | None = None      # a line for each of its values
-    beside: str | None = None  # an expression of what varies, drawn beside
+    beside: str | None = None  # an expression of the varied values, drawn for comparison
 
 
 @dataclass
 class Study:
     path: str
     deck: str = ""
-    vary: list = field(default_factory=list)  # (names, [values of each]) a line
-    sets: list = field(default_factory=list)  # (in the recipe?, key, value with {…})
+    vary: list = field(default_factory=list)  # (names, [values of each]) per line
+    sets: list = field(default_factory=list)  # (True for the recipe, key, value with {…})
     curve: str | None = None                  # options of tools/curve; None: there is no curve
     collect: list = field(default_factory=list)
     plots: list = field(default_factory=list)
 
     def cases(self):
-        """A {name: value} each: all combinations of the lines `vary`."""
+        """A {name: value} for each case: all combinations of the lines `vary`."""
         lines = [[dict(zip(names, values)) for values in all_values] for names, all_values in self.vary]
         return [{k: v for part in parts for k, v in part.items()} for parts in itertools.product(*lines)]
 
 
 def read(path, converge=None):
-    """Of a file. With `converge` nothing has to vary: the recipe's spacing may, and something is read off the runs."""
+    """Reads a study from a file. With `converge` it need not vary or collect anything: the recipe's spacing varies."""
     study = Study(path)
     check_input(path)
     try:
@@ -98,7 +98,7 @@ def take_vary(study, where, names, value):
 
 
 def doubles(rows):
-    """Two rows of the same values, numbers by what they are: 1 and 1.0."""
+    """Two rows of the same values; numbers are compared by value: 1 and 1.0."""
     seen = {}
     for row in rows:
         values = tuple(number(word) if number(word) is not None else word for word in row)
@@ -109,7 +109,7 @@ def doubles(rows):
 
 
 def filled(text, case, where):
-    """{name} is the value, {expression} its number."""
+    """Replaces {name} by the value, {expression} by its number."""
     numbers = {}
     for name, value in case.items():
         try:
@@ -129,7 +129,7 @@ def filled(text, case, where):
 
 
 def files_of(study, case):
-    """The texts of a case: its deck, and its recipe (None: it has none)."""
+    """The texts of a case: its deck, and its recipe (None if it has none)."""
     deck = Deck(study.deck)
     recipe = deck.recipe() and Recipe(deck.recipe())
     for in_recipe, key, value in study.sets:
@@ -144,7 +144,7 @@ def files_of(study, case):
 
 
 def check_names(study):
-    """Each run has a folder of its own."""
+    """Checks that each run has a folder of its own."""
     found = {}
     for case in study.cases():
         said = ", ".join(f"{k} = {v}" for k, v in case.items())
@@ -155,5 +155,5 @@ def check_names(study):
 
 
 def name_of(case):
-    """Of its folder."""
+    """The name of the case's folder."""
     return ",".join(f"{k}={re.sub(r'[^A-Za-z0-9.+-]+', '-', v) or 'none'}" for k, v in case.items())

@@ -1,16 +1,16 @@
-"""Whether numbers that were read without anything said of the order of their bytes are those of the other order."""
+"""Detects numbers that were read in the wrong byte order when the file does not specify it."""
 import numpy as np
 
 from strut_tools import fail
 
 META_IMAGE = (".mhd", ".mha")
 SAYS = ("binarydatabyteordermsb", "elementbyteordermsb")
-ROUGHER = 2      # Neighbors of an image are alike; of swapped bytes the lowest comes first, which is noise.
+ROUGHER = 2      # Neighboring voxels are similar; in swapped bytes the lowest comes first, which is noise.
 SAMPLE = 10**6   # numbers
 
 
 def roughness(values):
-    """The mean difference of neighbors over the scatter of all; inf where numbers are none."""
+    """The mean difference of neighbors over the scatter of all; inf if a value is not finite."""
     with np.errstate(all="ignore"):
         values = values.astype(float)
         if not np.isfinite(values).all():
@@ -21,7 +21,7 @@ def roughness(values):
 
 
 def sounds_swapped(values):
-    """Much rougher than the other order; or whole numbers of a byte, all in the upper one."""
+    """True if much rougher than in the other order; or for one-byte integers that are all in the upper byte."""
     if values.dtype.itemsize == 1 or values.dtype == bool or values.size < 2:
         return False
     flat = values.reshape(-1)

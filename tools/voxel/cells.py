@@ -1,15 +1,15 @@
-"""Solid voxels -> nodes, elements and the node sets of the box's faces; or the voxels themselves, for cells."""
+"""Makes nodes, elements and the node sets of the box's faces from solid voxels; or passes the voxels on, for cells."""
 import numpy as np
 
 from strut_tools import fail
 
 # Corners of a voxel in the order of Exodus' HEX8, as steps (z, y, x).
 CORNERS = [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 0)]
-MOST_NODES = 2**31 - 1  # the numbers of strut-mesh's arrays
+MOST_NODES = 2**31 - 1  # limit of the numbers in strut-mesh's arrays
 
 
 def mesh_of(solid, cell, origin, elements, block):
-    """Nodes (m), one block, and sets, as strut_tools.write_mesh takes them."""
+    """Nodes (m), one block, and sets, in the form of strut_tools.write_mesh."""
     nodes, block_of, places, last = (hexahedra if elements == "hex" else spheres)(solid, cell, origin, block)
     sets = {}
     for axis, letter in ((2, "x"), (1, "y"), (0, "z")):
@@ -21,7 +21,7 @@ def mesh_of(solid, cell, origin, elements, block):
 
 
 def by_material(blocks, materials, names):
-    """A block each of the materials (1, 2, …, of the elements in their order); one that has none is left out."""
+    """A block for each of the materials (1, 2, …, of the elements in their order); empty ones are left out."""
     (_, kind, elements, volumes), = blocks
     parts = [(name, materials == number) for number, name in enumerate(names, 1)]
     return [(name, kind, elements[there], None if volumes is None else volumes[there]) for name, there in parts if there.any()]
@@ -48,7 +48,7 @@ def hexahedra(solid, cell, origin, block):
     count = np.count_nonzero(taken)
     if count > MOST_NODES:
         fail(f"{count:,} nodes are more than a mesh can have ({MOST_NODES:,}): --crop, --coarsen or --elements sphere")
-    number = np.cumsum(taken, dtype=np.int32)  # the n-th node that is taken, from 1
+    number = np.cumsum(taken, dtype=np.int32)  # the n-th used node, from 1
     first = np.ravel_multi_index(np.nonzero(solid), shape)
     elements = np.empty((len(first), 8), np.int32)
     for i, corner in enumerate(CORNERS):
@@ -58,7 +58,7 @@ def hexahedra(solid, cell, origin, block):
 
 
 def gathered(solid, cell, origin, factor, smallest, block, fills=None, thickness=None):
-    """The stream with which strut-mesh gathers voxels in cells. fills: of each voxel of the box, what of it is solid;
+    """The stream from which strut-mesh gathers voxels in cells. fills: the solid fraction of each voxel of the box;
     thickness: of struts and walls, in voxels."""
     places = np.nonzero(solid)
     kind = ("solid" if fills is None else "grey") + ("" if thickness is None else f" {thickness:.6g}")

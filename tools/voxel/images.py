@@ -1,5 +1,5 @@
-"""Files of voxels -> an array (z, y, x) and the spacing (x, y, z). Formats are left to libraries, tifffile and VTK, but for NRRD
-and Scanco's."""
+"""Reads files of voxels: an array (z, y, x) and the spacing (x, y, z). Libraries (tifffile, VTK) read all formats
+except NRRD and Scanco's."""
 import glob
 import os
 import re
@@ -27,17 +27,17 @@ BYTE_ORDERS = {"little": "<", "big": ">"}
 
 @dataclass
 class Raw:
-    """A file of bare numbers: x runs fastest."""
+    """A file of plain numbers: x varies fastest."""
     shape: list             # voxels along x, y, z
     type: str               # of RAW_TYPES
-    order: str | None = "little"  # of bytes; None: not said, little where nothing speaks against it
+    order: str | None = "little"  # of bytes; None: unspecified, little unless the data contradict it
     header: int = 0         # bytes before the numbers
 
 
 @dataclass
 class Image:
-    values: np.ndarray      # (z, y, x); bool where the file says what is solid
-    spacing: tuple | None   # (x, y, z), as the file has it
+    values: np.ndarray      # (z, y, x); bool if the file says which voxels are solid
+    spacing: tuple | None   # (x, y, z), as in the file
     kind: str
 
 
@@ -49,7 +49,7 @@ def files_of(path):
         return [os.path.join(path, name) for name in os.listdir(path)]
     if ending_of(path) not in (".mhd", ".nhdr", ".mha", ".nrrd") or not os.path.isfile(path):
         return [path]
-    with open(path, "rb") as file:  # a header names its data: a file a line, or a pattern with %03d
+    with open(path, "rb") as file:  # a header names its data: one file per line, or a pattern with %03d
         lines = file.read(2**20).decode("latin-1").splitlines()
     named = [re.split(r"[:=]\s*", line, maxsplit=1)[-1].strip() for line in lines[:10000]]
     patterns = [re.sub(r"%\d*d", "*", glob.escape(name.split(" ")[0] if "%" in name else name)) for name in named if name]
@@ -58,7 +58,7 @@ def files_of(path):
 
 
 def read(path, raw=None, array=None, unit=None):
-    """raw: how to read bare numbers; unit: of the file's lengths, in place of what it says, as a word."""
+    """raw: format of plain numbers; unit: of the file's lengths, instead of the one in the file, as a word."""
     if re.search(r"[*?\[]", path) and not os.path.exists(path):
         return slices(sorted_naturally(glob.glob(path)), path)
     if not os.path.exists(path):
@@ -72,7 +72,7 @@ def read(path, raw=None, array=None, unit=None):
         fail(f"{path} is empty")
     if raw:
         return bare(path, raw)
-    if ending in SCANCO or re.search(r"\.aim(;\d+)?$", path.lower()):  # VMS numbers its versions: a.aim;2
+    if ending in SCANCO or re.search(r"\.aim(;\d+)?$", path.lower()):  # VMS numbers versions of files: a.aim;2
         values, spacing = scanco.read(path)
         return Image(values, spacing, "Scanco's")
     if ending in TIFF:
@@ -119,7 +119,7 @@ def bare(path, raw):
     return Image(values, None, f"raw {raw.type}, {order}-endian")
 
 
-# TIFF: a page is a layer in z, a row of it runs along x, rows follow each other in y
+# TIFF: a page is a layer in z, a row runs along x, rows follow each other in y
 
 
 def tiff(path):
@@ -132,11 +132,11 @@ def tiff(path):
                 color = any(page.samplesperpixel > 1 for page in file.pages)
                 values = None if color or len(file.series) != 1 else file.asarray()
                 series = len(file.series)
-        except Exception as error:  # damaged files raise whatever the parser stumbles over
+        except Exception as error:  # damaged files raise any exception of the parser
             wrong = error
-    if said.error():  # what is left of a file that is cut off may still be pages of one size
+    if said.error():  # the rest of a truncated file may still consist of equal pages
         fail(f"{path} is damaged: {said.error()}")
-    if wrong is not None and "imagecodecs" in str(wrong):  # packed in a way that needs a library which Debian lacks
+    if wrong is not None and "imagecodecs" in str(wrong):  # a compression that needs a library missing in Debian
         return tiff_by_vtk(path)
     if wrong is not None or (values is None and series == 0):
         fail(f"{path} is not a TIFF image, or is damaged: {one_line(wrong or said.text) or 'it has no pages'}")
@@ -155,7 +155,7 @@ def tiff_by_vtk(path):
     values, _ = by_vtk(path, "vtkIOImage", "vtkTIFFReader", None)
     if values.ndim != 3:
         fail(f"{path} has several numbers a voxel (colors?), expected one")
-    return values  # rows in the order of tifffile's
+    return values  # rows in the order of tifffile
 
 
 def slices(names, where):
@@ -186,7 +186,7 @@ def shape_text(values):
 
 
 def check_whole(path, ending):
-    """What VTK's reader of XML does not see, which takes what is there of an image that is cut off."""
+    """Detects truncated images, which VTK's reader of XML accepts."""
     if ending != ".vti":
         return
     with open(path, "rb") as file:
@@ -196,7 +196,7 @@ def check_whole(path, ending):
 
 
 def by_vtk(path, module, name, array):
-    """The array and the image it came from."""
+    """The array and the image that it came from."""
     import importlib
 
     check_whole(path, ending_of(path))
@@ -240,7 +240,7 @@ def array_of(path, image, name):
 def checked(path, values, spacing, ending, unit):
     factor = units.factor_of(unit, "--units") if unit else units.of_file(path, ending)
     kind = ending[1:].upper() + (f", lengths of {factor:g} m" if factor else "")
-    # VTK says 1 where a file says nothing; a voxel of 1 m is none.
+    # VTK returns 1 if the file has no spacing; a voxel of 1 m is implausible.
     if spacing is None or tuple(abs(s) * (factor or 1) for s in spacing) == (1, 1, 1):
         return Image(values, None, kind)
     spacing = tuple(abs(s) * (factor or 1) for s in spacing)

@@ -1,5 +1,5 @@
-"""NRRD (teem.sourceforge.net/nrrd/format.html) -> an array (z, y, x) and the spacing (x, y, z) that the file has. VTK's reader
-takes packed numbers and text for those of this machine, whatever the header says, and thin images for colors."""
+"""Reads NRRD (teem.sourceforge.net/nrrd/format.html): an array (z, y, x) and the spacing (x, y, z) of the file. VTK's
+reader interprets compressed numbers and text as this machine's, whatever the header says, and thin images as colors."""
 import bz2
 import os
 import re
@@ -15,7 +15,7 @@ TYPES = {"signed char": "i1", "int8": "i1", "uchar": "u1", "unsigned char": "u1"
          "longlong": "i8", "long long": "i8", "int64": "i8", "ulonglong": "u8", "unsigned long long": "u8", "uint64": "u8",
          "float": "f4", "double": "f8"}
 TYPES.update({f"{name}_t": code for name, code in TYPES.items() if re.fullmatch(r"u?int\d+", name)})
-OBLIQUE = 1e-3  # cosine of the angle of two axes; headers have four digits or more
+OBLIQUE = 1e-3  # cosine of the angle between two axes; headers have four digits or more
 
 
 def read(path):
@@ -34,7 +34,7 @@ def read(path):
 
 
 def header_of(path, file):
-    """The fields, and the files that hold the numbers: none where they follow the header."""
+    """The fields, and the files with the numbers: none if they follow the header."""
     fields, files, ended = {}, [], False
     while raw := file.readline(10000):
         line = raw.decode("latin-1").strip()
@@ -60,7 +60,7 @@ def header_of(path, file):
 
 
 def numbered(name):
-    """'part%02d.raw 1 20 1' are twenty files."""
+    """'part%02d.raw 1 20 1' means twenty files."""
     found = re.fullmatch(r"(.*%\d*d.*?) (-?\d+) (-?\d+) (-?\d+)(?: \d+)?", name)
     if not found or int(found[4]) == 0:
         return [name]
@@ -167,7 +167,7 @@ def joined(path, fields, parts):
 
 
 def axes_of(path, fields, sizes):
-    """Which axes are of space."""
+    """True for each spatial axis."""
     directions = directions_of(path, fields)
     if directions is not None:
         return [d is not None for d in directions]
@@ -178,7 +178,7 @@ def axes_of(path, fields, sizes):
 
 
 def directions_of(path, fields):
-    """A vector for each axis of space, None for others; None without the field."""
+    """A vector for each spatial axis, None for others; None without the field."""
     text = fields.get("space directions")
     if text is None:
         return None
@@ -193,7 +193,7 @@ def directions_of(path, fields):
 
 
 def spacing_of(path, fields):
-    """None where the file says nothing."""
+    """None if the file has no spacing."""
     directions = directions_of(path, fields)
     if directions is None:
         words = fields.get("spacings", "").split()

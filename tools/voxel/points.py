@@ -1,4 +1,4 @@
-"""Lists of points that are the centers of voxels: the lattice is found again from the coordinates."""
+"""Lists of points that are the centers of voxels: the lattice is recovered from the coordinates."""
 import gzip
 import warnings
 
@@ -6,11 +6,11 @@ import numpy as np
 
 from strut_tools import fail
 
-# A coordinate may be off its place by this part of a spacing: text has often six digits, which on a lattice of a
-# thousand places leaves an error of a thousandth of the spacing.
+# Tolerance of a coordinate, in spacings: text often has six digits, which on a lattice of a thousand positions leaves
+# an error of a thousandth of the spacing.
 TOLERANCE = 0.05
-# Distinct coordinates closer than this part of the extent are the same one, rounded: more than 5000 places in a row
-# do not fit into a text with six digits anyway.
+# Distinct coordinates closer than this fraction of the extent are one, rounded: more than 5000 positions in a row
+# are not possible in a text with six digits anyway.
 SAME = 1e-4
 MOST_PLACES = 2**31
 
@@ -18,7 +18,7 @@ MOST_PLACES = 2**31
 def read(path):
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # an empty file is seen below
+            warnings.simplefilter("ignore")  # an empty file is reported below
             points = np.loadtxt(path, ndmin=2)
     except (EOFError, gzip.BadGzipFile, OSError, ValueError, UnicodeDecodeError) as error:
         fail(f"{path} is not a list of points 'x y z', one a line: {str(error).splitlines()[0]}")
@@ -39,7 +39,7 @@ def shown(point):
 
 
 def distinct(values):
-    """Sorted, those that differ by rounding only merged; and for each value its number among them."""
+    """Sorted values, with those merged that differ only by rounding; and the index of each value among them."""
     ordered, inverse = np.unique(values, return_inverse=True)
     new = np.diff(ordered) > SAME * (ordered[-1] - ordered[0])
     group = np.concatenate([[0], np.cumsum(new)])
@@ -47,7 +47,7 @@ def distinct(values):
 
 
 def fitted(places, guess):
-    """Lattice numbers of the places, spacing and first place by least squares, and the largest error in spacings."""
+    """Lattice numbers of the positions, spacing and first position by least squares; largest error in spacings."""
     steps = np.concatenate([[0], np.cumsum(np.rint(np.diff(places) / guess).astype(np.int64))])
     if steps[-1] == 0:
         return steps, guess, places[0], np.inf
@@ -56,12 +56,12 @@ def fitted(places, guess):
 
 
 def axis_of(path, values, name):
-    """Lattice number of each value, spacing and first place; spacing None where all values are one."""
+    """Lattice number of each value, spacing and first position; spacing None if all values are equal."""
     if np.ptp(values) == 0:
         return np.zeros(len(values), np.int64), None
     places, member = distinct(values)
     gaps = np.diff(places)
-    # Most layers of an image are taken: the median is the spacing. Where only few are, the least gap may be.
+    # Most layers of an image contain points: the median is the spacing. If only few do, the least gap may be.
     steps, spacing, first, _ = min((fitted(places, guess) for guess in (np.median(gaps), gaps.min())),
                                    key=lambda found: found[3])
     off = np.abs(values - first - steps[member] * spacing) / spacing
@@ -92,5 +92,5 @@ def lattice(path):
         fail(f"{path}: points {i + 1} and {j + 1} take the same place: {shown(points[i])}")
     solid = np.zeros(shape, bool)
     solid.reshape(-1)[place] = True
-    # A single layer has no spacing of its own: that of the finest axis.
+    # A single layer has no spacing of its own: it gets that of the finest axis.
     return solid, tuple(spacing or min(known) for _, spacing in axes)

@@ -25,9 +25,9 @@ def read(path):
 
 
 def vax_floats(data):
-    """F_floating: the halves are exchanged and the exponent is two larger."""
+    """F_floating: its halves are exchanged and its exponent is larger by two."""
     words = np.frombuffer(data, "<u2").astype(np.uint32)
-    with np.errstate(invalid="ignore"):  # of a damaged file
+    with np.errstate(invalid="ignore"):  # for damaged files
         return ((words[0::2] << 16) | words[1::2]).astype(np.uint32).view(np.float32) * 0.25
 
 
@@ -80,7 +80,7 @@ def cut_off(path, found, expected):
 
 
 def bits(path, data, shape):
-    """A byte holds 2 x 2 x 2 voxels, the lowest bit the first, x runs fastest; the last byte is the value of a 1."""
+    """A byte holds 2 x 2 x 2 voxels, the lowest bit first, x fastest; the last byte is the value of a 1."""
     halves = [(n + 1) // 2 for n in shape]
     count = int(np.prod(halves))
     if len(data) < count + 1:
@@ -93,14 +93,14 @@ def bits(path, data, shape):
 
 
 def runs_of_bits(data):
-    """Two values, then how often one and the other follow in turn; 255: 254 times, and the same once more."""
+    """Two values, then the lengths of alternating runs; 255: 254 times, and the same value continues."""
     lengths = data[2:]
     turns = np.concatenate([[0], np.cumsum(lengths != 255)])[:len(lengths)] % 2
     return np.repeat(data[:2][turns], np.where(lengths == 255, 254, lengths))
 
 
 def runs_of_bytes(data):
-    """Pairs of how often, and the value."""
+    """Pairs of run length and value."""
     return np.repeat(data[1::2], data[0:2 * (len(data) // 2):2])
 
 

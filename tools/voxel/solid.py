@@ -1,4 +1,4 @@
-"""Which voxels are solid, and which of them are kept. Arrays are (z, y, x), lengths of a voxel (x, y, z) in m."""
+"""Finds solid voxels, and selects those to keep. Arrays are (z, y, x), edges of a voxel (x, y, z) in m."""
 import numpy as np
 from scipy import ndimage
 
@@ -7,18 +7,18 @@ from strut_tools import fail
 NEIGHBORS = [(z, y, x) for z in (-1, 0, 1) for y in (-1, 0, 1) for x in (-1, 0, 1) if (z, y, x) != (0, 0, 0)]
 
 
-# Grey -> solid
+# Grey values to solid
 
 
 def histogram(values):
-    """Counts and the values they stand for: each value where there are few whole numbers, else 4096 classes."""
+    """Counts and their values: each value for a small range of integers, else 4096 classes."""
     low, high = values.min(), values.max()
     whole = np.issubdtype(values.dtype, np.integer) and int(high) - int(low) < 2**20
     if not whole:
         counts, edges = np.histogram(values, 4096, (float(low), float(high)))
         return counts, edges[1:]
     counts = sum(np.bincount(layer.reshape(-1).astype(np.int64) - int(low), minlength=int(high) - int(low) + 1)
-                 for layer in values)  # layer by layer: a copy of eight bytes a voxel would be large
+                 for layer in values)  # layer by layer, because a copy with eight bytes per voxel would be large
     return counts, np.arange(int(low), int(high) + 1)
 
 
@@ -41,7 +41,7 @@ def two_valued(values):
 
 
 def solid_of(path, values, threshold, invert):
-    """Solid or not, and a sentence about how. threshold None: Otsu's where there are more than two values."""
+    """Solid or not, and a sentence about the method. threshold None: Otsu's if there are more than two values."""
     if values.dtype == bool:
         if threshold is not None or invert:
             fail(f"{path} says itself which voxels are solid: --threshold, --otsu and --invert do not apply")
@@ -68,7 +68,7 @@ def solid_of(path, values, threshold, invert):
 
 
 def materials_of(path, values, ranges):
-    """The number of the material of each voxel, 1, 2, …; 0: void. ranges: (name, low, high), of low < value <= high."""
+    """The number of each voxel's material, 1, 2, …; 0: void. ranges: (name, low, high), for low < value <= high."""
     if values.dtype == bool:
         fail(f"{path} says itself which voxels are solid: --material does not apply")
     if np.issubdtype(values.dtype, np.floating) and not np.isfinite(values).all():
@@ -83,13 +83,13 @@ def materials_of(path, values, ranges):
     return out
 
 
-# Grey -> how much of a voxel is solid
+# Grey values to the solid fraction of a voxel
 
 
 def levels_of(values, solid, cell):
-    """Of void and of solid: the median of the void, and that of the middles of what is thick, which the blur of an image
-    reaches least. The means of both sides of the threshold have the half-filled voxels in them, and give thin struts a fifth
-    or more of mass that is not there. Thick is the half by thickness cubed: specks do not count."""
+    """The levels of void and of solid: the median of the void, and that of the centers of thick parts, which the blur
+    of an image affects least. Means on both sides of the threshold would include half-filled voxels, and give thin
+    struts a fifth or more of excess mass. Thick parts are the half by thickness cubed, so that specks do not count."""
     void = np.concatenate([layer[~there] for layer, there in zip(values, solid)])
     places, distance, ridge = ridge_of(solid, cell)
     values, distance = values[places][ridge], distance[ridge].astype(float)
@@ -100,10 +100,10 @@ def levels_of(values, solid, cell):
 
 
 def level_for(values, void, solid, dropped, count):
-    """The level of solid at which the kept voxels and their rims hold so many whole voxels together."""
+    """The level of solid at which the kept voxels and their rims sum up to `count` whole voxels."""
     there = with_rims(solid, dropped, np.sign(values - np.float32(void)) * (1 if values[solid].mean() > void else -1))
     above = np.abs(values[there].astype(float) - void)
-    low, high = 0.0, float(above.sum() / count)  # at the upper end nothing is more than full, at the lower one all is
+    low, high = 0.0, float(above.sum() / count)  # at the upper bound no voxel is more than full, at the lower all are
     if not len(above) > count:
         fail(f"--density: kept voxels and their rims are {len(above):,}, fewer than the {count:.0f} that are wanted")
     for _ in range(60):
@@ -113,8 +113,8 @@ def level_for(values, void, solid, dropped, count):
 
 
 def threshold_for(values, invert, count, kept):
-    """The threshold at which kept(solid or not) has the number of voxels nearest to count: what pieces and spurs take is
-    put in front of it, again and again."""
+    """The threshold at which kept(solid or not) has the number of voxels nearest to count: the loss by pieces and spurs
+    is compensated by iteration."""
     counts, levels = histogram(values)
     above = np.cumsum(counts[::1 if invert else -1])
     wanted, best = count, None
@@ -138,17 +138,17 @@ def threshold_for(values, invert, count, kept):
 
 
 def fills_of(values, void, level):
-    """0 at the level of void, 1 at that of solid, and the straight line between."""
+    """0 at the level of void, 1 at that of solid, linear in between."""
     return np.clip((values.astype(np.float32) - np.float32(void)) / np.float32(level - void), 0, 1)
 
 
 def with_rims(solid, dropped, fills):
-    """The kept voxels and those around them, of which a part is solid; not what was dropped."""
+    """The kept voxels and those around them with a solid fraction; without dropped ones."""
     around = ndimage.binary_dilation(solid, np.ones((3, 3, 3), bool))
     return around & ~dropped & (fills > 0)
 
 
-# Part, finer, coarser
+# Crop, refine, coarsen
 
 
 def cropped(solid, crop):
@@ -163,7 +163,7 @@ def cropped(solid, crop):
 
 
 def coarsened(solid, n):
-    """n x n x n -> 1, solid if at least half is. What is left over at the upper faces is cut off."""
+    """n x n x n -> 1, solid if at least half is. The remainder at the upper faces is cut off."""
     counts = [size // n for size in solid.shape]
     if 0 in counts:
         fail(f"--coarsen {n}: the image has only {' x '.join(map(str, solid.shape[::-1]))} voxels")
@@ -176,7 +176,7 @@ def coarsened(solid, n):
 
 
 def coarsened_materials(materials, n):
-    """The material of most of the n x n x n voxels that are solid; 0 where coarsened() has void."""
+    """The most frequent material of the n x n x n voxels that are solid; 0 where coarsened() has void."""
     solid = coarsened(materials > 0, n)
     best, out = np.zeros(solid.shape, np.int64), np.zeros(solid.shape, np.uint8)
     for number in range(1, int(materials.max()) + 1):
@@ -192,7 +192,7 @@ def refined(solid, n):
 
 
 def resampled(solid, cell, edge):
-    """Cubes of that edge; each takes the voxel in which its center lies. The box becomes a whole number of cubes."""
+    """Cubes of this edge; each gets the voxel that contains its center. The box becomes a whole number of cubes."""
     out = solid
     for axis, length in enumerate(cell):
         size = solid.shape[2 - axis]
@@ -220,8 +220,8 @@ def largest_pieces(solid, keep):
 
 
 def without_spurs(solid, least):
-    """Without voxels that have fewer than `least` of the 26 neighbors, again until none is left; and how many had so
-    few at first. What lies outside the box counts as void."""
+    """Repeatedly removes voxels with fewer than `least` of the 26 neighbors; also returns how many had so few at first.
+    Voxels outside the box count as void."""
     padded = np.pad(solid, 1)
     flat = padded.reshape(-1)
     counts = np.zeros(padded.shape, np.uint8)
@@ -244,7 +244,7 @@ def without_spurs(solid, least):
 
 
 def kept_of(solid, pieces, spurs, least):
-    """Pieces and spurs, until neither changes any more. Returns the solid and a sentence about each."""
+    """Removes pieces and spurs until neither changes. Returns the solid and a sentence about each."""
     voxels = np.count_nonzero(solid)
     solid, sizes = largest_pieces(solid, pieces)
     kept = np.count_nonzero(solid)
@@ -271,7 +271,7 @@ def kept_of(solid, pieces, spurs, least):
     return stripped, about, f"{text}; {gone:,} dropped, one after the other{apart}"
 
 
-# What it is like
+# Properties
 
 
 def faces_touched(solid):
@@ -282,11 +282,11 @@ def faces_touched(solid):
 
 def thickness(solid, cell):
     """Mean and largest local thickness, m, or None without void: twice the distance to the center of the nearest void
-    voxel, at those voxels where none of the 26 neighbors has a larger one (the ridge). The mean is weighted by the
-    section, thickness squared: else the steps of a surface, which are small ridges too, decide it. So it comes close to
-    the mean over the volume: for the CT foam 192 um where spheres fitted into the solid at every voxel give 180 um, and
-    187 to 202 um for the same foam at half to twice the resolution. A plate along the axes of an odd number of voxels
-    gets one too many. What lies outside the box is not void: a strut that is cut by it is not thinner there."""
+    voxel, at voxels where none of the 26 neighbors has a larger one (the ridge). The mean is weighted by the section,
+    thickness squared, because steps of a surface, which are small ridges too, would dominate it otherwise. It is close
+    to the mean over the volume: for the CT foam 192 um where spheres fitted into the solid at every voxel give 180 um,
+    and 187 to 202 um for the same foam at half to twice the resolution. A plate along the axes of an odd number of
+    voxels gets one too many. Outside of the box is no void: a strut cut by it is not thinner there."""
     if solid.all():
         return None
     _, there, ridge = ridge_of(solid, cell)
@@ -295,10 +295,10 @@ def thickness(solid, cell):
 
 
 def ridge_of(solid, cell):
-    """The places of the solid voxels; how far each is from the center of the nearest void one, m; and whether none of the 26
-    around it is farther."""
+    """The positions of the solid voxels; the distance of each from the center of the nearest void one, m; and True if
+    none of its 26 neighbors has a larger one."""
     places = np.nonzero(solid)
-    # The places alone: the distances of scipy take eight times as much memory.
+    # Indices only: scipy's distances take eight times as much memory.
     nearest = ndimage.distance_transform_edt(solid, cell[::-1], return_distances=False, return_indices=True)
     squared = sum(((nearest[a][places] - places[a]) * cell[2 - a])**2 for a in range(3))
     del nearest

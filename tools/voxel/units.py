@@ -10,7 +10,7 @@ FIELDS = {".nrrd": r"^(?:space units|units):(.*)$", ".nhdr": r"^(?:space units|u
 
 
 def factor_of(word, where):
-    known = re.sub(r"[^\x00-\x7f]+", "u", word.strip().lower())  # the sign for micro, however it was read
+    known = re.sub(r"[^\x00-\x7f]+", "u", word.strip().lower())  # the micro sign, in any encoding
     for name in (known, known.rstrip("s")):
         if name in UNITS:
             return UNITS[name]
@@ -18,7 +18,7 @@ def factor_of(word, where):
 
 
 def of_file(path, ending):
-    """What a length of the file is in m; None where it says nothing."""
+    """The unit of length of the file in m; None if it has none."""
     if ending not in FIELDS:
         return None
     with open(path, "rb") as file:

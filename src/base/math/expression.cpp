@@ -1,4 +1,4 @@
-// Evaluation: a machine with a stack of numbers.
+// Evaluates an expression by a stack machine.
 #include "base/math/expression.hpp"
 
 #include <array>
@@ -8,7 +8,7 @@ namespace strut {
 
 namespace {
 
-constexpr double largest_exponent = 709;  // exp of more is infinite, and the library's series do not end there
+constexpr double largest_exponent = 709;  // exp of more is infinite, and the library's series do not converge there
 
 double bessel_i(double order, double x) {
   return std::fabs(x) > largest_exponent ? INFINITY : std::cyl_bessel_i(order, std::fabs(x));
@@ -54,7 +54,7 @@ class Machine {
  public:
   Machine(double x, double y, double z, double t) : variables_{x, y, z, t} {}
 
-  // How many instructions to skip after this one.
+  // Returns the number of instructions to skip after this one.
   int execute(const Instruction& one) {
     switch (one.what) {
       case Do::push_number:
@@ -102,7 +102,7 @@ class Machine {
     push(function.of_two(a, b));
   }
 
-  // A level of brackets leaves no more than an operand for each of the six kinds of operators.
+  // Each level of brackets leaves at most one operand for each of the six kinds of operators.
   std::array<double, 8 * (Expression::deepest + 2)> stack_;
   int height_ = 0;
   std::array<double, Expression::most_variables> variables_;

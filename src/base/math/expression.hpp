@@ -1,6 +1,6 @@
-// A C-like expression in x, y, z, t, or statements that assign to `value`, compiled to a list of instructions. What a
-// deck can say here is arithmetic and nothing else: no loops, no recursion, no arrays, no files. Each instruction is
-// done at most once, so that an evaluation takes no longer than its text is long.
+// A C-like expression in x, y, z, t, or statements that assign to `value`, compiled to a list of instructions. It
+// allows only arithmetic: no loops, no recursion, no arrays, no files. Each instruction is executed at most once, so
+// that the time of an evaluation is bounded by the length of the text.
 #pragma once
 
 #include <string>
@@ -30,12 +30,12 @@ struct Instruction {
     both,
     either,
     call,
-    skip,         // as many instructions as `place` says
-    skip_if_zero  // the same, where what is popped is 0
+    skip,         // the number of instructions in `place`
+    skip_if_zero  // the same, if the popped number is 0
   };
   Do what;
   double number = 0;
-  int place = 0;  // of a variable, of a function in its table, or how far to skip
+  int place = 0;  // index of a variable, of a function in its table, or number of instructions to skip
 };
 
 class Expression {
@@ -48,10 +48,10 @@ class Expression {
   bool uses_place() const { return uses_place_; }  // x, y or z
   bool uses_time() const { return uses_time_; }
 
-  // Decks are written by hand, and their expressions by programs at worst.
+  // Limits: decks are written by hand, or their expressions by programs at most.
   static constexpr std::size_t longest = 10000;  // characters
-  static constexpr int deepest = 100;            // brackets, signs and blocks within each other
-  static constexpr int most_variables = 32;      // x y z t value among them
+  static constexpr int deepest = 100;            // nesting of brackets, signs and blocks
+  static constexpr int most_variables = 32;      // including x y z t value
 
  private:
   friend class ExpressionParser;
@@ -59,7 +59,7 @@ class Expression {
   bool uses_place_ = false, uses_time_ = false;
 };
 
-// The place of a variable that is there from the start.
+// The indices of the predefined variables.
 enum class Given { x, y, z, t, value };
 
 struct MathFunction {

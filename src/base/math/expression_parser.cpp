@@ -17,7 +17,7 @@ namespace {
 
 using Do = Instruction::Do;
 
-// Longer ones first, where one begins with another.
+// Longer operators first, if one begins with another.
 struct Operator {
   const char* text;
   Do what;
@@ -60,7 +60,7 @@ class ExpressionParser {
     bool whole = false;  // an int
   };
 
-  // Counts what is open while it is alive: the parser calls itself for it.
+  // Counts the nesting depth while it exists, because the parser recurses.
   class Level {
    public:
     explicit Level(ExpressionParser& parser) : parser_(parser) {
@@ -119,7 +119,7 @@ class ExpressionParser {
     return found;
   }
 
-  // The name that comes next, left where it is.
+  // The next name, without consuming it.
   std::string coming_name() {
     const std::size_t here = at_;
     const std::string found = begins_name(next()) ? name() : "";
@@ -140,7 +140,7 @@ class ExpressionParser {
 
   void emit(Do what, int place = 0, double number = 0) { result_.program_.push_back({what, number, place}); }
 
-  // To be completed by land(), which makes it skip all that follows it until then.
+  // Emits a skip; land() later sets its length, so that it skips everything in between.
   std::size_t emit_skip(Do what) {
     emit(what);
     return result_.program_.size() - 1;
@@ -167,7 +167,7 @@ class ExpressionParser {
     if (variables_.size() == Expression::most_variables) fail("too many variables");
     variables_.push_back({fresh, whole});
     emit(Do::push_number);
-    emit(Do::pop_variable, static_cast<int>(variables_.size()) - 1);  // 0, also where a branch is not taken
+    emit(Do::pop_variable, static_cast<int>(variables_.size()) - 1);  // 0, also if a branch is not taken
     if (next() == '=') return assignment(static_cast<int>(variables_.size()) - 1);
     end_statement();
   }
@@ -188,7 +188,7 @@ class ExpressionParser {
     end_statement();
   }
 
-  // The last one needs no semicolon.
+  // The last statement needs no semicolon.
   void end_statement() {
     if (!at_end()) expect(";");
   }
@@ -244,7 +244,7 @@ class ExpressionParser {
     const Level level(*this);
     const std::vector<Do> before = signs();
     primary();
-    // Languages differ here: in some the sign binds stronger, in others the power.
+    // Languages differ here: the sign or the power may bind more strongly.
     if (next() == '^' && !before.empty()) fail("write -(a^b) or (-a)^b: which of the two is meant?");
     for (auto one = before.rbegin(); one != before.rend(); ++one) emit(*one);
     if (!take("^")) return;
@@ -252,7 +252,7 @@ class ExpressionParser {
     emit(Do::power);
   }
 
-  // What is to be done to the number after them, from the right.
+  // The operations of signs, to be applied to the number after them from right to left.
   std::vector<Do> signs() {
     std::vector<Do> all;
     for (;;) {

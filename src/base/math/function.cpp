@@ -24,7 +24,7 @@ std::optional<double> as_number(const std::string& text) {
   return number;
 }
 
-// For an error: what is long cut off, and no characters that would end the line or the text.
+// Shortens text for an error message and replaces control characters.
 std::string shortened(const std::string& text) {
   constexpr std::size_t longest = 200;
   std::string shown = text.substr(0, longest);

@@ -1,5 +1,5 @@
-// A value of a deck that may depend on place and time: "2.5", "-50", "1.0e-3*t", "value = 0; if (t < 1e-3) { value =
-// sin(x); }". Text that is more than a number is compiled (expression.hpp).
+// A value of a deck that may depend on position and time: "2.5", "-50", "1.0e-3*t", "value = 0; if (t < 1e-3) { value =
+// sin(x); }". Text that is not a number is compiled (expression.hpp).
 #pragma once
 
 #include <memory>
@@ -16,22 +16,22 @@ class Function {
   explicit Function(double constant = 0);
 
   // `text`: a number, an expression in x y z t, or statements that assign to `value`.
-  // Throws Error where it does not compile: which character, and what was expected there.
+  // Throws Error if it does not compile, with the character and what was expected there.
   static Function parse(const std::string& text);
 
-  // x, y, z in m (reference position), t in s. Not finite where the arithmetic is not (log of a negative number): the
-  // first such value is remembered, by all copies. By any thread.
+  // x, y, z in m (reference position), t in s. The result may be infinite or NaN (log of a negative number): the first
+  // such value is stored, shared by all copies. Thread-safe.
   double operator()(double x, double y, double z, double t) const;
-  double evaluate(double x, double y, double z, double t) const;  // the same, for a look: nothing is remembered
+  double evaluate(double x, double y, double z, double t) const;  // the same, without storing such values
 
-  // Where it stands in the deck, for errors: "Boundary Conditions > pull > Value".
+  // Its path in the deck, for errors: "Boundary Conditions > pull > Value".
   void set_path(std::string path) { path_ = std::move(path); }
   const std::string& path() const { return path_; }
-  // What an error says of such a value, with its path; of the one that is remembered, "" where there was none.
+  // The error message for such a value, with its path; for the stored one, "" if there was none.
   std::string describe(double x, double y, double z, double t, double value) const;
   std::string first_not_finite() const;
 
-  bool is_constant() const { return program_ == nullptr; }  // the same everywhere and always
+  bool is_constant() const { return program_ == nullptr; }  // the same at all positions and times
   bool depends_on_time() const;
   bool depends_on_place() const;
   const std::string& text() const { return text_; }
@@ -42,11 +42,11 @@ class Function {
   std::string text_, path_;
 
   struct NotFinite;
-  std::shared_ptr<NotFinite> not_finite_;  // where there is a program
+  std::shared_ptr<NotFinite> not_finite_;  // only with a program
 };
 
-// The functions that expressions know, and no others (not abs, min, max, floor; nothing random, which would make a run
-// depend on the number of ranks).
+// The functions allowed in expressions (not abs, min, max, floor; no random numbers, which would make a run depend on
+// the number of ranks).
 std::vector<std::string> functions_in_expressions();
 
 }  // namespace strut

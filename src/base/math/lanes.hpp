@@ -1,5 +1,5 @@
-// SIMD: a number of several points, one per lane, and how it gets there from the records of the points. Points so taken
-// are said to stand side by side.
+// SIMD: one number of each of several points, one per lane, and its transfer from the records of the points. Such
+// points are said to be side by side.
 #pragma once
 
 #ifdef __AVX__
@@ -11,19 +11,19 @@
 #include <cstring>
 #include <utility>
 
-// As calls these would pass their lanes through memory.
+// Inlined, because calls would pass their lanes through memory.
 #define STRUT_INLINE __attribute__((always_inline)) inline
 
 namespace strut::small {
 
-// As many points as a register holds; four at least.
+// As many points as a register has lanes; at least four.
 #ifdef __AVX512F__
 inline constexpr int lane_count = 8;
 #else
 inline constexpr int lane_count = 4;
 #endif
 using Lanes = Eigen::Array<double, lane_count, 1>;
-// The same as the compiler's vector, whose comparisons give masks.
+// The same as the compiler's vector type, whose comparisons give masks.
 using RawLanes = double __attribute__((vector_size(8 * lane_count)));
 
 // Local indices of points side by side.
@@ -39,7 +39,7 @@ inline Eigen::Map<const Lanes, Eigen::AlignedMax> lanes(const RawLanes& x) {
   return Eigen::Map<const Lanes, Eigen::AlignedMax>(reinterpret_cast<const double*>(&x));
 }
 
-// Bit l: whether lane l is below zero. Written lane by lane it costs several times as much.
+// Bit l: lane l is negative. Written lane by lane it costs several times as much.
 STRUT_INLINE unsigned lanes_below_zero(const Lanes& x) {
 #if defined __AVX512F__
   return _mm512_cmp_pd_mask(_mm512_load_pd(x.data()), _mm512_setzero_pd(), _CMP_LT_OQ);
@@ -53,7 +53,7 @@ STRUT_INLINE unsigned lanes_below_zero(const Lanes& x) {
 #endif
 }
 
-// The number that of(lane) is.
+// Lanes filled with of(lane).
 template <class Of>
 STRUT_INLINE Lanes lanes_of(const Of& of) {
   Lanes values;
@@ -87,7 +87,7 @@ STRUT_INLINE Lanes ones_in(unsigned bits) {
 #endif
 }
 
-// ---- Numbers that follow upon each other in each record: registers of records, transposed --------------------------
+// ---- Consecutive numbers of each record: registers of records, transposed ------------------------------------------
 
 namespace detail {
 
@@ -100,7 +100,7 @@ STRUT_INLINE Quad quad_at(const double* numbers) {
   return quad;
 }
 
-// Four numbers of record k, and of record k + 4 where there are eight.
+// Four numbers of record k, and of record k + 4 if there are eight lanes.
 template <class Of>
 STRUT_INLINE RawLanes row_of(const Of& of, int k) {
 #ifdef __AVX512F__
@@ -110,7 +110,7 @@ STRUT_INLINE RawLanes row_of(const Of& of, int k) {
 #endif
 }
 
-// What place(lane) says of the numbers of a, followed by those of b.
+// Selects place(lane) among the numbers of a followed by those of b.
 template <int (*place)(int), int... lane>
 STRUT_INLINE RawLanes mixed(const RawLanes& a, const RawLanes& b, std::integer_sequence<int, lane...>) {
   return __builtin_shufflevector(a, b, place(lane)...);
@@ -121,7 +121,7 @@ constexpr int odd(int lane) { return lane % 2 == 0 ? lane + 1 : lane_count + lan
 constexpr int low(int lane) { return lane % 4 < 2 ? lane : lane_count + lane - 2; }
 constexpr int high(int lane) { return lane % 4 < 2 ? lane + 2 : lane_count + lane; }
 
-// Four rows of four, or twice that side by side.
+// Transposes four rows of four, or two such blocks side by side.
 STRUT_INLINE Rows transposed(const Rows& r) {
   constexpr std::make_integer_sequence<int, lane_count> all;
   const RawLanes a = mixed<even>(r[0], r[1], all), b = mixed<odd>(r[0], r[1], all);
@@ -142,7 +142,7 @@ STRUT_INLINE void take_numbers(const Of& of, std::array<Lanes, count>& numbers) 
 
 }  // namespace detail
 
-// The `count` numbers from of(lane) on, four at least.
+// The `count` numbers from of(lane) on; at least four.
 template <int count, class Of>
 STRUT_INLINE std::array<Lanes, count> numbers_of(const Of& of) {
   static_assert(count >= 4);
@@ -151,7 +151,7 @@ STRUT_INLINE std::array<Lanes, count> numbers_of(const Of& of) {
   return numbers;
 }
 
-// The other way: `count` numbers of each lane to to(lane) on, of so many lanes; a multiple of four.
+// The inverse: stores `count` numbers of each lane from to(lane) on, for the first `lanes` lanes; a multiple of four.
 template <std::size_t count, class To>
 STRUT_INLINE void store_numbers(const std::array<Lanes, count>& numbers, int lanes, const To& to) {
   static_assert(count % 4 == 0);
@@ -164,9 +164,9 @@ STRUT_INLINE void store_numbers(const std::array<Lanes, count>& numbers, int lan
   }
 }
 
-// ---- Choices by lane -----------------------------------------------------------------------------------------------
+// ---- Selection by lane ---------------------------------------------------------------------------------------------
 
-// `one` where `which` is above zero, else `other`. (Eigen's select goes lane by lane.)
+// `one` where `which` is positive, else `other`. (Eigen's select works lane by lane.)
 STRUT_INLINE Lanes where_positive(const Lanes& which, const Lanes& one, const Lanes& other) {
   return lanes(RawLanes(raw(which) > 0 ? raw(one) : raw(other)));
 }

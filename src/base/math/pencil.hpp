@@ -1,5 +1,5 @@
-// SIMD: eight numbers, those of eight cells in a row along x. GCC and Clang make of the type what the machine has: one
-// register with AVX-512, two with AVX, four with SSE2.
+// SIMD: eight numbers, those of eight cells in a row along x. GCC and Clang map the type to the registers of the
+// machine: one with AVX-512, two with AVX, four with SSE2.
 #pragma once
 
 #include <utility>
@@ -18,7 +18,7 @@ Pencil window(const Pencil& left, const Pencil& right, std::integer_sequence<int
 
 }  // namespace detail
 
-// The numbers dx cells farther along x, −8 ≤ dx ≤ 8, of three pencils in a row.
+// The numbers dx cells further along x, −8 ≤ dx ≤ 8, from three adjacent pencils.
 template <int dx>
 inline Pencil shifted(const Pencil& before, const Pencil& here, const Pencil& after) {
   static_assert(-pencil_width <= dx && dx <= pencil_width);

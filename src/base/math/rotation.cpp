@@ -3,8 +3,8 @@
 namespace strut {
 
 Tensor polar_rotation(const Tensor& deformation_gradient) {
-  constexpr int most_iterations = 60;        // a stretch of 1e-15 takes 50
-  constexpr double nearly_converged = 1e-8;  // the next iterate is off by its square
+  constexpr int most_iterations = 60;        // a stretch of 1e-15 needs 50
+  constexpr double nearly_converged = 1e-8;  // the error of the next iterate is its square
   Tensor R = deformation_gradient;
   for (int n = 0; n < most_iterations; ++n) {
     const Tensor next = 0.5 * (R + R.inverse().transpose());

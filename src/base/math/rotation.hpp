@@ -1,4 +1,4 @@
-// The rotation of the material: the frame in which laws see their stress.
+// Rotations, and the polar decomposition that gives the unrotated frame of the laws.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace strut {
 
-// A rotation as it is kept: by two columns, the third of which is their cross product.
+// A rotation, stored by two columns; the third is their cross product.
 class Rotation {
  public:
   Rotation() : Rotation(Tensor::Identity()) {}
@@ -32,7 +32,7 @@ struct Polar {
   small::Symmetric3<T> stretch;  // U
 };
 
-// The rotation whose axis is h and whose angle is 2 atan |h| (Rodrigues' parameters, the Cayley transform):
+// The rotation with the axis h and the angle 2 atan |h| (Rodrigues' parameters, the Cayley transform):
 // (1 − |h|²) I + 2 h⊗h + 2 [h×], over 1 + |h|².
 template <class T>
 small::Tensor3<T> rotation_of(const small::Vector3<T>& h) {
@@ -54,12 +54,12 @@ void complete(small::Tensor3<T>& R) {
 }
 
 // The polar decomposition F = R U at the end of a step, from R at its start: Flanagan & Taylor's (1987) condition that
-// the stretch stay symmetric, posed for the step instead of the instant. Their rate form
+// the stretch remain symmetric, applied to the step instead of the instant. Their rate form
 //   ω = w − [V − (tr V) I]⁻¹ z,  z_i = ε_ikj D_jm V_mk
 // is integrated with V at the start and drifts by a term of first order in dt; the step form
 //   [(tr S) I − S] θ = axial(R_nᵀ F),  S = sym(R_nᵀ F),  R = R_n (rotation by θ)
-// is one Newton step towards the polar decomposition itself, so an error of one step is removed in the next. It costs
-// the same, needs no velocity gradient, and is exact for a rigid rotation of any size below 90° a step.
+// is one Newton step toward the polar decomposition itself, so that the next step removes the error of one step. It
+// costs the same, needs no velocity gradient, and is exact for rigid rotations below 90° per step.
 template <class T>
 Polar<T> polar_update(const small::Tensor3<T>& old_rotation, const small::Tensor3<T>& deformation_gradient) {
   using std::sqrt;
@@ -70,13 +70,13 @@ Polar<T> polar_update(const small::Tensor3<T>& old_rotation, const small::Tensor
   const T half = 1 / (1 + sqrt(1 + t.c[0] * t.c[0] + t.c[1] * t.c[1] + t.c[2] * t.c[2]));    // tan(angle/2)/tan(angle)
   const small::Tensor3<T> increment = rotation_of(small::Vector3<T>{{half * t.c[0], half * t.c[1], half * t.c[2]}});
   small::Tensor3<T> rotation = small::product(old_rotation, increment);
-  complete(rotation);  // the stretch is that of the rotation as it is kept, or round-off would add up as strain
+  complete(rotation);  // the stretch must be that of the stored rotation, or round-off would accumulate as strain
   return {rotation, small::symmetric_part(small::transposed_product(rotation, deformation_gradient))};
 }
 
-// R of F = R U from F alone, wherever the rotation was before: Newton's iteration R ← ½ (R + R⁻ᵀ) (Higham 1986), which
-// converges in second order from any F of det F > 0, in half a dozen steps at moderate stretches. For a view now and
-// then; a step that follows the last one is cheaper (polar_update).
+// R of F = R U from F alone, whatever the rotation was before: Newton's iteration R ← ½ (R + R⁻ᵀ) (Higham 1986). It
+// converges quadratically from any F with det F > 0, in half a dozen iterations at moderate stretches. For occasional
+// output; polar_update is cheaper for successive steps.
 Tensor polar_rotation(const Tensor& deformation_gradient);
 
 }  // namespace strut

@@ -1,6 +1,6 @@
-// 3×3 tensors over any scalar: double for one point, Lanes (SIMD) for several points, one per lane. The arithmetic of a
-// point's update and of its bonds is written once and runs a register's width of points at a time (mechanics), where
-// Eigen's matrices of doubles would leave most of each register empty.
+// 3×3 tensors over any scalar: double for one point, Lanes (SIMD) for several points, one per lane. The arithmetic of
+// points and bonds (mechanics) is written once and runs on a register's width of points at a time; Eigen's matrices of
+// doubles would leave most of each register empty.
 #pragma once
 
 #include "base/math/lanes.hpp"
@@ -107,7 +107,7 @@ Vector3<T> product(const Symmetric3<T>& s, const Vector3<T>& v) {
            s[5] * v.c[0] + s[4] * v.c[1] + s[2] * v.c[2]}};
 }
 
-// Of one lane.
+// The tensor of one lane.
 inline Tensor at(const Tensor3<Lanes>& t, int lane) {
   Tensor r;
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// Tensors of a material point: Eigen types with the order of components that files, laws and tests share.
+// Tensors of a material point: Eigen types, with the order of components that files, laws and tests share.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
-// Numbers of many records in tiles: those of as many records as a register holds, number by number, so that a kernel
-// takes the records of a tile side by side, each number of them by one load.
+// Records of numbers in tiles: a tile stores as many records as a register has lanes, number by number, so that a
+// kernel processes the records of a tile side by side and loads each of their numbers at once.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace strut::small {
 
-// One number of the records of a tile.
+// One number of all records of a tile.
 struct alignas(Lanes) TileRow {
   double lane[lane_count];
 };
@@ -20,7 +20,7 @@ class Tiles {
  public:
   static constexpr std::size_t width = lane_count;
 
-  // So many records, all alike.
+  // Makes `records` records, all equal to `numbers`.
   void assign(std::size_t records, std::span<const double> numbers) {
     records_ = records, numbers_ = numbers.size();
     rows_.resize((records + width - 1) / width * numbers_);
@@ -30,7 +30,7 @@ class Tiles {
   std::size_t size() const { return records_; }
   double& at(std::size_t record, std::size_t number) { return tile_of(record)[number].lane[record % width]; }
   double at(std::size_t record, std::size_t number) const { return tile_of(record)[number].lane[record % width]; }
-  // The tile that a record is in, from its first number on.
+  // The tile of a record, from its first number on.
   TileRow* tile_of(std::size_t record) { return rows_.data() + record / width * numbers_; }
   const TileRow* tile_of(std::size_t record) const { return rows_.data() + record / width * numbers_; }
   double bytes() const { return static_cast<double>(rows_.size() * sizeof(TileRow)); }

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t largest_message = std::size_t{1} << 30;  // bytes: MPI's counts are ints
 
-// With one thread, whatever Kokkos was built with and the environment says: those of a rank are not Kokkos'
-// (threads.hpp). Without the words of the command line: Kokkos would answer --help with a page of its own.
+// Starts Kokkos with one thread, whatever its build and the environment say: the threads of a rank are not Kokkos'
+// (threads.hpp). The command line is not passed, because Kokkos would answer --help with its own page.
 void start_kokkos() {
 #if KOKKOS_VERSION >= 30700
   Kokkos::initialize(Kokkos::InitializationSettings().set_num_threads(1));
@@ -28,7 +28,7 @@ void start_kokkos() {
 
 Runtime::Runtime(int& argc, char**& argv) {
   int level = MPI_THREAD_SINGLE;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads looks at what it got
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads checks `level`
   start_kokkos();
 }
 

@@ -1,5 +1,5 @@
-// The ranks of a run. A thin, copyable handle on a Teuchos communicator that keeps Trilinos' headers out of ours.
-// Every member but rank(), size() and abort() is collective.
+// The ranks of a run: a thin, copyable handle of a Teuchos communicator that keeps Trilinos' headers out of ours. All
+// members except rank(), size() and abort() are collective.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class RCP;
 
 namespace strut {
 
-// Starts MPI and Kokkos, and finalises them when it goes out of scope: the first object of main().
+// Starts MPI and Kokkos, and finalizes them when it goes out of scope: the first object of main().
 class Runtime {
  public:
   Runtime(int& argc, char**& argv);
@@ -36,7 +36,7 @@ class Communicator {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  int ranks_of_node() const;  // that share memory with this one, itself included
+  int ranks_of_node() const;  // ranks that share memory with this one, itself included
 
   void barrier() const;
   [[noreturn]] void abort() const;           // ends all ranks at once; not collective

@@ -1,4 +1,4 @@
-// What started this process says of it, in the environment: how many processes it started, and which of them this is.
+// The launcher of this process, from the environment: how many processes it started, and which one this is.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 namespace strut {
 
 struct Launch {
-  std::string variable;  // the environment's variable that told, "PMI_SIZE" say; empty where nothing did
+  std::string variable;  // environment variable with the number, e.g. "PMI_SIZE"; empty if there is none
   int processes = 1;
-  int number = 0;  // of this one, from 0
+  int number = 0;  // of this process, from 0
 };
 
-// As mpirun of Open MPI or of MPICH and its kin says, or else Slurm's srun, whose tasks may be the mpiruns themselves.
+// From mpirun of Open MPI, or of MPICH and its relatives, else from Slurm's srun, whose tasks may be the mpiruns.
 Launch launch_of_process();
 
 }  // namespace strut

@@ -75,7 +75,7 @@ std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
   return from_ranks;
 }
 
-// Counts in messages of MPI are ints: what is larger goes in several, which arrive as they leave.
+// Counts in MPI messages are ints: larger data go in several messages, which arrive in order.
 void portions::exchange(const Communicator& communicator, const char* leaving,
                         const std::vector<std::int64_t>& to_ranks, char* arriving,
                         const std::vector<std::int64_t>& from_ranks, std::size_t size, std::size_t largest_message) {
@@ -105,7 +105,7 @@ void portions::exchange(const Communicator& communicator, const char* leaving,
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
-// Lengths first, then the names as one text.
+// Sends the lengths, then all names as one text.
 std::vector<std::string> broadcast_names(std::vector<std::string> names, const Communicator& communicator) {
   std::vector<std::uint64_t> lengths;
   std::string text;

@@ -1,5 +1,5 @@
-// Values between ranks where no rank may hold those of all: in portions to and from rank 0, and from every rank to
-// every other; and `gather`. All calls are collective; T trivially copyable.
+// Exchange of values without any rank holding those of all ranks: in portions to and from rank 0 (gatherv, scatterv),
+// and between all ranks; and `gather`. All calls are collective; T is trivially copyable.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 
 namespace strut {
 
-// The most values that rank 0 holds at a time of those of other ranks.
+// The largest number of values of other ranks that rank 0 holds at a time.
 constexpr std::size_t largest_portion = std::size_t{1} << 16;
 
 namespace portions {
 
-// What goes on behind the functions below, in bytes; `size`: of a value.
+// The implementation of the functions below, in bytes; `size`: of a value.
 using Take = std::function<void(const char* values, std::size_t count)>;
 using Give = std::function<void(std::int64_t begin, char* values, std::size_t count)>;
 void collect(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size, const Take& take);
@@ -33,7 +33,7 @@ void exchange(const Communicator& communicator, const char* leaving, const std::
 
 }  // namespace portions
 
-// All ranks' values in the order of ranks: take(portion) on rank 0, again and again.
+// Gatherv: takes all ranks' values in the order of ranks, by repeated calls of take(portion) on rank 0.
 template <class T, class TakePortion>
 void collect(const Communicator& communicator, std::span<const T> mine, const TakePortion& take) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -42,7 +42,7 @@ void collect(const Communicator& communicator, std::span<const T> mine, const Ta
       [&take](const char* values, std::size_t count) { take(std::span(reinterpret_cast<const T*>(values), count)); });
 }
 
-// All ranks' values in the order of ranks, on rank 0 (empty elsewhere), which holds them all: for few values only.
+// All ranks' values in the order of ranks, on rank 0 (empty on others), which holds them all: for few values only.
 template <class T>
 std::vector<T> gather(const Communicator& communicator, std::span<const T> mine) {
   std::vector<T> all;
@@ -51,7 +51,7 @@ std::vector<T> gather(const Communicator& communicator, std::span<const T> mine)
   return all;
 }
 
-// To each rank r the next counts[r] values: give(begin, portion) fills those from number `begin` on, on rank 0.
+// Scatterv: sends rank r the next counts[r] values; on rank 0, give(begin, portion) fills those from number `begin` on.
 template <class T, class GivePortion>
 std::vector<T> deal(const Communicator& communicator, const std::vector<std::int64_t>& counts,
                     const GivePortion& give) {
@@ -64,12 +64,12 @@ std::vector<T> deal(const Communicator& communicator, const std::vector<std::int
   return mine;
 }
 
-// How many values each rank has for this one, where this one has to_ranks[r] for rank r.
+// The number of values that each rank sends to this one, if this one sends to_ranks[r] to rank r.
 std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
                                             const std::vector<std::int64_t>& to_ranks);
 
-// `leaving`: to_ranks[r] values for each rank r, one rank after the other. Returns the from_ranks[r] of each rank r, as
-// many as there may be; `largest_message` in bytes, the same on all ranks.
+// `leaving`: to_ranks[r] values for each rank r, one rank after the other. Returns the from_ranks[r] values of each
+// rank r, without a limit on their number; `largest_message` in bytes, the same on all ranks.
 template <class T>
 std::vector<T> exchange(const Communicator& communicator, std::span<const T> leaving,
                         const std::vector<std::int64_t>& to_ranks, const std::vector<std::int64_t>& from_ranks,
@@ -82,7 +82,7 @@ std::vector<T> exchange(const Communicator& communicator, std::span<const T> lea
   return arriving;
 }
 
-// Those of rank 0, on all ranks. They may hold any character.
+// The names of rank 0, on all ranks. They may contain any character.
 std::vector<std::string> broadcast_names(std::vector<std::string> names, const Communicator& communicator);
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-// A sum that does not know of ranks.
+// A sum that does not depend on the number of ranks.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace strut {
 
-// Collective. Σ term(k), k = 0 … count − 1, over all ranks, the same to the last bit however they are spread over
-// ranks: they are added as integers, in units of the largest one's 2⁻⁶² times their number. Not finite if a term is
-// not. Asks for each term twice.
+// Collective. Σ term(k), k = 0 … count − 1, over all ranks, the same to the last bit for any distribution: terms are
+// added as integers, in units of 2⁻⁶² times the largest term times the number of terms. Not finite if a term is not.
+// Evaluates each term twice.
 template <class Term>
 double reproducible_sum(const Communicator& communicator, int count, const Term& term) {
   double largest = 0;
@@ -24,7 +24,7 @@ double reproducible_sum(const Communicator& communicator, int count, const Term&
   if (largest == 0 || !std::isfinite(largest)) return largest;
   const std::int64_t terms = communicator.sum(static_cast<std::int64_t>(count));
   const int unit = std::ilogb(largest) + 1 + std::ilogb(static_cast<double>(terms)) + 1 - 62;
-  // By 2^−unit in two factors, for one may be out of range: much faster than std::ldexp.
+  // Multiplies by 2^−unit in two factors, because one might overflow: much faster than std::ldexp.
   const double one = std::ldexp(1.0, -unit / 2), other = std::ldexp(1.0, -unit - (-unit / 2));
   std::int64_t total = 0;
   for (int k = 0; k < count; ++k) total += std::llrint(term(k) * one * other);

@@ -16,7 +16,7 @@ namespace {
 
 int thread_count = 1;
 
-// Empty if there can be so many.
+// The reason why there cannot be so many threads; empty if there can.
 std::string what_forbids(int count) {
   if (count == 1) return "";
 #ifdef _OPENMP
@@ -56,7 +56,7 @@ void side_by_side(int count, const std::function<void(int i)>& work) {
     for (int i = 0; i < count; ++i) work(i);
     return;
   }
-  int first = count;  // whose error it is
+  int first = count;  // index of the error
   std::exception_ptr error;
 #pragma omp parallel for schedule(static) num_threads(thread_count)
   for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
-// The threads of a rank: one, unless a run asks for more (strut --threads). They are OpenMP's, of the compiler,
-// whatever Kokkos was built with. MPI, timers and files are for the main thread alone, outside of side_by_side.
+// The threads of a rank: one, unless a run asks for more (strut --threads). They are the compiler's OpenMP threads,
+// whatever Kokkos was built with. Only the main thread uses MPI, timers and files, outside of side_by_side.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,26 @@ namespace strut {
 
 constexpr int most_threads = 1024;
 
-// Of each rank from now on, 1 … most_threads. Returns why there cannot be so many; nothing where there can.
+// Sets the threads of each rank, 1 … most_threads. Returns the reason if there cannot be so many, else nothing.
 std::string set_threads(int count);
 int threads();
 
-// The one that calls: 0 … threads() − 1, outside of side_by_side 0.
+// The calling thread: 0 … threads() − 1, outside of side_by_side 0.
 int this_thread();
 
-// Cores that this rank may use, and those of its node.
+// Cores that this rank may use, and cores of its node.
 int cores();
 int cores_of_node();
 
-// Whether side_by_side would go one by one: there is one thread, or this is one of several already.
+// True if side_by_side would run serially: there is only one thread, or this is one of several already.
 bool goes_alone();
 
-// work(i), i = 0 … count − 1: each thread of this rank takes as many i in a row, the same ones every time, so that what
-// they use stays in its core's cache. Called from within such a work, it runs all i on the calling thread. What is
-// thrown reaches the caller when all is done: of several errors that of the least i.
+// Runs work(i), i = 0 … count − 1: each thread of this rank takes a contiguous range, the same in every call, so that
+// its data stay in its core's cache. A nested call runs all i on the calling thread. Exceptions reach the caller when
+// all are done; of several, that of the least i.
 void side_by_side(int count, const std::function<void(int i)>& work);
 
-// A value for each thread, so that none waits for another.
+// A value for each thread, so that no thread waits for another.
 template <class T>
 class PerThread {
  public:

@@ -18,7 +18,7 @@ const ElasticKey poisson({.name = "Poisson's Ratio",
                           .range = {-1, 0.5, false, false},
                           .meaning = std::string("ν.") + two});
 
-// The keys of `keys` for which `wanted` holds.
+// The names of the elastic keys for which `wanted` holds.
 template <class Wanted>
 std::vector<std::string> names_where(Wanted wanted) {
   std::vector<std::string> names;
@@ -28,7 +28,7 @@ std::vector<std::string> names_where(Wanted wanted) {
   return names;
 }
 
-// Of two that are right.
+// From two valid constants.
 materials::Moduli moduli(const Values& material) {
   const bool has_bulk = material.has(bulk), has_shear = material.has(shear);
   const bool has_young = material.has(young), has_poisson = material.has(poisson);
@@ -56,7 +56,7 @@ materials::Moduli checked_moduli(const Values& material, Problems& problems) {
                                       joined(names_where([](const Key&) { return true; })));
     return {};
   }
-  if (names_where([&](const Key& key) { return material.has(key); }) != given) return {};  // already among the problems
+  if (names_where([&](const Key& key) { return material.has(key); }) != given) return {};  // already reported
   const materials::Moduli result = moduli(material);
   if (!(result.bulk > 0 && result.shear > 0)) {
     problems.add(material.path(), joined(given, " and ") +

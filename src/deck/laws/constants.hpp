@@ -1,4 +1,4 @@
-// The constants that every material has: its density and two of the four elastic ones.
+// The constants of every material: its density and two of the four elastic ones.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ std::vector<Key> constants_keys();
 
 double read_density(const Values& material);  // kg/m³
 
-// From any two of the elastic constants; says so where there are not two, or where they contradict each other.
+// From any two of the elastic constants; reports if there are not two, or if they contradict each other.
 materials::Moduli checked_moduli(const Values& material, Problems& problems);
 
 // From Young's modulus (Pa) and Poisson's ratio.

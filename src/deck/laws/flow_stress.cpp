@@ -1,4 +1,4 @@
-// Hardening curves and rate factors: for each its keys and how it is made from them. A new one is one entry.
+// Hardening curves and rate factors: the keys of each, and how it is made from them. A new one is one entry.
 #include "deck/laws/flow_stress.hpp"
 
 #include "deck/laws/one_of.hpp"
@@ -12,7 +12,7 @@ namespace {
 using namespace materials;
 
 struct HardeningEntry {
-  Section schema;  // named as "Type" has it
+  Section schema;  // named by the values of "Type"
   Hardening (*make)(const Values& hardening);
 };
 
@@ -72,7 +72,7 @@ struct RateEntry {
   Rate (*make)(const Values& rate);
 };
 
-// Of both factors.
+// Keys of both rate factors.
 const RealKey reference_rate({.name = "Reference Rate", .unit = "1/s", .range = positive, .meaning = "ε̇₀."});
 const RealKey rate_exponent({.name = "Exponent", .range = not_negative, .meaning = "M."});
 const RealKey rate_coefficient({.name = "Coefficient", .range = not_negative, .meaning = "C."});
@@ -102,7 +102,7 @@ const OptionalKey<double> yield_stress(
 const char* const hardening_name = "Hardening";
 const char* const rate_name = "Rate";
 
-// A table brings its own yield stress; every other curve needs the key.
+// A table contains the yield stress; every other curve needs the key.
 double read_yield_stress(const Values& material, const Values& hardening, Problems& problems) {
   const std::optional<double> given = material[yield_stress];
   const std::string path = material.path_to(yield_stress);

@@ -13,7 +13,7 @@ namespace strut::deck {
 Section flow_stress_section();
 materials::FlowStress make_flow_stress(const Values& material, Problems& problems);
 
-// Says so where the deck gives any of these beside the flow stress of another form.
+// Reports any of these keys if the deck also gives a flow stress of another form.
 void refuse_flow_stress(const Values& material, const std::string& flow, Problems& problems);
 
 }  // namespace strut::deck

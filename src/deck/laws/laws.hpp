@@ -1,4 +1,4 @@
-// The material laws as a deck names them: for each its keys and how it is made from them. A new law is one entry.
+// The material laws of a deck: the keys of each, and how it is made from them. A new law is one entry.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 namespace strut::deck {
 
 struct LawEntry {
-  Section schema;  // named as "Material Model" has it
+  Section schema;  // named by the values of "Material Model"
   materials::AnyLaw (*make)(const Values& material, Problems& problems);
-  bool by_correspondence = true;  // and has the keys of all such laws, too
+  bool by_correspondence = true;  // it then also has the keys of all such laws
 };
 
 const std::vector<LawEntry>& laws();

@@ -43,7 +43,7 @@ const RealKey hugoniot_slope({.name = "Hugoniot Slope", .range = not_negative, .
 const RealKey gruneisen({.name = "Gruneisen Parameter", .range = not_negative, .meaning = "Γ₀; ρ Γ is constant."});
 const RealKey exponent({.name = "Exponent", .range = positive, .meaning = "n."});
 
-// Without an equation of state: the pressure of Hooke's law.
+// Without an equation of state the pressure is that of Hooke's law.
 struct EquationEntry {
   Section schema;
   std::optional<EquationOfState> (*make)(const Values& values, double density, double bulk);

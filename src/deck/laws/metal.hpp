@@ -1,4 +1,4 @@
-// The law of a metal: J2 plasticity, with heat and an equation of state where the deck asks for them.
+// The law of a metal: J2 plasticity, with heat and an equation of state if the deck asks for them.
 #pragma once
 
 #include "deck/problems.hpp"

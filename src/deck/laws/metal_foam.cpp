@@ -47,7 +47,7 @@ const OptionalKey<double> compacted_poisson({.name = "Compacted Poisson's Ratio"
                                              .range = {-1, 0.5, false, false},
                                              .meaning = "Of the solid."});
 
-// Exactly one of two keys; says so where it is otherwise.
+// True if exactly one of two keys is given; else reports it.
 bool exactly_one(const Values& material, const Key& one, const Key& other, Problems& problems) {
   if (material.given(one) != material.given(other)) return true;
   problems.add(material.path(), material.given(one)

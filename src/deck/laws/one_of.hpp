@@ -1,4 +1,4 @@
-// A section whose key "Type" chooses among the entries of a table; each has a schema, and makes something of the
+// A section whose key "Type" selects an entry of a table; each entry has a schema, and makes an object from the
 // values.
 #pragma once
 
@@ -18,7 +18,7 @@ Section one_of(const std::string& name, const std::string& meaning, const std::v
   return with_cases({.name = name, .meaning = meaning}, std::move(type), schemas_of(entries));
 }
 
-// What the chosen entry makes of `values`; of the first entry where the choice itself is among the problems.
+// The object that the selected entry makes; that of the first entry if the selection itself is wrong.
 template <class Entry>
 auto make_one_of(const std::vector<Entry>& entries, const Values& values) {
   const Entry* entry = chosen_of(entries, values);

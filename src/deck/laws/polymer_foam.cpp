@@ -40,7 +40,7 @@ Section table_section(const std::string& name, const std::string& meaning, const
       .keys = table_keys(strains, "As many Kirchhoff stresses, what is added to the first yield stress, the first 0.")};
 }
 
-// None where it is among the problems; an empty one where the deck has no such section.
+// nullopt if it has been reported as wrong; an empty table if the deck has no such section.
 std::optional<materials::TableHardening> table(const Values& material, const std::string& name, Problems& problems) {
   const Values* section = material.find_section(name);
   if (!section) return materials::TableHardening{};
@@ -52,14 +52,14 @@ std::optional<materials::TableHardening> table(const Values& material, const std
   return {};
 }
 
-// Of a number that was computed.
+// Formats a computed number.
 std::string six_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
-// The compactions ε_v between which both curves are straight.
+// The compactions ε_v between which both curves are linear.
 std::vector<double> knots(const materials::PolymerFoam& law) {
   std::vector<double> all{0};
   for (const double strain : law.uniaxial_hardening.strains) all.push_back(strain * (1 - 2 * law.plastic_poisson));
@@ -68,7 +68,7 @@ std::vector<double> knots(const materials::PolymerFoam& law) {
   return all;
 }
 
-// The least ε_v at which `margin`, straight between the knots, is not positive; negative if there is none.
+// The least ε_v at which `margin`, linear between the knots, is not positive; negative if there is none.
 template <class Margin>
 double first_without(const std::vector<double>& knots, Margin margin) {
   double before = 0, value_before = 0;

@@ -6,7 +6,7 @@ namespace strut::deck {
 
 namespace {
 
-// Meanings, and the range of the stresses, are those of the section.
+// The section gives the meanings, and the range of the stresses.
 const RealsKey strains({.name = "Strains", .range = not_negative});
 const RealsKey stresses({.name = "Stresses", .unit = "Pa"});
 

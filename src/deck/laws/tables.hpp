@@ -10,10 +10,10 @@
 
 namespace strut::deck {
 
-// What they mean, and the range of the stresses.
+// The keys with their meanings, and the range of the stresses.
 std::vector<Key> table_keys(const std::string& strains, const std::string& stresses, Range range = {});
 
-// Whether they make a table, with strains that rise from 0; says so where not.
+// True if they make a table, with strains that increase from 0; else reports it.
 bool check_table(const Values& values, Problems& problems);
 
 materials::TableHardening read_table(const Values& values);

@@ -42,7 +42,7 @@ const std::vector<SofteningEntry>& softenings() {
 
 void check_softening(const Values& section, Problems& problems) {
   if (section.chosen() != "Johnson-Cook") return;
-  if (!section.has(softening::reference) || !section.has(softening::melting)) return;  // already among the problems
+  if (!section.has(softening::reference) || !section.has(softening::melting)) return;  // already reported
   if (section[softening::melting] > section[softening::reference]) return;
   problems.add(section.path_to(softening::melting), "expected more than the Reference Temperature, in K");
 }
@@ -126,7 +126,7 @@ ThermalFlow make_threshold(const Values& v) {
                              .saturation_rate = v[saturation_rate]};
 }
 
-// It hardens at the slowest rate that counts, too.
+// It must harden at the slowest rate that counts, too.
 void check_threshold(const Values& v, Problems& problems) {
   using namespace threshold;
   if (v.chosen() != "Mechanical Threshold" || !v.has(slope) || !v.has(slope_log) || !v.has(slope_root)) return;
@@ -164,7 +164,7 @@ const std::vector<FlowEntry>& flows() {
   return entries;
 }
 
-// Also where the form itself is among the problems.
+// True also if the form itself is wrong.
 bool is_product(const Values& material) {
   const std::string form = material.section(flow_name).chosen();
   return form.empty() || form == flows().front().schema.name;

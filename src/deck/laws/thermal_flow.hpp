@@ -1,4 +1,4 @@
-// The flow stress of a metal that may be hot: the sections Flow Stress and Softening, beside those of flow_stress.hpp.
+// The flow stress of metals with temperature: the sections Flow Stress and Softening, in addition to flow_stress.hpp.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace strut::deck {
 
 std::vector<Section> thermal_flow_sections();
 
-// Whether the deck asks for one that depends on temperature.
+// True if the deck asks for a flow stress that depends on temperature.
 bool has_thermal_flow(const Values& material);
 materials::ThermalFlow make_thermal_flow(const Values& material, Problems& problems);
 

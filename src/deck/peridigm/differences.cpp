@@ -1,4 +1,4 @@
-// Tells where this program means another thing than Peridigm by a key of Peridigm's deck, and by how much.
+// Reports keys of Peridigm's decks that mean something else in this program, and by how much.
 #include <algorithm>
 #include <set>
 
@@ -42,7 +42,7 @@ class Differences {
   }
 
  private:
-  // The values that the sections of Blocks give to a key; "" where a section has none.
+  // The values of a key in the sections of Blocks; "" for a section without it.
   std::set<std::string> values_of(const std::string& key) {
     std::set<std::string> values;
     if (!blocks_) return values;
@@ -50,7 +50,7 @@ class Differences {
     return values;
   }
 
-  // All but one section at most: then no two of them have bonds.
+  // True for all but at most one section: then no two of them have bonds.
   bool are_separate() {
     return std::ranges::count_if(
                blocks_->lists, [](const List& one) { return to_boolean(value_of(one, "Separate Body")) != true; }) <= 1;

@@ -16,14 +16,14 @@ Named* find(std::vector<Named>& all, const std::string& name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-// Peridigm compares these words without regard to case, and takes _ for a blank.
+// Peridigm compares these words without regard to case, and treats _ as a blank.
 std::string tidied(std::string text) {
   text = std::string(trimmed(text));
   for (char& c : text) c = c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
-// A key whose only value that has a meaning here is the one that switches it off.
+// A key whose only value with a meaning here is the one that switches it off.
 struct OnlyOff {
   const char *key, *off, *what;
 };
@@ -55,15 +55,15 @@ void drop_what_is_off(List& material, const std::string& path, Problems& problem
   }
 }
 
-// Without a flaw, what it would be like says nothing.
+// Without a flaw, the parameters of the flaw have no effect.
 void drop_flaw(List& material) {
   if (tidied(value_of(material, "Enable Flaw")) != "false") return;
   std::erase_if(material.parameters, [](const Parameter& one) { return one.name.starts_with("Flaw "); });
 }
 
-// Peridigm's spring acts along the bond, 18 K C/(π δ⁴) over the bond's length; ours on the whole difference. Where
-// strain varies smoothly most of it is across the bond: of its deck PredictorFromPreviousSolver, 7³ points, ours with
-// C/4 has the displacements within 2.1 % and the reaction within 0.3 %, with 2 C within 30 and 12 %.
+// Peridigm's spring acts along the bond, with 18 K C/(π δ⁴) over the bond's length; ours acts on the whole residual,
+// which is mostly transverse where strain varies smoothly. For its deck PredictorFromPreviousSolver, 7³ points, ours
+// with C/4 gives displacements within 2.1 % and the reaction within 0.3 %, with 2 C within 30 and 12 %.
 void translate_hourglass(List& material, const std::string& path, Problems& problems) {
   const Parameter* given = find_parameter(material, "Hourglass Coefficient");
   const bool by_correspondence = value_of(material, "Material Model").ends_with("Correspondence");
@@ -107,7 +107,7 @@ void translate_materials(List& deck, Problems& problems) {
   }
 }
 
-// The horizon of all blocks, as older decks have it.
+// Converts a horizon for all blocks, as in older decks.
 void translate_horizon(List& discretization, List& blocks, Problems& problems) {
   const Parameter* given = find_parameter(discretization, "Horizon");
   if (!given) return;
@@ -119,7 +119,7 @@ void translate_horizon(List& discretization, List& blocks, Problems& problems) {
   problems.note("Discretization > Horizon", "is taken for every section of Blocks");
 }
 
-// Each block of the mesh a section of its own, and a body.
+// Makes a section, and a body, of each block of the mesh.
 void separate(List& blocks, Problems& problems) {
   std::vector<List> apart;
   for (const List& block : blocks.lists) {
@@ -178,7 +178,7 @@ void translate_conditions(List& deck) {
   }
 }
 
-// Another solver for the same equilibria.
+// Converts another solver for the same equilibria.
 void translate_nox(List& solver, Problems& problems) {
   List* nox = find_list(solver, "NOXQuasiStatic");
   if (!nox || find_list(solver, "QuasiStatic")) return;

@@ -1,5 +1,5 @@
-// Peridigm's outputs are any number of sections whose names begin with "Output", each with fields and with numbers of
-// the whole body. Ours are one file of fields (Output) and one table of numbers (History).
+// Peridigm has any number of output sections whose names begin with "Output", each with fields and totals of the body.
+// Ours are one file of fields (Output) and one table of totals (History).
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -12,7 +12,7 @@ namespace strut::deck {
 
 namespace {
 
-// Fields that are not here, and what to look at in their place.
+// Fields that do not exist here, and their substitutes.
 const std::map<std::string, std::string> missing_fields = {
     {"Bond_Damage", "there is Damage, the share of broken bonds of a point"},
     {"Coordinates", "there are Coordinate_X, Coordinate_Y and Coordinate_Z"},
@@ -40,12 +40,12 @@ const std::map<std::string, std::string> missing_fields = {
     {"Temperature_Change", "there is none"},
 };
 
-// ½ m v⁻·v⁺ of the velocities before and after a force: that with the elastic energy it is conserved costs its sign.
+// ½ m v⁻·v⁺ with the velocities before and after a force: it conserves energy, but it can be negative.
 const std::string kinetic =
     "Kinetic_Energy, by the velocities half a step before and after, which may be below zero where they turn round; "
     "Peridigm's, by one of them, may not";
 
-// Numbers of the whole body, and the columns of every History that hold them.
+// Totals of the body, and the columns of every History that contain them.
 const std::map<std::string, std::string> global_columns = {
     {"Global_Kinetic_Energy", kinetic},
     {"Global_Strain_Energy", "Elastic_Energy"},
@@ -73,7 +73,7 @@ bool among(const std::vector<std::string>& all, const std::string& name) {
   return std::find(all.begin(), all.end(), name) != all.end();
 }
 
-// "Cauchy_StressXY" is a part of Cauchy_Stress, which is written as a whole.
+// "Cauchy_StressXY" is a component of Cauchy_Stress, which is written as a whole.
 std::string whole_field(const std::string& name) {
   if (name == "ID") return "Element_Id";
   const std::string whole = name.substr(0, name.size() < 2 ? 0 : name.size() - 2);
@@ -81,7 +81,7 @@ std::string whole_field(const std::string& name) {
   return component ? whole : name;
 }
 
-// Ours for a number that a compute class makes of a block or node set: "Max_Von_Mises_Stress(block_1)", or "".
+// Our name for a compute class of a block or node set: "Max_Von_Mises_Stress(block_1)", or "".
 std::string column_of(const List& compute) {
   const std::string kind = value_of(compute, "Compute Class"), calculation = value_of(compute, "Calculation Type");
   const std::string where = value_of(compute, kind == "Block_Data" ? "Block" : "Node Set");
@@ -133,7 +133,7 @@ class Outputs {
     deck_.lists.push_back(section);
   }
 
-  // Leaves the fields that are here in `variables`; whether there were numbers of the whole among the others.
+  // Keeps in `variables` the fields that exist here; returns true if there were totals among the others.
   bool sort_out(List& variables, const std::string& section) {
     std::vector<Parameter> fields;
     bool had_numbers = false;
@@ -207,10 +207,10 @@ class Outputs {
 
   List& deck_;
   Problems& problems_;
-  std::map<std::string, std::string> computed_;  // a label of a compute class, and its column, or ""
+  std::map<std::string, std::string> computed_;  // label of each compute class, with its column, or ""
   std::vector<std::string> columns_, told_;
-  std::string fields_;  // the name of the section that has the fields
-  std::string file_;    // of the numbers
+  std::string fields_;  // name of the section with the fields
+  std::string file_;    // of the totals
   std::optional<int> frequency_;
 };
 

@@ -58,7 +58,7 @@ void check_horizon(const Values& values, Problems& problems) {
 }
 
 void check_overlaps(const std::vector<Block>& blocks, Problems& problems) {
-  std::map<std::string, std::string> owners;  // block of the mesh -> section that has it
+  std::map<std::string, std::string> owners;  // block of the mesh -> section that names it
   const auto clash = [&](const Block& block, const std::string& taken, const std::string& owner) {
     problems.add("Blocks > " + block.name + " > Block Names",
                  "'" + taken + "' is named twice: here and in Blocks > " + owner + "; expected once");
@@ -108,7 +108,7 @@ void check_temperature(const Values& section, const Material& material, Problems
                    "State or a Shear Modulus Slope");
 }
 
-// Of a bond the energy is known where both ends are ordinary.
+// The energy of a bond is defined only if both ends are ordinary.
 void check_bond_energies(const std::vector<Block>& all, const std::vector<Material>& materials,
                          const std::vector<NamedDamageModel>& models, Problems& problems) {
   const auto by_energy = [&models](const Block& block) {

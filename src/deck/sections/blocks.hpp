@@ -1,4 +1,4 @@
-// The section Blocks: what the blocks of the mesh are made of, and how far their points see.
+// The section Blocks: materials and horizons of the blocks of the mesh.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ struct Block {
   std::string name;                      // of the section
   std::vector<std::string> block_names;  // of the mesh; "all" stands for every block
   int material = 0;                      // index into Deck::materials
-  // Exactly one of them:
+  // Exactly one of these:
   std::optional<double> horizon;              // m
   std::optional<double> horizon_factor;       // in local spacings of each point
-  bool separate_body{};                       // bonded to nothing outside of this section
+  bool separate_body{};                       // not bonded to anything outside of this section
   std::optional<bool> across_voids;           // whether bonds reach across voids
   std::optional<int> damage_model;            // index into Deck::damage_models
   std::optional<double> initial_temperature;  // K

@@ -13,7 +13,7 @@ namespace {
 
 const char* const name = "Bond Filters";
 
-// A vector as Peridigm's decks have it: a key for each of its components.
+// A vector in the form of Peridigm's decks: a key for each component.
 struct ComponentKeys {
   std::array<RealKey, 3> axes;
 
@@ -22,7 +22,7 @@ struct ComponentKeys {
 
   Vector of(const Values& values) const { return {values[axes[0]], values[axes[1]], values[axes[2]]}; }
 
-  // Of length 1.
+  // Of unit length.
   Vector direction(const Values& values, Problems& problems) const {
     const Vector given = of(values);
     if (!given.isZero(0)) return unit_vector(given);
@@ -67,7 +67,7 @@ Crack read_disk(const Values& values, Problems& problems) {
 }
 
 struct FilterEntry {
-  Section schema;  // named as "Type" has it
+  Section schema;  // named by the values of "Type"
   Crack (*read)(const Values& values, Problems& problems);
 };
 

@@ -1,4 +1,4 @@
-// The section Discretization > Bond Filters: cracks that a body has from the start.
+// The section Discretization > Bond Filters: initial cracks.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// One of the Boundary Conditions.
+// One of the section Boundary Conditions.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace strut::deck {
 
 struct Condition {
   std::string name;
-  std::string node_set;     // of mesh or deck, a block's name, or "all"
+  std::string node_set;     // of the mesh or the deck, a block's name, or "all"
   ConditionPrototype kind;  // without points yet
 };
 

@@ -15,7 +15,7 @@ const TextKey node_set({.name = "Node Set",
 
 const AxesKey components({.name = "Coordinate",
                           .meaning = "The axes it acts along, in any order: each with the same value."});
-// Its unit is the case's.
+// Each case sets its unit.
 const ExpressionKey value({.name = "Value", .meaning = "At the reference position x, y, z (m) and the time t (s)."});
 
 Section along_axes(const std::string& type, const std::string& unit, const std::string& meaning) {
@@ -54,7 +54,7 @@ ConditionPrototype read_non_reflecting_end(const Values& values, Problems& probl
 }
 
 struct ConditionEntry {
-  Section schema;  // named as "Type" has it
+  Section schema;  // named by the values of "Type"
   ConditionPrototype (*read)(const Values& values, Problems& problems);
 };
 

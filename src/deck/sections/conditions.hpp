@@ -1,4 +1,4 @@
-// The section Boundary Conditions: what is imposed on points, initial conditions included.
+// The section Boundary Conditions: loads, motions and initial conditions of points.
 #pragma once
 
 #include <vector>

@@ -43,7 +43,7 @@ Section interactions_section() {
                         .keys = {first_block, second_block, model}}}};
 }
 
-// The blocks of the mesh that an interaction joins, in either order.
+// The blocks of the mesh that an interaction joins, in sorted order.
 std::pair<std::string, std::string> parties(const Interaction& interaction) {
   return std::minmax(interaction.first_block, interaction.second_block);
 }
@@ -61,7 +61,7 @@ void check_interaction(const Interaction& one, const std::vector<Interaction>& e
   }
 }
 
-// The names that Peridigm knows; they say nothing of an interaction that names its blocks.
+// The names that Peridigm knows; they have no meaning for an interaction that names its blocks.
 Partners partners(const Values& interaction) {
   if (interaction.has(first_block)) return Partners::any;
   if (interaction.name() == "General Contact") return Partners::others;

@@ -1,4 +1,4 @@
-// The section Contact: its models, and who may touch whom.
+// The section Contact: its models, and the blocks that may touch.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace strut::deck {
 
-// Which pairs of blocks an interaction that names none is about.
+// The pairs of blocks of an interaction that names none.
 enum class Partners { any, others, itself };
 
 // Short-range contact between two blocks of the mesh, or within one.

@@ -71,7 +71,7 @@ contact::Law make_surface(const Values& model) {
 }
 
 struct Entry {
-  Section schema;  // named as "Contact Model" has it
+  Section schema;  // named by the values of "Contact Model"
   contact::Law (*make)(const Values& model);
 };
 
@@ -93,7 +93,7 @@ std::vector<Key> contact_law_keys() { return {friction}; }
 
 std::vector<Section> contact_law_cases() { return schemas_of(entries()); }
 
-// Of the first entry where the choice itself is among the problems.
+// Uses the default law if the selection itself is wrong.
 contact::Model read_contact_law(const Values& model) {
   const Entry* chosen = chosen_of(entries(), model);
   return {chosen ? chosen->make(model) : contact::Law(), model[friction]};

@@ -1,4 +1,4 @@
-// The laws of contact as a deck names them: for each its keys and how it is made from them. A new law is one entry.
+// The contact laws of a deck: the keys of each, and how it is made from them. A new law is one entry.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace strut::deck {
 
-// The key that chooses one, and what all of them share: radius and friction.
+// The key that selects a law, and the keys of all laws: radius and friction.
 Key contact_law_key();
 std::vector<Key> contact_law_keys();
 std::vector<Section> contact_law_cases();
 
-// Of a section of Contact > Models.
+// The contact model of a section of Contact > Models.
 contact::Model read_contact_law(const Values& model);
 
 }  // namespace strut::deck

@@ -100,7 +100,7 @@ DamageModel read_johnson_cook(const Values& v, Problems& problems) {
                  v);
 }
 
-// One of a critical value and a fracture energy.
+// Checks that either a critical value or a fracture energy is given.
 void check_limit(const Values& values, const OptionalKey<double>& critical, const OptionalKey<double>& energy,
                  Problems& problems) {
   check_one_of(values, critical, energy, problems);
@@ -129,7 +129,7 @@ DamageModel read_stretch_over_time(const Values& values, Problems& problems) {
 }
 
 struct ModelEntry {
-  Section schema;  // named as "Damage Model" has it
+  Section schema;  // named by the values of "Damage Model"
   DamageModel (*read)(const Values& values, Problems& problems);
 };
 

@@ -1,4 +1,4 @@
-// The section Damage Models: when bonds break.
+// The section Damage Models: criteria by which bonds break.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 const char* const name = "Discretization";
 
-// Peridigm's built-in grid.
+// The name of Peridigm's built-in grid.
 const char* const generator = "TensorProduct3DMeshGenerator";
 
 struct AxisKeys {
@@ -90,7 +90,7 @@ const BooleanKey trial_reads(
      .meaning = "A mesh in HDF5 is read by a copy of the process first, which a damaged file may "
                 "crash. `false`: no process is forked, which some networks under MPI forbid."});
 
-// What each type of discretization must have, and what it cannot.
+// Checks the keys that each type of discretization needs, and those that it cannot have.
 void check_source(const Values& values, Problems& problems) {
   if (!values.has(type)) return;
   const auto report = [&](const std::string& name, const std::string& what) {

@@ -1,4 +1,4 @@
-// The section Discretization: where the points are.
+// The section Discretization: the positions of the points.
 #pragma once
 
 #include <array>
@@ -24,19 +24,19 @@ struct Grid {
 
 struct Discretization {
   MeshType type{};
-  std::filesystem::path mesh;  // as it can be opened: relative to the deck's folder in the deck
-  Grid grid;                   // in the place of a mesh
-  Points points{};             // where they are; nodes: of Exodus meshes only
+  std::filesystem::path mesh;  // path that can be opened; in the deck it is relative to the deck's folder
+  Grid grid;                   // instead of a mesh
+  Points points{};             // position of the points; nodes: of Exodus meshes only
   Influence influence{};
   DegeneratePoints degenerate{};
-  bool trial_reads{};         // of a mesh in HDF5, by a copy of the process
-  std::vector<Crack> cracks;  // that no bond crosses
+  bool trial_reads{};         // of a mesh in HDF5, by a child process
+  std::vector<Crack> cracks;  // no bond crosses these
 };
 
 Section discretization_section();
 Discretization read_discretization(const Values& deck, const std::filesystem::path& deck_file, Problems& problems);
 
-// Whether the mesh can be opened.
+// Checks that the mesh can be opened.
 void check_mesh(const std::filesystem::path& mesh, Problems& problems);
 
 }  // namespace strut::deck

@@ -1,4 +1,4 @@
-// What several sections have because users of Peridigm will try it.
+// Keys of several sections that exist because users of Peridigm will try them.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace strut::deck {
 
-// A key that Peridigm's decks have and that changes nothing here.
+// A key of Peridigm's decks that has no effect here.
 Key without_effect(Key key, const std::string& why);
 
 Key verbose_without_effect();

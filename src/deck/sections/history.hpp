@@ -1,4 +1,4 @@
-// The section History: numbers of the whole body in time.
+// The section History: totals of the body over time.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@
 
 namespace strut::deck {
 
-// A crack that the history follows: the points whose damage is above a number.
+// A crack that the history tracks: the points whose damage exceeds a limit.
 struct WatchedCrack {
   std::string name;
   Vector direction = Vector::UnitX();  // of length 1
   Vector start = Vector::Zero();       // m
   double damage = 0;
   std::string node_set = "all";  // or a block
-  int rows = 0;                  // of the history, for its speed
+  int rows = 0;                  // of the history, used for its speed
 };
 
 // Layers of the body across a direction, of equal thickness in the reference state.

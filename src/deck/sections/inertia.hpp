@@ -1,4 +1,4 @@
-// What has no meaning where nothing has inertia.
+// Keys without a meaning in equilibria, which have no inertia.
 #pragma once
 
 #include <vector>

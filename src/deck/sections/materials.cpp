@@ -11,7 +11,7 @@ namespace {
 
 const char* const name = "Materials";
 
-// Of every law by correspondence.
+// For every law by correspondence.
 const ChoiceKey<Formulation> formulation(
     {.name = "Formulation",
      .fallback = "Correspondence",
@@ -22,7 +22,7 @@ const ChoiceKey<Formulation> formulation(
                 "that share an element."},
     {{"Correspondence", Formulation::correspondence}, {"Quadratic Correspondence", Formulation::quadratic}});
 
-// By their names.
+// The stabilizations by name.
 std::vector<std::pair<std::string, Stabilization>> stabilizations() {
   std::vector<std::pair<std::string, Stabilization>> all;
   for_each_stabilization([&all]<class S>(const S& one) { all.emplace_back(S::name, one); });

@@ -17,8 +17,8 @@ struct Material {
   double density = 0;  // kg/m³
   Formulation formulation{};
   materials::AnyLaw law;  // ordinary: Elastic
-  // By correspondence.
-  Stabilization stabilization = NoStabilization();  // its coefficient apart
+  // For correspondence.
+  Stabilization stabilization = NoStabilization();  // without its coefficient
   std::optional<double> stabilization_coefficient;
   double linear_viscosity{}, quadratic_viscosity{};
 };

@@ -11,12 +11,12 @@
 
 namespace strut::deck {
 
-// A node set made by the deck: the points whose reference position makes `where` non-zero, or those with the numbers.
+// A node set of the deck: the points whose reference position makes `where` nonzero, or those with these numbers.
 struct NodeSet {
   std::string name;
   Function where;
-  std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, rising, each once
-  std::filesystem::path file = {};               // that they were read from, if any
+  std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, ascending, each once
+  std::filesystem::path file = {};               // file that they were read from, if any
 };
 
 Section node_sets_section();

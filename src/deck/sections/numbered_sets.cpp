@@ -64,7 +64,7 @@ void read_numbers(std::vector<NodeSet>& sets, Problems& problems) {
   for (NodeSet& set : sets) {
     if (set.file.empty()) continue;
     std::ifstream file;
-    if (fs::is_regular_file(set.file)) file.open(set.file);  // to open a pipe is to wait
+    if (fs::is_regular_file(set.file)) file.open(set.file);  // opening a pipe would block
     const auto numbers = fs::is_regular_file(set.file) ? numbers_in(without_comments(file)) : std::nullopt;
     set.numbers = numbers.value_or(std::vector<int>());
     if (!set.numbers->empty()) continue;

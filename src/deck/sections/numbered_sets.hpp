@@ -1,4 +1,4 @@
-// Sets of points by number, as Peridigm writes them: parameters among the boundary conditions.
+// Node sets by number, as in Peridigm's decks: parameters among the boundary conditions.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace strut::deck {
 
-// The section that has them.
+// The section with these sets.
 inline const char* const boundary_conditions = "Boundary Conditions";
 
 Key numbered_set();
 
-// Those in files are left to read_numbers, which takes the disk.
+// Numbers in files are read later by read_numbers, because that accesses the disk.
 void add_numbered_sets(const Values& deck, const std::filesystem::path& deck_file, std::vector<NodeSet>& sets,
                        Problems& problems);
 void read_numbers(std::vector<NodeSet>& sets, Problems& problems);

@@ -1,4 +1,4 @@
-// The section Output: the fields of the points in time.
+// The section Output: the fields of the points over time.
 #pragma once
 
 #include <filesystem>

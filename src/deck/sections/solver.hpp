@@ -1,4 +1,4 @@
-// The section Solver: the time that is simulated, and its steps.
+// The section Solver: the simulated time and its steps.
 #pragma once
 
 #include <optional>
@@ -17,15 +17,15 @@ struct QuasiStatic {
 
 struct Solver {
   double initial_time{}, final_time = 0;    // s
-  std::optional<double> wall_time;          // s, of the computer, before the run ends itself; else it does not
-  bool verbose{};                           // each iteration of an equilibrium is told, or how ranks share the work
+  std::optional<double> wall_time;          // s, of the computer, after which the run ends itself; nullopt: no limit
+  bool verbose{};                           // prints each iteration of an equilibrium, or how ranks share the work
   std::optional<QuasiStatic> quasi_static;  // else explicit steps:
   std::optional<double> fixed_dt;           // s; else from the critical time step
   double safety_factor{};
   bool subcycling{};
-  std::optional<double> scaled_dt;  // s; that mass scaling makes of the step
-  double most_added_mass{};         // by it, of the whole mass
-  double rebalance{};               // of the rank with most work beside the mean: above it the partition is made anew
+  std::optional<double> scaled_dt;  // s; the step that mass scaling aims at
+  double most_added_mass{};         // by mass scaling, relative to the whole mass
+  double rebalance{};               // largest work of a rank over the mean: above it the partition is made anew
 
   double duration() const { return final_time - initial_time; }
 };

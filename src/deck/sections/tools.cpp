@@ -40,7 +40,7 @@ OptionalKey<Function> force_along(const std::string& axis) {
 }
 const std::array<OptionalKey<Function>, 3> force = {force_along("X"), force_along("Y"), force_along("Z")};
 
-// A section of a tool: its shape's keys, and those that all have.
+// The section of a tool: the keys of its shape, and those of all tools.
 Section tool(Section section) {
   section.keys.push_back(friction);
   section.keys.insert(section.keys.end(), travel.begin(), travel.end());
@@ -50,7 +50,7 @@ Section tool(Section section) {
   return section;
 }
 
-// A function of the time alone, where it is given.
+// A function of the time alone, if it is given.
 std::optional<Function> of_time(const OptionalKey<Function>& key, const Values& values, Problems& problems) {
   std::optional<Function> function = values[key];
   if (function && function->depends_on_place()) {
@@ -153,7 +153,7 @@ ConditionPrototype read_rigid_box(const Values& values, Problems& problems) {
   return block;
 }
 
-// By way of its largest component: the squares of 1e-300 and 1e300 are no numbers.
+// Scaled by the largest component, because the squares of 1e-300 and 1e300 underflow and overflow.
 Vector unit_vector(const Vector& direction) {
   const double largest = direction.cwiseAbs().maxCoeff();
   return largest > 0 ? Vector((direction / largest).normalized()) : direction;

@@ -19,9 +19,9 @@ ConditionPrototype read_rigid_cylinder(const Values& values, Problems& problems)
 Section rigid_box_section();
 ConditionPrototype read_rigid_box(const Values& values, Problems& problems);
 
-Vector unit_vector(const Vector& direction);  // however long or short that is; zero of zero
+Vector unit_vector(const Vector& direction);  // for any length; zero for zero
 
-// Of unit length, of a key with any but zero; says so where it is zero.
+// A direction of unit length; reports a zero vector.
 Vector read_direction(const Values& values, const VectorKey& key, Problems& problems);
 
 }  // namespace strut::deck

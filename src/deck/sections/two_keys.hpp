@@ -1,4 +1,4 @@
-// Checks that take two keys, or the name of another section.
+// Checks that need two keys, or the name of another section.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace strut::deck {
 
-// Reports where both keys are given.
+// Reports if both keys are given.
 void check_one_of(const Values& values, const Key& one, const Key& other, Problems& problems);
 
-// The index of the name that `key` of the section gives, `wanted`, in `names`, those of the sections of `where`; past
-// the last one where it gives none.
+// The index of `wanted`, the value of `key`, in `names`, the sections of `where`; the number of names if there is
+// none.
 int find_name(const Values& section, const Key& key, const std::string& wanted, const std::vector<std::string>& names,
               const std::string& where, Problems& problems);
 

@@ -1,4 +1,4 @@
-// The lists of what to write, whose keys are names of variables.
+// Lists of output variables, whose keys are names of variables.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The section Watch: what ends a run that has gone wrong.
+// The section Watch: limits that end a run which has gone wrong.
 #pragma once
 
 #include "deck/forward.hpp"
@@ -6,12 +6,12 @@
 namespace strut::deck {
 
 struct Watch {
-  bool stops{};            // else it is told once
-  bool stops_inverted{};   // else points that are turned inside out go on as masses
-  double balance_error{};  // of the largest energy
-  double smallest_step{};  // of the first step
-  double penetration{};    // of the distance at which points touch
-  double passing{};        // of the points of the smaller of two bodies
+  bool stops{};            // else it only warns, once
+  bool stops_inverted{};   // else inverted points continue as masses
+  double balance_error{};  // relative to the largest energy
+  double smallest_step{};  // relative to the first step
+  double penetration{};    // relative to the touching distance of points
+  double passing{};        // relative to the points of the smaller of two bodies
 };
 
 Section watch_section();

@@ -1,4 +1,4 @@
-// When something is written: every so many steps, or every so much time.
+// When something is written: every so many steps, or at a time interval.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ struct WhenKeys {
   OptionalKey<int> frequency;
   OptionalKey<double> interval;
 
-  // "Output Frequency", "Output Interval". Without both, an interval: so many to a run, where that is not 0.
+  // "Output Frequency", "Output Interval". Without both: an interval with `parts_of_a_run` per run, if that is not 0.
   explicit WhenKeys(const std::string& prefix = "", int parts_of_a_run = 0);
 
   int parts;
 };
 
-// Into the members of these names. `duration`: of the run, in s.
+// Reads into members with these names. `duration`: of the run, s.
 template <class Sink>
 void read_when(const Values& values, const WhenKeys& keys, double duration, Sink& sink, Problems& problems) {
   check_one_of(values, keys.frequency, keys.interval, problems);

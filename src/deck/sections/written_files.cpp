@@ -6,7 +6,7 @@ namespace strut::deck {
 
 namespace {
 
-// What speaks against writing the file, beside others that are written; or nothing.
+// The reason why the file cannot be written, in view of the other written files; or nothing.
 std::string problem_of(const WrittenFile& written, const std::vector<ReadFile>& read) {
   for (const ReadFile& one : read) {
     if (!same_file(written.file, one.file)) continue;
@@ -18,7 +18,7 @@ std::string problem_of(const WrittenFile& written, const std::vector<ReadFile>& 
 }  // namespace
 
 void check_files(const std::vector<WrittenFile>& written, const std::vector<ReadFile>& read, Problems& problems) {
-  std::string told;  // whose files have a problem: one is enough of each
+  std::string told;  // the path with the last reported problem: one for each is enough
   for (const WrittenFile& one : written) {
     const std::string problem = one.path == told ? "" : problem_of(one, read);
     if (problem.empty()) continue;

@@ -1,4 +1,4 @@
-// The files that a run writes: may each be replaced, and can it be written (base/files.hpp)?
+// Checks that the files of a run may be replaced and can be written (base/files.hpp).
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace strut::deck {
 
-// Where the deck names a file, whose it is, and the file.
+// A file with its path in the deck and its owner.
 struct WrittenFile {
   std::string path, owner;
   std::filesystem::path file;
@@ -22,7 +22,7 @@ struct ReadFile {
   std::filesystem::path file;
 };
 
-// What a run writes may not be what it reads, nor one file be two, by whatever name or link.
+// A run must not write a file that it reads, or write one file twice, under any name or link.
 void check_files(const std::vector<WrittenFile>& written, const std::vector<ReadFile>& read, Problems& problems);
 
 }  // namespace strut::deck

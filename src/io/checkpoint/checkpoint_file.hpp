@@ -1,4 +1,4 @@
-// A checkpoint as a file. Calls are collective.
+// A checkpoint file. Calls are collective.
 #pragma once
 
 #include <filesystem>
@@ -12,23 +12,23 @@ class Communicator;
 
 namespace strut::io {
 
-// One file at any number of ranks (netCDF, points in the order of their ids). It gets its name when it is whole on
-// disk, not before, so that a write that is killed spoils nothing; the one that was there stays beside it (before_of in
-// base/files.hpp), in place of the one before that. `deck`: the text of the deck.
-// Throws Error on all ranks: the file cannot be created, the disk is full.
+// Writes one file on any number of ranks (netCDF, points in the order of their ids). It gets its name only when it is
+// complete on disk, so that a killed write does no harm; the previous file is kept beside it (before_of in
+// base/files.hpp), and replaces the one before that. `deck`: the text of the deck. Throws Error on all ranks if the
+// file cannot be created or the disk is full.
 void write_checkpoint(const std::filesystem::path& file, const Communicator& communicator, const Snapshot& snapshot,
                       const std::string& deck);
 
-// Fills a snapshot that was saved from the same deck, by any number of ranks: each gets the values of the points that
-// it has; of shares each rank its own, or, where their number is another, rank 0 the sums. Where the file is missing or
-// damaged, the one before is read in its place, if it is good: returns why, on rank 0. Throws Error on all ranks: both
-// missing or damaged, of another version; of other points, or without something that the snapshot has.
+// Fills a snapshot of the same deck, saved by any number of ranks: each rank gets the values of its points and its own
+// shares (per-rank sums); if the number of ranks differs, rank 0 gets the total of the shares. If the file is missing
+// or damaged, the previous one is read if it is good; returns the reason, on rank 0. Throws Error on all ranks if both
+// are missing or damaged, of another version, of other points, or lack something that the snapshot has.
 std::string read_checkpoint(const std::filesystem::path& file, const Communicator& communicator, Snapshot& snapshot);
 
-// On this rank's disk: the file, or the one before.
+// On this rank's disk: true if the file, or the previous one, exists.
 bool checkpoint_is_there(const std::filesystem::path& file);
 
-// What was written beside the snapshot: the text of the deck; its time, s. Throws Error on all ranks as
+// Data besides the snapshot: the text of the deck, and the time, s. Throws Error on all ranks like
 // read_checkpoint.
 struct CheckpointFacts {
   std::string deck;
@@ -36,7 +36,7 @@ struct CheckpointFacts {
 };
 CheckpointFacts facts_of_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 
-// On rank 0's disk, with the one before. Throws Error for a file that is there, but none of ours.
+// Removes the file and the previous one on rank 0's disk. Throws Error if the file is not a checkpoint of ours.
 void remove_checkpoint(const std::filesystem::path& file, const Communicator& communicator);
 
 }  // namespace strut::io

@@ -1,4 +1,4 @@
-// How a snapshot stands in its file: what the writer and the reader agree on.
+// The layout of a snapshot in its file, for writer and reader.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace strut::io::checkpoint_layout {
 
-// Of the layout below: raise it with every change of what the file holds.
+// Version of the layout below: increase it with every change of the file's content.
 constexpr int version = 5;
 
 inline std::string name_of_ids(std::size_t group) { return "g" + std::to_string(group) + "_id"; }
@@ -17,10 +17,10 @@ inline std::string name_of(std::size_t group, const std::string& column) {
 }
 inline std::string name_of_share(const std::string& name) { return "share_" + name; }
 inline std::string name_of_number(const std::string& name) { return "number_" + name; }
-// The check sums: that of the numbers and the deck, then one for each list, in the order of the snapshot. The list is
-// defined first: its name begins with checkpoint_mark, by which a file that a killed run had only begun is known.
+// The checksums: of the numbers and the deck, then one for each list, in the order of the snapshot. This list is
+// defined first: its name begins with checkpoint_mark, which identifies a file that a killed run has only begun.
 constexpr const char* name_of_sums = "strut_restart_sums";
-// The deck has one of its own: it is read before there is a snapshot to compare with.
+// The deck has a checksum of its own: it is read before there is a snapshot to compare with.
 constexpr const char* name_of_deck_sum = "deck_sum";
 
 inline double sum_of_deck(const std::string& deck) {

@@ -29,7 +29,7 @@ NetcdfLists opened(const fs::path& path) {
   if (const std::string problem = classic_netcdf_problem(path); !problem.empty()) {
     throw Error(path.string() + ": not a checkpoint, or damaged: " + problem);
   }
-  if (is_hdf5(path)) throw Error(path.string() + ": is no checkpoint of strut");  // which HDF5 might not survive
+  if (is_hdf5(path)) throw Error(path.string() + ": is no checkpoint of strut");  // HDF5 might crash on it
   NetcdfLists file = NetcdfLists::open(path);
   if (!file.has_number(checkpoint_mark)) throw Error(path.string() + ": is no checkpoint of strut");
   if (const double found = file.number(checkpoint_mark); found != version) {
@@ -44,10 +44,10 @@ NetcdfLists opened(const fs::path& path) {
               ". A run can go on with another final time, and other times of output, not with another model");
 }
 
-// That the file has what the snapshot has. The numbers of points are those over all ranks.
+// Checks that the file has what the snapshot has. `counts`: numbers of points over all ranks.
 void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snapshot,
              const std::vector<std::int64_t>& counts) {
-  int lists = 1 + static_cast<int>(snapshot.shares.size());  // with the check sums
+  int lists = 1 + static_cast<int>(snapshot.shares.size());  // the list of checksums counts, too
   for (const auto& [name, value] : snapshot.numbers) {
     if (!file.has_number(name_of_number(name))) differs(path, "it has no number '" + name + "'");
   }
@@ -74,7 +74,7 @@ void compare(const fs::path& path, const NetcdfLists& file, const Snapshot& snap
   }
 }
 
-// The check sum of a list, read in portions.
+// The checksum of a list, read in portions.
 template <class T>
 double sum_of(const NetcdfLists& file, const std::string& name) {
   const std::size_t size = file.size(name);
@@ -113,7 +113,7 @@ void check_sums(const fs::path& path, const NetcdfLists& file, const Snapshot& s
   }
 }
 
-// Collective. To each rank its slice of a list, of which a point has `width` values.
+// Collective. Sends each rank its slice of a list with `width` values per point (scatterv).
 template <class T>
 std::vector<T> dealt(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name,
                      std::vector<std::int64_t> counts, int width, OnRoot& on_root) {
@@ -122,8 +122,8 @@ std::vector<T> dealt(const Communicator& communicator, const std::optional<Netcd
                  [&](std::int64_t begin, std::span<T> values) { on_root([&] { file->get(name, values, begin); }); });
 }
 
-// Collective. The columns of a group, a slice to each rank and from there to the points: a rank receives its slice and
-// its points. False where the file has other points.
+// Collective. Reads the columns of a group: each rank gets a slice and passes it on to the points, so that it never has
+// more than its slice and its points. Returns false if the file has other points.
 bool restore(const Communicator& communicator, const std::optional<NetcdfLists>& file, std::size_t g,
              Snapshot::Group& group) {
   const Slices slices(communicator, group.ids);
@@ -138,8 +138,8 @@ bool restore(const Communicator& communicator, const std::optional<NetcdfLists>&
   return ids == slices.ids();
 }
 
-// Calls open() for the newest file; where that fails and there is one before it, for that. The first error counts where
-// both fail.
+// Calls open() for the newest file; if that fails and there is a previous one, for that. If both fail, throws the first
+// error.
 template <class Open>
 void open_either(const fs::path& newest, fs::path& path, const Open& open, std::string& note) {
   try {

@@ -24,7 +24,7 @@ using namespace checkpoint_layout;
 
 namespace {
 
-// The one before stays, under another name. Where the system has no hard links it has that name alone for a moment.
+// Keeps the previous file under another name. Without hard links the file has only that name for a moment.
 void keep_before(const fs::path& path) {
   std::error_code failure;
   if (!fs::exists(path, failure)) return;
@@ -41,10 +41,10 @@ void replace(const fs::path& path, const fs::path& part) {
   if (failure) throw Error(path.string() + ": cannot replace it: " + failure.message());
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (handle >= 0) ::fsync(handle), ::close(handle);  // some file systems cannot; then they need not
+  if (handle >= 0) ::fsync(handle), ::close(handle);  // some file systems cannot sync; then it is not needed
 }
 
-// The layout, on rank 0: of the groups, how many points all ranks have of each.
+// Defines the layout, on rank 0. `sizes`: number of points of each group over all ranks.
 void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector<std::size_t>& sizes, int ranks,
             const std::string& deck) {
   file.define(name_of_sums, NetcdfLists::Of::reals, 1 + number_of_lists(snapshot));
@@ -63,7 +63,7 @@ void define(const NetcdfLists& file, const Snapshot& snapshot, const std::vector
   file.end_definitions();
 }
 
-// Collective. Everything into `file`, which only rank 0 has: no rank has more than its slice of a column.
+// Collective. Writes everything to `file`, which only rank 0 has open: no rank has more than its slice of a column.
 void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, const Snapshot& snapshot,
           const std::string& deck, const fs::path& part, OnRoot& on_root) {
   std::vector<std::size_t> sizes;

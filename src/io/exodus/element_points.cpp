@@ -1,4 +1,4 @@
-// The elements of a mesh become material points.
+// Makes material points from the elements of a mesh.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -24,7 +24,7 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-// A node with the bits of the planes that it lies on (PointCloud::joints).
+// A node with the bits of the symmetry planes that it lies on (PointCloud::joints).
 std::int64_t joint_at(const MeshSlice& slice, int node, const std::vector<Mirror>& planes, double spacing) {
   std::int64_t joint = slice.nodes[node];
   for (const Mirror& plane : planes) {
@@ -42,7 +42,7 @@ std::vector<std::int64_t> joints_of(const MeshSlice& slice, const Mesh::Block& b
     joints.push_back(joint_at(slice, block.nodes[n], planes, spacing));
   }
   std::sort(joints.begin(), joints.end());
-  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());  // an element that is collapsed to a wedge
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());  // an element collapsed to a wedge
   return joints;
 }
 
@@ -161,7 +161,7 @@ void check_corners(const MeshSlice& slice, const std::string& file) {
       if (block.type != "HEX8") continue;
       const std::array<Vector, 8> nodes = corners<8>(slice.mesh, block, e);
       const int corner = folded_corner(nodes);
-      if (corner < 0 || !(hexahedron(nodes).volume > 0)) continue;  // what is inside out is told of by its volume
+      if (corner < 0 || !(hexahedron(nodes).volume > 0)) continue;  // inverted elements are reported by their volume
       if (++found > most) break;
       text << (found == 1 ? "" : ", ") << slice.elements[element] + 1 << " of block '" << block.name << "' (corner "
            << corner + 1 << ")";

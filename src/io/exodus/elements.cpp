@@ -10,7 +10,7 @@ namespace {
 constexpr int corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
-// At one place in the local coordinates: the shape functions, and det ∂x/∂ξ.
+// Shape functions and weight times det ∂x/∂ξ at one position in the local coordinates.
 struct GaussPoint {
   std::array<double, 8> shape;
   double weight;
@@ -46,8 +46,8 @@ Vector position(const GaussPoint& at, std::span<const Vector, 8> nodes) {
   return x;
 }
 
-// Over the cube of half an edge `half` around `middle` in the local coordinates. x⊗x det ∂x/∂ξ has degree 4 in each of
-// them at most, and three Gauss points an axis are exact up to degree 5.
+// Integrals over the cube of half an edge `half` around `middle` in the local coordinates. x⊗x det ∂x/∂ξ has at most
+// degree 4 in each of them, and three Gauss points per axis are exact up to degree 5.
 Integrals over_cube(const Vector& middle, double half, std::span<const Vector, 8> nodes, const Vector& origin) {
   const double places[3] = {-std::sqrt(0.6), 0, std::sqrt(0.6)}, weights[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
   Integrals sum;
@@ -66,15 +66,15 @@ Integrals over_cube(const Vector& middle, double half, std::span<const Vector, 8
 
 }  // namespace
 
-// x and the shape functions are trilinear in the local coordinates ξ and det ∂x/∂ξ is at most quadratic in each, so
-// that the integrals of det, of x det and of N det are at most cubic in each ξ: two Gauss points an axis are exact for
+// x and the shape functions are trilinear in the local coordinates ξ, and det ∂x/∂ξ is at most quadratic in each. So
+// the integrals of det, of x det and of N det are at most cubic in each ξ, and two Gauss points per axis are exact for
 // them, whatever the distortion.
 ElementPoint hexahedron(std::span<const Vector, 8> nodes) {
   ElementPoint point{Vector::Zero(), 0};
   for (const auto& g : corner) {
     const GaussPoint at = gauss_point(g, nodes);
     point.volume += at.weight;
-    // About a corner: far from the origin nothing cancels.
+    // Relative to a corner, so that digits do not cancel far from the origin.
     point.centroid += at.weight * (position(at, nodes) - nodes[0]);
   }
   point.centroid = nodes[0] + point.centroid / point.volume;
@@ -82,7 +82,7 @@ ElementPoint hexahedron(std::span<const Vector, 8> nodes) {
 }
 
 int folded_corner(std::span<const Vector, 8> nodes) {
-  constexpr double rounding = 1e-6;  // of the mean: collapsed corners, and coordinates in single precision
+  constexpr double rounding = 1e-6;  // of the mean: for collapsed corners, and for coordinates in single precision
   double mean = 0;
   for (const auto& g : corner) mean += gauss_point(g, nodes).weight / 8;
   for (int n = 0; n < 8; ++n) {
@@ -131,7 +131,7 @@ Symmetric hexahedron_moments(std::span<const Vector, 8> nodes) {
   return cell_shape(over_cube(Vector::Zero(), 1, nodes, hexahedron(nodes).centroid)).moments;
 }
 
-// Of any simplex: Σ (x_node − x̄)⊗(x_node − x̄) / ((d + 1)(d + 2)) with d = 3.
+// For any simplex: Σ (x_node − x̄)⊗(x_node − x̄) / ((d + 1)(d + 2)) with d = 3.
 Symmetric tetrahedron_moments(std::span<const Vector, 4> nodes) {
   const Vector centroid = tetrahedron(nodes).centroid;
   Symmetric sum = Symmetric::Zero();
@@ -149,7 +149,7 @@ std::array<Integrals, 8> hexahedron_pieces(std::span<const Vector, 8> nodes) {
   return pieces;
 }
 
-// All faces of a quarter are plane, so that the hexahedron of its eight corners fills it.
+// All faces of a quarter are plane, so the hexahedron of its eight corners fills it.
 std::array<Integrals, 4> tetrahedron_pieces(std::span<const Vector, 4> nodes) {
   constexpr int turned[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};  // each right-handed
   std::array<Integrals, 4> pieces;

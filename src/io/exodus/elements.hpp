@@ -1,4 +1,4 @@
-// The material point that an element stands for: its volume, its centroid, its second moments; the parts of its nodes.
+// The material point of an element: its volume, centroid and second moments; the parts of its nodes.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@ namespace strut::io {
 
 struct ElementPoint {
   Vector centroid;    // volumetric: the integral of x over the element, divided by its volume
-  double volume = 0;  // negative for an element that is inside out
+  double volume = 0;  // negative for an inverted element
 };
 
 // Nodes in Exodus order: 0 1 2 3 around the lower face, 4 5 6 7 above them.
 ElementPoint hexahedron(std::span<const Vector, 8> nodes);
 ElementPoint tetrahedron(std::span<const Vector, 4> nodes);
 
-// The corner (0 to 7) at which the edges are left-handed, so that the element is folded there though its volume may be
-// positive: det ∂x/∂ξ < 0. -1 where there is none; of a hexahedron collapsed to a wedge or pyramid it is 0.
+// The corner (0 to 7) with left-handed edges, at which the element is folded although its volume may be positive: det
+// ∂x/∂ξ < 0. Returns -1 if there is none; for a hexahedron collapsed to a wedge or pyramid the determinant is 0.
 int folded_corner(std::span<const Vector, 8> nodes);
 
 // ∫ N_a dV of the shape function of each node: the parts of the volume that belong to the nodes. Their sum is the
@@ -26,7 +26,7 @@ int folded_corner(std::span<const Vector, 8> nodes);
 std::array<double, 8> hexahedron_parts(std::span<const Vector, 8> nodes);
 std::array<double, 4> tetrahedron_parts(std::span<const Vector, 4> nodes);
 
-// Integrals over a piece of a body, about a point O: those of pieces add up.
+// Integrals over a piece of a body, relative to a point O; those of several pieces are added.
 struct Integrals {
   double volume = 0;                     // ∫ dV, m³
   Vector first = Vector::Zero();         // ∫ (x − O) dV, m⁴
@@ -34,16 +34,16 @@ struct Integrals {
 
   Integrals& operator+=(const Integrals& other);
 };
-// The centroid, from O, and the central second moments per volume.
+// The centroid, relative to O, and the central second moments per volume.
 CellShape cell_shape(const Integrals& integrals);
 
-// Exact, about the element's centroid.
+// Exact moments relative to the element's centroid.
 Symmetric hexahedron_moments(std::span<const Vector, 8> nodes);
 Symmetric tetrahedron_moments(std::span<const Vector, 4> nodes);
 Symmetric cube_moments(double volume);
 
-// Of the piece next to each node, about that node: an octant of the hexahedron's local coordinates; the quarter of the
-// tetrahedron between the node, the middles of its edges and faces, and the centroid.
+// Integrals over the piece next to each node, relative to that node: an octant of the hexahedron's local coordinates;
+// the quarter of the tetrahedron between the node, the middles of its edges and faces, and the centroid.
 std::array<Integrals, 8> hexahedron_pieces(std::span<const Vector, 8> nodes);
 std::array<Integrals, 4> tetrahedron_pieces(std::span<const Vector, 4> nodes);
 

@@ -1,5 +1,5 @@
-// Public header of io for Exodus II files: points in, results out. No other room sees exodusII.h. Calls
-// with a Communicator are collective.
+// Public header of io for Exodus II files: reads points, writes results. No other room includes exodusII.h. Calls with
+// a Communicator are collective.
 #pragma once
 
 #include <array>
@@ -22,13 +22,13 @@ namespace strut::io {
 // Reads hex8 (volume by exact integration, centroid), tet4 and sphere elements (attributes: radius, volume; a file with
 // one attribute has the radius only, one with none has an element variable Volume). Block names: the file's, else
 // "block_<id>". Node sets: the file's names, else "nodelist_<id>". Each rank receives a contiguous slice.
-// `at` elements: a point for each; it belongs to a set when any node of its element does. `at` nodes: a point for each
-// node that a hex8 or tet4 element uses, in the block that comes first in the file; ids count the file's nodes from 0.
+// `at` elements: a point per element; it is in a set if any node of its element is. `at` nodes: a point per node of a
+// hex8 or tet4 element, in the first of its blocks in the file; ids count the file's nodes from 0.
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
 // `with_cells`: also shapes and joints of the points (cloud.hpp); faces on symmetry `planes` are no surface.
-// HEX8 blocks with the attributes of PartialCell: volume and place of a point at an element are the cell's, the spacing
-// stays the hexahedron's. Throws Error where the cell is not one (names element and block), and for points at nodes.
+// HEX8 blocks with the attributes of PartialCell: volume and position of a point at an element are those of the cell;
+// the spacing is the hexahedron's. Throws Error for an invalid cell (names element and block), and for points at nodes.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,
                        PointsAt at = PointsAt::elements, bool with_cells = false,
                        const std::vector<Mirror>& planes = {});
@@ -42,35 +42,35 @@ struct OutputField {
   bool nodal = false;  // else an element variable
 };
 
-// Collective. Why a result of these points cannot be written, whatever its fields are: numbers or names that the file
-// does not hold. "" where it can; the same on all ranks.
+// Collective. The reason why a result of these points cannot be written, whatever its fields: numbers or names that the
+// file format cannot hold. "" if it can; the same on all ranks.
 std::string result_problem(const PointCloud& cloud, const Communicator& communicator);
 
-// One file at any number of ranks: sphere elements, one node each, blocks, node sets and element ids as they were read.
-// Flushed after every frame, so that what is written stays readable whatever happens next.
+// Writes one file on any number of ranks: sphere elements, one node each, with the blocks, node sets and element ids
+// that were read. It is flushed after every frame, so that it stays readable whatever happens next.
 class ExodusWriter {
  public:
-  // `cloud`: this rank's points, in the order of the columns given to write(). Replaces a file of that name, or goes on
-  // after the first `frames` of it, whose check sum it must have. Errors: the file cannot be created, another run
-  // writes to it, it does not have these points, fields or frames.
+  // `cloud`: this rank's points, in the order of the columns given to write(). Replaces a file of that name, or
+  // continues after its first `frames`, which must have the checksum `sum`. Errors: the file cannot be created, another
+  // run writes to it, it does not have these points, fields or frames.
   ExodusWriter(const std::filesystem::path& file, const Communicator& communicator, const PointCloud& cloud,
                std::vector<OutputField> fields, int frames = 0, double sum = 0);
   ~ExodusWriter();
   ExodusWriter(ExodusWriter&&) noexcept;
 
-  // columns[k]: field k, this rank's points times components, point by point. Throws Error when the disk is full.
+  // columns[k]: field k, all components of this rank's points, point by point. Throws Error if the disk is full.
   void write(double time, std::span<const std::vector<double>> columns);
 
-  int frames() const;  // so far
-  double sum() const;  // on rank 0: a check sum of their times and of the values of the last one
-  void sync() const;   // collective: they are on the disk
+  int frames() const;  // written so far
+  double sum() const;  // on rank 0: checksum of the times and of the values of the last frame
+  void sync() const;   // collective: forces the frames to the disk
 
  private:
   struct File;
   std::unique_ptr<File> file_;
 };
 
-// What a finished result holds, for comparison and tests. On rank 0 only (serial use).
+// The content of a finished result, for comparison and tests. On rank 0 only (serial use).
 struct ExodusResult {
   std::vector<double> times;
   std::array<std::vector<double>, 3> places;  // of the nodes, x, y, z, m
@@ -79,13 +79,13 @@ struct ExodusResult {
   std::vector<std::vector<std::vector<double>>> nodal, element;
 };
 ExodusResult read_result(const std::filesystem::path& file);
-// Of its last frame, s; nothing where there is no such file, no frame or no sense in it.
+// The time of its last frame, s; nullopt if there is no such file, no frame, or if it is damaged.
 std::optional<double> last_time_of_result(const std::filesystem::path& file);
 
-// Of HEX8, TET4 and SPHERE; throws Error for other types.
+// For HEX8, TET4 and SPHERE; throws Error for other types.
 int nodes_per_element(const std::string& type);
 
-// The material in an element that is only partly filled, or that has taken over what is in a neighbor.
+// The material in an element that is partly filled, or that has absorbed the material of a neighbor.
 struct PartialCell {
   double volume = 0;                        // m³
   Vector centroid = Vector::Zero();         // m
@@ -117,7 +117,7 @@ inline constexpr std::array<const char*, 22> partial_cell_attributes{"volume",
                                                                      "surface_moment_zy",
                                                                      "surface_moment_zz"};
 
-// A mesh as a tool makes it, for tools/ and tests.
+// A mesh made by a tool, for tools/ and tests.
 struct Mesh {
   std::vector<Vector> nodes;
   struct Block {
@@ -125,7 +125,7 @@ struct Mesh {
     std::string type;             // "HEX8", "TET4" or "SPHERE"
     std::vector<int> nodes;       // 0-based, element by element
     std::vector<double> volumes;  // spheres only
-    // Of HEX8, or none: elements that are only partly filled with material; attributes in the file (io/README.md).
+    // For HEX8, or empty: partly filled elements; attributes in the file (io/README.md).
     std::vector<PartialCell> cells;
 
     std::size_t elements() const { return nodes.empty() ? 0 : nodes.size() / nodes_per_element(type); }
@@ -139,8 +139,8 @@ struct Mesh {
 };
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 
-// What write_mesh wrote, or another program: types as above however the file spells them, names and volumes as for
-// read_exodus. Serial. Throws Error: as read_exodus, but volumes are not looked at.
+// Reads a mesh that write_mesh or another program has written: types as above whatever their spelling in the file,
+// names and volumes as for read_exodus. Serial. Throws Error like read_exodus, but does not check volumes.
 Mesh read_mesh(const std::filesystem::path& file);
 
 }  // namespace strut::io

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The cause behind a code of the library: of the system (positive), of netCDF (negative) or of Exodus itself.
+// The cause of an error code: of the system (positive), of netCDF (negative) or of Exodus itself.
 std::string cause_of(int code) {
   const char* message = nullptr;
   const char* function = nullptr;
@@ -44,7 +44,7 @@ std::string cause_of(int code) {
   return (text.empty() ? "Exodus library" : text) + " (code " + std::to_string(last) + ")";
 }
 
-// The library's own words for these are codes: say it plainly before it gets to see them.
+// Checks errors for which the library has only codes, so that the message is plain.
 void check_that_it_may_be_read(const fs::path& path, std::int64_t frames) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -56,7 +56,7 @@ void check_that_it_may_be_read(const fs::path& path, std::int64_t frames) {
   if (!problem.empty()) fail_at(path, "open it", problem);
 }
 
-// What of it is compressed, as HDF5 can do, may be this much larger in memory: deflate's limit.
+// Compressed data in an HDF5 file may be this much larger in memory: deflate's limit.
 constexpr std::int64_t densest = 1032;
 
 std::int64_t largest_content(const fs::path& path) {
@@ -68,7 +68,7 @@ std::int64_t largest_content(const fs::path& path) {
 }  // namespace
 
 ExodusFile ExodusFile::open(const fs::path& path, Access access, std::int64_t frames) {
-  ex_opts(0);  // errors are ours to report
+  ex_opts(0);  // we report errors ourselves
   check_that_it_may_be_read(path, frames);
   int word_size = sizeof(double);
   int file_word_size = 0;
@@ -85,7 +85,7 @@ ExodusFile ExodusFile::open(const fs::path& path, Access access, std::int64_t fr
 
 namespace {
 
-// What a variable may take in the classic format with 64-bit offsets (CDF-2), in one frame, bytes.
+// Largest size of a variable in one frame, in the classic format with 64-bit offsets (CDF-2), bytes.
 constexpr std::int64_t largest_of_offsets = 4'294'967'288;
 
 int created(const fs::path& path, int mode) {
@@ -95,7 +95,7 @@ int created(const fs::path& path, int mode) {
   return ex_create(path.c_str(), mode | EX_CLOBBER | EX_ALL_INT64_API, &word_size, &file_word_size);
 }
 
-// The classic format with 64-bit sizes (CDF-5), which Exodus before version 7 does not create, but goes on with.
+// Creates the classic format with 64-bit sizes (CDF-5), which Exodus before version 7 does not create, but can extend.
 int created_with_64_bit_sizes(const fs::path& path) {
 #ifdef EX_64BIT_DATA
   return created(path, EX_64BIT_DATA);
@@ -112,8 +112,8 @@ int created_with_64_bit_sizes(const fs::path& path) {
 
 }  // namespace
 
-// A classic format, not HDF5: after each flush it is whole on disk, so a killed run loses nothing but the frame in
-// hand. Its integers have 32 bits: enough for 2·10⁹ points.
+// A classic format instead of HDF5: it is complete on disk after each flush, so a killed run loses only the present
+// frame. Its integers have 32 bits, enough for 2·10⁹ points.
 ExodusFile ExodusFile::create(const fs::path& path, std::int64_t largest_variable) {
   ex_opts(0);
   const bool fits = largest_variable <= largest_of_offsets;
@@ -145,7 +145,7 @@ std::int64_t ExodusFile::inquire(int what, std::string_view doing) const {
 
 int ExodusFile::entity(On on) { return on == On::nodes ? EX_NODAL : EX_ELEM_BLOCK; }
 
-// Before memory is taken because a file says so: `count` of `what`, each of at least so many bytes in the file.
+// Checks a count from the file before memory is allocated: `count` of `what`, each with at least `bytes` in the file.
 std::int64_t ExodusFile::plausible(std::int64_t count, std::int64_t bytes, const std::string& what) const {
   if (count >= 0 && count <= largest_ / bytes) return count;
   fail_at(path_, "read it",
@@ -155,7 +155,7 @@ std::int64_t ExodusFile::plausible(std::int64_t count, std::int64_t bytes, const
 ExodusFile::Sizes ExodusFile::sizes() const {
   ex_init_params params = {};
   check(ex_get_init_ext(handle_, &params), "read its sizes");
-  constexpr int number = 4;  // bytes, of the smallest type that Exodus has
+  constexpr int number = 4;  // bytes of the smallest type in Exodus
   return {params.num_dim, plausible(params.num_nodes, number, "nodes"), plausible(params.num_elem, 1, "elements"),
           plausible(params.num_elem_blk, number, "blocks"), plausible(params.num_node_sets, number, "node sets")};
 }
@@ -211,7 +211,7 @@ std::array<std::vector<double>, 3> ExodusFile::coordinates(std::int64_t begin, s
 }
 
 std::vector<std::int64_t> ExodusFile::connectivity(const Block& block, std::int64_t begin, std::int64_t count) const {
-  // Neither of the two is negative or more than the file has bytes.
+  // Neither factor is negative or exceeds the size of the file.
   const double entries = static_cast<double>(block.elements) * static_cast<double>(block.nodes_per_element);
   plausible(static_cast<std::int64_t>(std::min(entries, 1e18)), 4,
             "nodes of elements in block " + quoted(block.name, block.id));

@@ -1,6 +1,6 @@
-// One open Exodus II file. The only files that know exodusII.h are this one's source; here stand plain C++ types.
-// Every call checks what the library returns and throws Error with the file, what was being done, and the cause.
-// Serial: rank 0 alone holds a file. Indices of blocks, sets, variables and steps count from 0 here.
+// One open Exodus II file. Only its sources include exodusII.h; this header has plain C++ types. Every call checks the
+// library's return code, and throws Error with the file, the operation and the cause. Serial: only rank 0 holds a file.
+// Indices of blocks, sets, variables and steps start from 0 here.
 #pragma once
 
 #include <array>
@@ -26,26 +26,26 @@ class ExodusFile {
   };
   struct Block {
     std::int64_t id = 0;
-    std::string name;  // empty where the file has none
-    std::string type;  // as the file spells it
+    std::string name;  // empty if the file has none
+    std::string type;  // as spelled in the file
     std::int64_t elements = 0;
     std::int64_t nodes_per_element = 0;
-    std::vector<std::string> attributes;  // their names; may be empty texts
+    std::vector<std::string> attributes;  // their names, possibly empty
   };
   struct NodeSet {
     std::int64_t id = 0;
     std::string name;
     std::int64_t nodes = 0;
   };
-  enum class On { nodes, elements };  // what a variable is defined on
+  enum class On { nodes, elements };  // the entities that a variable is defined on
 
   static constexpr std::size_t longest_name = 127;
 
   enum class Access { read, write };
-  // `frames`: so many of a result must be whole; what is left of others is not to be read.
+  // `frames`: number of frames of a result that must be complete; later ones are not read.
   static ExodusFile open(const std::filesystem::path& path, Access access = Access::read,
                          std::int64_t frames = all_records);
-  // Replaces a file of that name. `largest_variable`: bytes of what is largest in it, of a frame where it has frames.
+  // Replaces a file of that name. `largest_variable`: bytes of the largest variable, in one frame if it has frames.
   static ExodusFile create(const std::filesystem::path& path, std::int64_t largest_variable = 0);
   ~ExodusFile();
   ExodusFile(ExodusFile&& other) noexcept;
@@ -57,7 +57,7 @@ class ExodusFile {
   Sizes sizes() const;
   std::vector<Block> blocks() const;
   std::vector<NodeSet> node_sets() const;
-  // Parts of what may be large: `count` entries from number `begin` on.
+  // Parts of large data: `count` entries from number `begin` on.
   std::array<std::vector<double>, 3> coordinates(std::int64_t begin, std::int64_t count) const;
   // Node numbers from 1, element by element.
   std::vector<std::int64_t> connectivity(const Block& block, std::int64_t begin, std::int64_t count) const;
@@ -67,15 +67,15 @@ class ExodusFile {
   std::vector<std::int64_t> numbers(On on, std::int64_t begin, std::int64_t count) const;
   std::vector<double> times() const;
   std::vector<std::string> variable_names(On on) const;
-  std::vector<double> nodal_values(int step, int variable) const;  // of all nodes
+  std::vector<double> nodal_values(int step, int variable) const;  // at all nodes
   std::vector<double> nodal_values(int step, int variable, std::int64_t begin, std::int64_t count) const;
-  // NaN for elements of blocks on which the variable is not defined. Of one block, or of all.
+  // NaN for elements of blocks without the variable. For one block, or for all.
   std::vector<double> element_values(int step, int variable, const Block& block, std::int64_t begin,
                                      std::int64_t count) const;
   std::vector<double> element_values(int step, int variable) const;
 
-  // Writing, in the order of these lines: what defines the layout before what fills it, entry by entry from number
-  // `begin` on.
+  // Writing, in the order of these functions: the layout before the data, entry by entry from number `begin`
+  // on.
   void put_sizes(const std::string& title, const Sizes& sizes) const;
   void put_provenance() const;  // program, version, date
   void put_blocks(const std::vector<Block>& blocks) const;
@@ -95,7 +95,7 @@ class ExodusFile {
 
  private:
   ExodusFile(const std::filesystem::path& path, int handle) : path_(path), handle_(handle) {}
-  static int entity(On on);  // as the library counts them
+  static int entity(On on);  // the library's type of entity
   void check(int code, std::string_view doing) const;
   void put_attribute_names(const Block& block) const;
   std::int64_t inquire(int what, std::string_view doing) const;

@@ -1,4 +1,4 @@
-// What ExodusFile writes.
+// The writing part of ExodusFile.
 #include <exodusII.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
   return names;
 }
 
-// Lines of at most so many characters, broken between words where there are any.
+// Lines of at most `most` characters, broken between words if possible.
 std::vector<std::string> wrapped(std::string text, std::size_t most) {
   std::vector<std::string> lines;
   while (text.size() > most) {
@@ -113,7 +113,7 @@ void ExodusFile::put_variables(const std::vector<Block>& blocks, const std::vect
           "write the names of variables");
   }
   if (element.empty() || blocks.empty()) return;
-  std::vector<int> defined;  // block by block; an empty block has no variables
+  std::vector<int> defined;  // by blocks; an empty block has no variables
   for (const Block& block : blocks) defined.insert(defined.end(), element.size(), block.elements > 0 ? 1 : 0);
   check(ex_put_truth_table(handle_, EX_ELEM_BLOCK, static_cast<int>(blocks.size()), static_cast<int>(element.size()),
                            defined.data()),

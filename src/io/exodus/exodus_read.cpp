@@ -1,4 +1,4 @@
-// A file's mesh to the material points of all ranks: no rank has more of it than a slice.
+// Reads the mesh of a file into material points on all ranks; no rank has more of it than a slice.
 #include <algorithm>
 #include <optional>
 
@@ -26,7 +26,7 @@ MeshFile opened(const std::filesystem::path& path) {
   return MeshFile(std::move(file));
 }
 
-// The error of the first rank that has one, on all ranks.
+// Throws the error of the first rank that has one on all ranks.
 template <class Action>
 PointCloud on_all_ranks(const Communicator& communicator, const Action& action) {
   PointCloud cloud;
@@ -41,7 +41,7 @@ PointCloud on_all_ranks(const Communicator& communicator, const Action& action) 
   return cloud;
 }
 
-// Collective. Of this rank's slice of what the file has.
+// Collective. The file's numbers of this rank's slice.
 std::vector<std::int64_t> numbers_of(const std::optional<MeshFile>& file, ExodusFile::On on, std::int64_t total,
                                      const Communicator& communicator) {
   OnRoot on_root(communicator);
@@ -66,14 +66,14 @@ void check_elements_have_nodes(const MeshLayout& layout, const std::string& file
   }
 }
 
-// Collective. Points at nodes do not show an element that is there twice: its nodes have twice their volume.
+// Collective. Checks for elements given twice, which points at nodes do not show: their nodes have twice the volume.
 void check_given_once(const MeshSlice& slice, const NodeRange& own, const std::string& file,
                       const Communicator& communicator) {
   const std::string twins = coincident_points(elements_of(slice, own), communicator, [](int, int) { return false; });
   if (!twins.empty()) throw Error(file + ": " + twins);
 }
 
-// Collective. A block all of whose nodes belong to blocks before it would be gone without a word.
+// Collective. Reports a block all of whose nodes belong to earlier blocks: it would vanish without a message.
 void check_blocks_have_points(const PointCloud& cloud, const std::string& file, const Communicator& communicator) {
   std::vector<double> found(cloud.block_names.size(), 0);
   for (const int block : cloud.blocks) found[block] = 1;

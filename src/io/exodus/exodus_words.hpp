@@ -1,4 +1,4 @@
-// Inside io: names as the Exodus library takes them, and errors about a file.
+// Inside io: names in the form of the Exodus library, and errors about a file.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,10 @@ namespace strut::io {
   throw Error(path.string() + ": cannot " + std::string(doing) + ": " + cause);
 }
 
-// Names come and go as arrays of pointers to buffers of one length.
+// The library exchanges names as arrays of pointers to buffers of equal length.
 class NameTable {
  public:
-  // `longest`: of a name, in bytes.
+  // `longest`: bytes of a name.
   NameTable(std::size_t count, std::size_t longest)
       : width_(longest + 1), buffer_(count * width_, '\0'), pointers_(count) {
     for (std::size_t i = 0; i < count; ++i) pointers_[i] = buffer_.data() + i * width_;

@@ -1,5 +1,5 @@
-// Results: one file, whatever the number of ranks. Columns go into the file's order in slices, a slice on each rank,
-// and from there to rank 0 in portions: the file does not depend on the partition, and no rank has all of a column.
+// Writes results to one file on any number of ranks. Columns are sorted into the order of the file in slices, one per
+// rank, and sent to rank 0 in portions: the file does not depend on the partition, and no rank has all of a column.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +50,7 @@ std::vector<std::string> component_names(const OutputField& field) {
 }  // namespace
 
 std::string result_problem(const PointCloud& cloud, const Communicator& communicator) {
-  constexpr auto most = static_cast<double>(std::numeric_limits<std::int32_t>::max());  // as ExodusFile::create says
+  constexpr auto most = static_cast<double>(std::numeric_limits<std::int32_t>::max());  // see ExodusFile::create
   double largest = 0;
   for (const std::int64_t number : cloud.element_ids)
     largest = std::max(largest, std::abs(static_cast<double>(number)));
@@ -72,16 +72,16 @@ std::string result_problem(const PointCloud& cloud, const Communicator& communic
 struct ExodusWriter::File {
   const Communicator communicator;
   const std::vector<OutputField> fields;
-  const std::size_t points;  // of this rank
-  const Slices slices;       // nodes are in their order; elements too, block by block
+  const std::size_t points;  // on this rank
+  const Slices slices;       // nodes are in their order, and so are elements within each block
 
-  std::optional<FileLock> lock;  // until the file is closed
+  std::optional<FileLock> lock;  // held until the file is closed
 
   std::optional<ExodusFile> exodus;       // on rank 0 only
   std::vector<ExodusFile::Block> blocks;  // the same on all ranks
-  std::vector<std::vector<int>> places;   // in this rank's slice, of the elements of each block
+  std::vector<std::vector<int>> places;   // indices in this rank's slice of the elements of each block
   int steps = 0;
-  std::vector<double> times;  // of them; of the last one the check sum of the values; on rank 0
+  std::vector<double> times;  // of the frames; last_values: checksum of the last one; on rank 0
   CheckSum last_values;
 
   File(const Communicator& comm, const PointCloud& cloud, std::vector<OutputField> output)
@@ -93,7 +93,7 @@ struct ExodusWriter::File {
   bool fits(const ExodusFile& found) const;
   void take_frames(const ExodusFile& found);
   double sum() const;
-  std::array<std::vector<std::string>, 2> names() const;  // of variables: element, nodal
+  std::array<std::vector<std::string>, 2> names() const;  // names of variables: element, nodal
   void define_blocks(const PointCloud& cloud);
   void define(const std::filesystem::path& path, const std::vector<ExodusFile::NodeSet>& sets);
   void write_nodes(const PointCloud& cloud, OnRoot& on_root);
@@ -104,7 +104,7 @@ struct ExodusWriter::File {
   void write_nodal(int variable, const std::vector<double>& values, OnRoot& on_root);
   void write_element(int variable, const std::vector<double>& values, OnRoot& on_root);
 
-  // Collective. put(portion, number of its first value) on rank 0, for the values of all ranks in their order.
+  // Collective. Calls put(portion, number of its first value) on rank 0, for the values of all ranks in their order.
   template <class T, class Put>
   void in_portions(const std::vector<T>& mine, OnRoot& on_root, const Put& put) const {
     std::int64_t begin = 0;
@@ -145,7 +145,7 @@ bool ExodusWriter::File::fits(const ExodusFile& found) const {
          found.variable_names(ExodusFile::On::nodes) == nodal;
 }
 
-// The times of the frames, and what the last one holds, in the order in which it was written.
+// Reads the times of the frames and the content of the last one, in the order in which it was written.
 void ExodusWriter::File::take_frames(const ExodusFile& found) {
   constexpr auto portion = static_cast<std::int64_t>(largest_portion);
   const auto add = [&](std::int64_t count, const auto& read) {
@@ -155,7 +155,7 @@ void ExodusWriter::File::take_frames(const ExodusFile& found) {
   };
   times = found.times();
   times.resize(static_cast<std::size_t>(steps));
-  std::array<int, 2> next = {0, 0};  // variable: element, nodal
+  std::array<int, 2> next = {0, 0};  // next variable: element, nodal
   for (const OutputField& field : fields) {
     for (int c = 0; c < field.components; ++c) {
       const int v = next[field.nodal]++;
@@ -179,8 +179,8 @@ double ExodusWriter::File::sum() const {
   return all.value();
 }
 
-// Frames beyond the first `steps` are dropped: the run comes to them again. The last may be there in part: the library
-// counts a frame as it begins to write it, where it goes on with a file, and a run can be killed then.
+// Drops frames beyond the first `steps`, because the run computes them again. The last one may be incomplete: when the
+// library extends a file, it counts a frame as soon as it begins to write it, and the run may be killed then.
 void ExodusWriter::File::go_on(const std::filesystem::path& path, double sum_then) {
   const auto wrong = [&](const std::string& what) {
     throw Error(path.string() + ": is not the result that the run left: " + what);
@@ -196,7 +196,7 @@ void ExodusWriter::File::go_on(const std::filesystem::path& path, double sum_the
   exodus.emplace(ExodusFile::open(path, ExodusFile::Access::write));
 }
 
-// The layout first, then what fills it: the library would move what is there if the layout grew.
+// First the layout, then the data: if the layout grew later, the library would have to move the data.
 void ExodusWriter::File::create(const std::filesystem::path& path, const PointCloud& cloud) {
   const std::vector<std::uint64_t> bits = slices.to_slices(std::span(cloud.sets));
   const std::vector<std::int64_t> numbers = numbers_of(cloud.set_names, "nodelist_");
@@ -220,7 +220,7 @@ void ExodusWriter::File::create(const std::filesystem::path& path, const PointCl
 
 void ExodusWriter::File::define(const std::filesystem::path& path, const std::vector<ExodusFile::NodeSet>& sets) {
   const auto [element, nodal] = names();
-  constexpr std::int64_t of_point = 2 * sizeof(double);  // bytes: the attributes of a block, together
+  constexpr std::int64_t of_point = 2 * sizeof(double);  // bytes: all attributes of a block
   exodus.emplace(ExodusFile::create(path, of_point * slices.size()));
   exodus->put_sizes(result_title, {3, slices.size(), slices.size(), std::ssize(blocks), std::ssize(sets)});
   exodus->put_provenance();
@@ -241,7 +241,7 @@ void ExodusWriter::File::define_blocks(const PointCloud& cloud) {
 }
 
 void ExodusWriter::File::write_nodes(const PointCloud& cloud, OnRoot& on_root) {
-  using Place = std::array<double, 3>;  // as it travels
+  using Place = std::array<double, 3>;  // as it is sent
   std::vector<Place> mine;
   for (const Vector& X : cloud.positions) mine.push_back({X[0], X[1], X[2]});
   in_portions(slices.to_slices(std::span<const Place>(mine)), on_root,
@@ -257,7 +257,7 @@ void ExodusWriter::File::write_nodes(const PointCloud& cloud, OnRoot& on_root) {
 void ExodusWriter::File::write_elements(const PointCloud& cloud, OnRoot& on_root) {
   const std::vector<std::int64_t> numbers = slices.to_slices(std::span(cloud.element_ids));
   const std::vector<double> volumes = slices.to_slices(std::span(cloud.volumes));
-  std::int64_t before = 0;  // elements of the blocks before
+  std::int64_t before = 0;  // number of elements in the blocks before
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     in_portions(of_block(b, numbers), on_root,
                 [&](const auto& portion, std::int64_t first) { exodus->put_element_numbers(portion, before + first); });
@@ -339,7 +339,7 @@ void ExodusWriter::write(double time, std::span<const std::vector<double>> colum
   on_root([&] { file_->exodus->put_time(file_->steps, time); });
   file_->times.push_back(time);
   file_->last_values = {};
-  std::array<int, 2> variable = {0, 0};  // element, nodal
+  std::array<int, 2> variable = {0, 0};  // next variable: element, nodal
   for (std::size_t k = 0; k < file_->fields.size(); ++k) {
     const OutputField& field = file_->fields[k];
     for (int c = 0; c < field.components; ++c) {

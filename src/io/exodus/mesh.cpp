@@ -1,4 +1,4 @@
-// A mesh that a tool made, to a file.
+// Writes a mesh made by a tool to a file.
 #include <algorithm>
 #include <array>
 
@@ -76,7 +76,7 @@ void put_elements(const ExodusFile& file, const ExodusFile::Block& layout, const
   file.put_attribute(layout, 1, block.volumes);
 }
 
-// Bytes: coordinates along an axis, or what a block has of nodes and attributes.
+// Bytes of the coordinates along an axis, or of the nodes or attributes of a block.
 std::int64_t largest_variable(const std::vector<ExodusFile::Block>& blocks, std::int64_t nodes) {
   std::int64_t largest = 8 * nodes;
   for (const ExodusFile::Block& block : blocks) {

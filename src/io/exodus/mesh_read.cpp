@@ -21,7 +21,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-// "HEX8", "hex", "HEXAHEDRON": codes spell the types as they like. "" for a type that is not supported.
+// "HEX8", "hex", "HEXAHEDRON": the spelling of types depends on the code. "" for an unsupported type.
 std::string type_of(const ExodusFile::Block& block) {
   const std::string type = upper(block.type);
   if (type.starts_with("HEX") && block.nodes_per_element == 8) return "HEX8";
@@ -30,8 +30,8 @@ std::string type_of(const ExodusFile::Block& block) {
   return "";
 }
 
-// Blocks, or node sets, that have one number or name: the library looks them up by the number, the deck by the name.
-// "" where there are none.
+// Reports blocks, or node sets, with the same number or name: the library finds them by number, the deck by name. "" if
+// there are none.
 template <class Item, class Named>
 std::string said_twice(const std::string& kind, const std::vector<Item>& items, const std::vector<Named>& named) {
   std::map<std::int64_t, std::size_t> numbers;
@@ -51,7 +51,7 @@ std::string said_twice(const std::string& kind, const std::vector<Item>& items, 
   return "";
 }
 
-// "Volume", "SPHERE_VOLUME", "radius": the place of the attribute of such a name.
+// The index of the attribute with a name such as "Volume", "SPHERE_VOLUME", "radius".
 std::optional<int> attribute_of(const ExodusFile::Block& block, const std::string& wanted) {
   for (std::size_t k = 0; k < block.attributes.size(); ++k) {
     if (upper(block.attributes[k]).ends_with(wanted)) return static_cast<int>(k);
@@ -59,8 +59,8 @@ std::optional<int> attribute_of(const ExodusFile::Block& block, const std::strin
   return std::nullopt;
 }
 
-// Where the attributes of cells are. None where not all of them are there: other codes have attributes of their own,
-// but no moments. `missing`: the first that is not there, of a block that has some moments.
+// Indices of the attributes of partial cells. Empty if some are missing: other codes have attributes of their own, but
+// no moments. `missing`: the first missing one, if a block has some moments.
 std::vector<int> cell_columns(const ExodusFile::Block& block, std::string& missing) {
   std::vector<int> columns;
   bool has_moments = false;
@@ -160,7 +160,7 @@ void MeshFile::nodes_of_block(std::size_t block, std::int64_t begin, std::span<i
                "block '" + layout_.blocks[block].name + "'", nodes);
 }
 
-// The element variable that results of other codes hold instead of attributes.
+// The element variable that results of other codes have instead of attributes.
 int MeshFile::variable_volume(std::size_t block) const {
   const std::vector<std::string> names = file_.variable_names(ExodusFile::On::elements);
   const auto variable = std::find(names.begin(), names.end(), "Volume");
@@ -171,7 +171,7 @@ int MeshFile::variable_volume(std::size_t block) const {
   return static_cast<int>(variable - names.begin());
 }
 
-// Attributes by their names; where these are none that is known, radius and volume by their places, or the radius
+// Finds attributes by name; if no name is known, radius and volume by position, or the radius
 // alone.
 void MeshFile::sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const {
   const ExodusFile::Block& read_from = blocks_[block];
@@ -188,7 +188,7 @@ void MeshFile::sphere_volumes(std::size_t block, std::int64_t begin, std::span<d
   if (!volume && radius) std::transform(values.begin(), values.end(), values.begin(), sphere_volume);
 }
 
-// What has a name is not meant by its place.
+// An attribute with a name must not be interpreted by its position.
 void MeshFile::check_nameless(std::size_t block) const {
   const std::vector<std::string>& names = blocks_[block].attributes;
   const auto says_something = [](const std::string& name) { return !name.empty() && !upper(name).starts_with("ATTR"); };
@@ -211,7 +211,7 @@ void MeshFile::numbers(ExodusFile::On on, std::int64_t begin, std::span<std::int
 
 namespace {
 
-// read(begin, values) for all of `count` values, in portions.
+// Calls read(begin, values) for all of `count` values, in portions.
 template <class T, class Read>
 void look_at(std::int64_t count, const Read& read) {
   std::vector<T> values;

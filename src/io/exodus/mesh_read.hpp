@@ -1,4 +1,4 @@
-// A file's mesh, in parts, each checked as it is read.
+// Reads the mesh of a file in parts, and checks each part.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace strut::io {
 
-// What there is in a mesh, without what may be large.
+// The layout of a mesh, without the data that may be large.
 struct MeshLayout {
   struct Block {
     std::string name;
@@ -29,20 +29,20 @@ struct MeshLayout {
   std::vector<NodeSet> node_sets;
 };
 
-// The values from number `begin` on, as many as there is room for. All throw Error: what is read is not within range.
+// Reads values from number `begin` on, to fill the span. All functions throw Error if a value is out of range.
 class MeshFile {
  public:
   using Place = std::array<double, 3>;
 
-  explicit MeshFile(ExodusFile file);  // throws Error: no mesh, or elements that are not supported
+  explicit MeshFile(ExodusFile file);  // throws Error if there is no mesh, or an unsupported element
 
   const MeshLayout& layout() const { return layout_; }
   void places(std::int64_t begin, std::span<Place> values) const;                      // of nodes, m
   void nodes_of_set(std::size_t set, std::int64_t begin, std::span<int> nodes) const;  // 0-based
-  // Of elements one after the other, 0-based; begins and ends with an element.
+  // Nodes of successive elements, 0-based; the portion must consist of whole elements.
   void nodes_of_block(std::size_t block, std::int64_t begin, std::span<int> nodes) const;
   void sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const;  // m³
-  // partial_cell_attributes[attribute] of elements that have cells.
+  // partial_cell_attributes[attribute] for elements with partial cells.
   void cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin, std::span<double> values) const;
   void numbers(ExodusFile::On on, std::int64_t begin, std::span<std::int64_t> values) const;
 
@@ -59,13 +59,13 @@ class MeshFile {
   MeshLayout layout_;
   std::vector<ExodusFile::Block> blocks_;
   std::vector<ExodusFile::NodeSet> sets_;
-  std::vector<std::vector<int>> cell_columns_;  // of each block: where its attributes are in the file
+  std::vector<std::vector<int>> cell_columns_;  // of each block: columns of its attributes in the file
 };
 
-// All that the functions above can be asked for, in portions that are forgotten.
+// Reads everything that the functions above can read, in portions that are discarded.
 void read_through(const MeshFile& mesh);
 
-// What partial_cell_attributes[attribute] is the name of.
+// The member that partial_cell_attributes[attribute] names.
 double& member(PartialCell& cell, std::size_t attribute);
 
 }  // namespace strut::io

@@ -35,7 +35,7 @@ class SliceReader {
   }
 
  private:
-  // Of this rank's slice of the nodes.
+  // Reads this rank's slice of the nodes.
   std::vector<MeshFile::Place> places_of_nodes() {
     return dealt<MeshFile::Place>(slice_counts(slice_.layout.nodes, ranks_),
                                   [this](std::int64_t begin, auto values) { file_->places(begin, values); });
@@ -61,7 +61,7 @@ class SliceReader {
     return sets;
   }
 
-  // `first`: the block's first element in the file. Its nodes get their places in the file for now.
+  // `first`: the block's first element in the file. For now, its nodes are stored by their indices in the file.
   void read_block(std::size_t b, std::int64_t first, bool around_nodes) {
     const MeshLayout::Block& layout = slice_.layout.blocks[b];
     Mesh::Block& block = slice_.mesh.blocks[b];
@@ -83,7 +83,7 @@ class SliceReader {
     slice_.elements.insert(slice_.elements.end(), elements.begin(), elements.end());
   }
 
-  // How many of a block's elements are in the slice of each rank.
+  // The number of a block's elements in the slice of each rank.
   std::vector<std::int64_t> counts_in_slices(std::int64_t first, std::int64_t elements) const {
     std::vector<std::int64_t> counts;
     for (int rank = 0; rank < ranks_; ++rank) {
@@ -108,9 +108,9 @@ class SliceReader {
     }
   }
 
-  // Elements to the ranks whose slices have any of their nodes.
+  // Sends elements to the ranks whose slices contain any of their nodes.
   void bring_to_nodes(int size, std::vector<int>& nodes, std::vector<std::int64_t>& elements) const {
-    std::vector<std::pair<int, std::size_t>> leaving;  // to which rank, which element
+    std::vector<std::pair<int, std::size_t>> leaving;  // rank, and element to send
     const auto w = static_cast<std::size_t>(size);
     for (std::size_t e = 0; e < elements.size(); ++e) {
       const std::size_t before = leaving.size();
@@ -137,8 +137,8 @@ class SliceReader {
     nodes = exchange<int>(communicator_, leaving_nodes, to_ranks, from_ranks);
   }
 
-  // The nodes of the mesh are those of its elements, in the order of the file. Each is in several elements: what is
-  // twice in a portion goes at once.
+  // Numbers the nodes of the mesh's elements in the order of the file. Nodes belong to several elements: duplicates
+  // within a portion are removed at once.
   void number_nodes() {
     std::vector<std::int64_t>& used = slice_.nodes;
     const auto tidy = [&used](std::size_t begin) {
@@ -164,7 +164,7 @@ class SliceReader {
     }
   }
 
-  // From the ranks whose slices have them.
+  // Gets the nodes from the ranks whose slices contain them.
   void take_nodes(const std::vector<MeshFile::Place>& places, const std::vector<std::uint64_t>& sets) {
     const Slices owners(communicator_, slice_.nodes, slice_.layout.nodes);
     const std::int64_t first = slice_begin(slice_.layout.nodes, ranks_, communicator_.rank());
@@ -178,7 +178,7 @@ class SliceReader {
     slice_.sets = fetched(sets);
   }
 
-  // To each rank its part of a list of the file; throws what goes wrong on all ranks.
+  // Sends each rank its part of a list of the file (scatterv); throws errors on all ranks.
   template <class T, class Read>
   std::vector<T> dealt(const std::vector<std::int64_t>& counts, const Read& read) const {
     OnRoot on_root(communicator_);
@@ -205,7 +205,7 @@ MeshSlice elements_around_slice(const MeshFile* file, const MeshLayout& layout, 
 }
 
 MeshLayout broadcast_layout(const MeshLayout& layout, const Communicator& communicator) {
-  std::vector<std::string> names;  // blocks and their types, then sets
+  std::vector<std::string> names;  // of blocks, their types, then sets
   std::vector<std::int64_t> numbers{layout.nodes, layout.elements, std::ssize(layout.blocks)};
   for (const MeshLayout::Block& block : layout.blocks) {
     names.insert(names.end(), {block.name, block.type});

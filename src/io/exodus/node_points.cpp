@@ -1,4 +1,4 @@
-// The nodes of a mesh become material points, with the parts of the elements around them.
+// Makes material points from the nodes of a mesh, with parts of the elements around them.
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -14,13 +14,13 @@ namespace strut::io {
 
 namespace {
 
-// What the elements around a node leave at it, in the order of the file.
+// Sums of the elements around a node, in the order of the file.
 struct Share {
-  double volume = 0;  // m³, the node's parts
+  double volume = 0;  // m³, the node's parts of the elements
   double around = 0;  // m³, of the whole elements
   int elements = 0;
-  int block = -1;                             // of the first of them
-  std::vector<std::pair<int, double>> taken;  // m³, of elements of other blocks
+  int block = -1;                             // block of the first of them
+  std::vector<std::pair<int, double>> taken;  // m³, from elements of other blocks
 };
 
 class Shares {
@@ -40,7 +40,7 @@ class Shares {
  private:
   template <std::size_t size, class Parts>
   void add_block(int index, const Parts& parts_of) {
-    // A cube around each node: as many hexahedra as nodes fill a body, but six times as many tetrahedra.
+    // A cube around each node: in a body there are as many hexahedra as nodes, but six times as many tetrahedra.
     constexpr double cells = size == 4 ? 6 : 1;
     const Mesh::Block& block = mesh_.blocks[index];
     for (std::size_t e = 0; e < block.elements(); ++e) {
@@ -63,10 +63,10 @@ class Shares {
   const Mesh& mesh_;
   const std::string& file_;
   std::vector<Share> shares_;
-  std::size_t elements_ = 0;  // so far
+  std::size_t elements_ = 0;  // processed so far
 };
 
-// What of the elements around each node belongs to it, and which elements these are.
+// The cell of each node, made of parts of the elements around it, and the numbers of these elements.
 class Cells {
  public:
   Cells(const MeshSlice& slice, const std::vector<Mirror>& planes)
@@ -91,7 +91,7 @@ class Cells {
     }
   }
 
-  // The volume of the pieces: on distorted elements not quite the point's, which is ∫N dV.
+  // The volume of the parts; for distorted elements it differs slightly from the point's volume ∫N dV.
   double volume(std::size_t node) const { return integrals_[node].volume; }
 
   void give(std::size_t node, PointCloud& cloud) {
@@ -122,7 +122,7 @@ class Cells {
   std::vector<Vector> surface_;
   std::vector<Tensor> surface_moments_;
   std::vector<std::vector<std::int64_t>> joints_;
-  std::size_t elements_ = 0;  // so far
+  std::size_t elements_ = 0;  // processed so far
 };
 
 void check_parts(double volume, std::int64_t number, const std::string& file) {

@@ -1,4 +1,4 @@
-// Numbers for named blocks and sets, as Exodus wants both.
+// Numbers for named blocks and sets, because Exodus needs both.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace strut::io {
 
-// A reader calls the nameless block 7 "block_7". Where all names are of that kind and distinct, the numbers they carry;
-// else 1, 2, …
+// A reader calls the unnamed block 7 "block_7". If all names are of this form and distinct, returns their numbers; else
+// 1, 2, …
 std::vector<std::int64_t> numbers_of(const std::vector<std::string>& names, const std::string& prefix);
 
 }  // namespace strut::io

@@ -1,4 +1,4 @@
-// A finished result, whole, for comparison.
+// Reads a finished result completely, for comparison.
 #include "base/errors.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/exodus/exodus_file.hpp"

@@ -12,12 +12,12 @@ namespace strut::io {
 
 namespace {
 
-// Outward by the right hand. The nodes of Exodus' sides.
+// The nodes of Exodus' sides, outward by the right-hand rule.
 constexpr int hexahedron_sides[6][4] = {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6},
                                         {0, 4, 7, 3}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 constexpr int tetrahedron_sides[4][4] = {{0, 1, 3, -1}, {1, 2, 3, -1}, {0, 3, 2, -1}, {0, 2, 1, -1}};
 
-// A side of an element, to be found again from the other one: by its nodes in ascending order.
+// A side of an element, with its nodes in ascending order as a key to find the other element that has it.
 struct Side {
   std::array<int, 4> key;
   std::int64_t element;
@@ -48,8 +48,8 @@ std::vector<Side> sides_of(const Mesh& mesh) {
   return sides;
 }
 
-// Half the product of the diagonals is ∫ n dA of the bilinear face, plane or not; of a triangle the fourth node is the
-// first.
+// Half the cross product of the diagonals is ∫ n dA of the bilinear face, plane or not; for a triangle the first node
+// counts as the fourth.
 Face face_of(const Mesh& mesh, const Side& side) {
   Face face{{-1, -1, -1, -1}, side.element, Vector::Zero()};
   for (int n = 0; n < 4; ++n) face.nodes[n] = side.side[n] < 0 ? -1 : side.nodes[side.side[n]];
@@ -58,9 +58,9 @@ Face face_of(const Mesh& mesh, const Side& side) {
   return face;
 }
 
-// Sides of the same nodes, one after the other.
+// Consecutive sides with the same nodes.
 struct Group {
-  std::size_t first;  // of the sorted sides
+  std::size_t first;  // index in the sorted sides
   std::int64_t count;
 };
 
@@ -75,13 +75,13 @@ std::vector<Group> groups_of(std::vector<Side>& sides) {
   return groups;
 }
 
-// A group as other ranks see it.
+// A group in the form in which it is sent to other ranks.
 struct Count {
-  std::array<int, 4> key;  // places of nodes in the file
+  std::array<int, 4> key;  // indices of nodes in the file
   int count;
 };
 
-// Of equal keys the sum, for all of them.
+// For each entry, the sum over all entries with the same key.
 std::vector<int> sums_of_equals(const std::vector<Count>& counts) {
   std::vector<std::size_t> order(counts.size());
   std::iota(order.begin(), order.end(), 0);
@@ -97,7 +97,7 @@ std::vector<int> sums_of_equals(const std::vector<Count>& counts) {
   return sums;
 }
 
-// Collective. The counts are those over all ranks then: the rank whose slice of nodes has a side's last one adds up.
+// Collective. Makes the counts those over all ranks: the rank whose slice has the last node of a side adds them up.
 void add_up(const MeshSlice& slice, const Communicator& communicator, const std::vector<Side>& sides,
             std::vector<Group>& groups) {
   const auto owner = [&](const Group& group) {

@@ -1,4 +1,4 @@
-// The surface of a mesh: the faces that one element alone has.
+// The surface of a mesh: the faces that belong to only one element.
 #pragma once
 
 #include <span>
@@ -16,15 +16,15 @@ struct Face {
 
   std::span<const int> corners() const { return {nodes, nodes[3] < 0 ? 3u : 4u}; }
   Vector middle(const Mesh& mesh) const;  // the mean of the corners
-  // The mean of corner number c, the middles of the edges beside it and the middle of the face: of the corner's part.
+  // The mean of corner c, the middles of its two edges and the middle of the face: the center of the corner's part.
   Vector middle_at(const Mesh& mesh, std::size_t c) const;
 };
 
-// Whether it lies on one of the planes: there the body goes on.
+// True if it lies on one of the planes, where the body continues.
 bool is_on(const std::vector<Mirror>& planes, const Face& face, const Mesh& mesh);
 
-// Of hexahedra and tetrahedra, in an order that depends on the mesh alone: of the elements here, as if there were no
-// others; and, collective, those of the whole mesh that belong to elements here.
+// The surface faces of hexahedra and tetrahedra, in an order that depends only on the mesh: of the elements here, as if
+// there were no others; and, collective, those of the whole mesh that belong to elements here.
 std::vector<Face> surface_of(const Mesh& mesh);
 std::vector<Face> surface_of(const MeshSlice& slice, const Communicator& communicator);
 

@@ -11,7 +11,7 @@ namespace strut::io {
 
 namespace {
 
-// Numbers on disk have 32 bits.
+// Integers on disk have 32 bits.
 void check_count(const std::array<int, 3>& points) {
   const double count = static_cast<double>(points[0]) * points[1] * points[2];
   if (count < std::numeric_limits<int>::max()) return;
@@ -19,13 +19,13 @@ void check_count(const std::array<int, 3>& points) {
               " points; expected less than 2147483647");
 }
 
-// Where the cell of a number is, x fastest.
+// The indices of the cell with a number, x fastest.
 std::array<int, 3> place_of(std::int64_t number, const std::array<int, 3>& points) {
   const std::int64_t row = number / points[0];
   return {static_cast<int>(number % points[0]), static_cast<int>(row % points[1]), static_cast<int>(row / points[1])};
 }
 
-// The cells from number `begin` to before `end`.
+// The cells from number `begin` up to `end`.
 PointCloud part_of_grid(const Vector& origin, const Vector& cell, const std::array<int, 3>& points, std::int64_t begin,
                         std::int64_t end) {
   PointCloud cloud;
@@ -43,7 +43,7 @@ PointCloud part_of_grid(const Vector& origin, const Vector& cell, const std::arr
   return cloud;
 }
 
-// Whether the face of a cell around X at X[axis] ± half of an edge is on one of the planes.
+// True if the face of a cell around X at X[axis] ± half an edge is on one of the planes.
 bool is_on(const std::vector<Mirror>& planes, const Vector& X, int axis, double half) {
   const Vector middle = X + half * Vector::Unit(axis);
   return std::ranges::any_of(planes, [&](const Mirror& plane) {
@@ -51,7 +51,7 @@ bool is_on(const std::vector<Mirror>& planes, const Vector& X, int axis, double 
   });
 }
 
-// The part of the box's surface that cell `at` of so many along each axis, around X, has.
+// Sets the part of the box's surface in the cell with the indices `at`, whose center is X.
 void set_surface(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell, const Vector& X,
                  const std::vector<Mirror>& planes, CellShape& shape) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,4 +1,4 @@
-// The header of a classic netCDF file (CDF-1, 2 and 5), all numbers big-endian:
+// Parses the header of a classic netCDF file (CDF-1, 2 and 5), all numbers big-endian:
 //   magic numrecs dims global-attributes variables;  dims: tag count (name length)…
 //   attributes: tag count (name type count values)…; variables: tag count (name rank dim-ids attributes type size
 //   begin)…
@@ -15,10 +15,10 @@ namespace strut::io {
 
 namespace {
 
-constexpr std::int64_t streaming = 0xffffffff;  // number of records left open by a writer that cannot seek
+constexpr std::int64_t streaming = 0xffffffff;  // number of records if the writer could not seek
 
 struct Variable {
-  bool record = false;  // one of its entries per record
+  bool record = false;  // it has an entry per record
   std::int64_t size = 0;
   std::int64_t begin = 0;
 };
@@ -27,7 +27,7 @@ class Header {
  public:
   Header(std::ifstream& file, std::int64_t file_size) : file_(file), file_size_(file_size) {}
 
-  // What the header says the file's size is, with so many records at the most.
+  // The file size that the header implies, with at most `most_records` records.
   std::int64_t promised_size(std::int64_t most_records) {
     const char version = magic();
     count_bytes_ = version == 5 ? 8 : 4;
@@ -56,9 +56,9 @@ class Header {
     return value;
   }
 
-  // Lists say how long they are; none can be longer than the file.
+  // Lists give their length; none can exceed the file.
   std::int64_t list_length() {
-    number(4);  // the tag: which list
+    number(4);  // the tag of the list
     return plausible(count());
   }
 
@@ -105,7 +105,7 @@ class Header {
   Variable read_variable() {
     Variable variable;
     skip(count());
-    double entries = 1;  // of one record; as a real number, which cannot overflow
+    double entries = 1;  // of one record; a double cannot overflow
     const std::int64_t rank = plausible(count());
     for (std::int64_t axis = 0; axis < rank; ++axis) {
       const std::int64_t dimension = count();
@@ -118,12 +118,12 @@ class Header {
     const double size = entries * type_size(number(4));
     if (size > 1e15) throw Error("its header is malformed");
     variable.size = static_cast<std::int64_t>(size);
-    number(count_bytes_);  // the size as stored, which wraps around for large variables
+    number(count_bytes_);  // the stored size, which wraps around for large variables
     variable.begin = number(offset_bytes_);
     return variable;
   }
 
-  // Unwritten padding at the end is no loss, so sizes are not rounded up where the file may end.
+  // Unwritten padding at the end is no loss, so sizes are not rounded up at the possible end of the file.
   std::int64_t size_of(const std::vector<Variable>& variables) const {
     const auto padded = [](std::int64_t size) { return (size + 3) / 4 * 4; };
     std::int64_t record_size = 0;
@@ -168,13 +168,13 @@ std::string classic_netcdf_problem(const std::filesystem::path& path, std::int64
   }
 }
 
-// The number stands after the magic one, in four bytes (eight in CDF-5), the highest first.
+// The number of records follows the magic number, in four bytes (eight in CDF-5), big-endian.
 void keep_records(const std::filesystem::path& path, int count) {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   char magic[4] = {};
   file.read(magic, 4);
   if (std::string(magic, 3) != "CDF") throw Error(path.string() + ": cannot cut it: it is no classic netCDF file");
-  file.seekp(4);  // the standard wants a seek between reading and writing
+  file.seekp(4);  // the standard requires a seek between reading and writing
   for (int byte = (magic[3] == 5 ? 8 : 4) - 1; byte >= 0; --byte) {
     file.put(static_cast<char>(byte < 4 ? static_cast<unsigned>(count) >> 8 * byte & 0xff : 0));
   }

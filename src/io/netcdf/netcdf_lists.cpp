@@ -9,7 +9,7 @@
 
 namespace strut::io {
 
-static_assert(sizeof(long long) == sizeof(std::int64_t));  // the library's name for it
+static_assert(sizeof(long long) == sizeof(std::int64_t));  // the library's type
 
 NetcdfLists::NetcdfLists(std::filesystem::path path) : path_(std::move(path)) {}
 
@@ -35,7 +35,7 @@ NetcdfLists::NetcdfLists(NetcdfLists&& other) noexcept
 
 void NetcdfLists::close() { check(nc_close(std::exchange(handle_, -1)), "close it"); }
 
-// Positive codes are the system's.
+// Positive codes are those of the system.
 void NetcdfLists::check(int code, const std::string& doing) const {
   if (code == NC_NOERR) return;
   throw Error(path_.string() + ": cannot " + doing + ": " + (code > 0 ? std::strerror(code) : nc_strerror(code)));
@@ -58,7 +58,7 @@ void NetcdfLists::put(const std::string& name, const std::string& text) const {
 }
 
 void NetcdfLists::define(const std::string& name, Of kind, std::size_t size) const {
-  if (size == 0) return;  // would mean one that grows
+  if (size == 0) return;  // size 0 would mean unlimited
   int dimension = 0, variable = 0;
   check(nc_def_dim(handle_, ("of_" + name).c_str(), size, &dimension), "define '" + name + "'");
   const nc_type type = kind == Of::reals ? NC_DOUBLE : NC_INT64;

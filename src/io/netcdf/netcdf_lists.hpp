@@ -1,4 +1,4 @@
-// A netCDF file that holds numbers, texts and lists of numbers by name. Serial.
+// A netCDF file with named numbers, texts and lists of numbers. Serial.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 
 namespace strut::io {
 
-// Of the classic model with 64-bit sizes: plain, and whole or recognizably not. Every call throws Error with the file,
-// what was being done and the cause. A list of no values is not in the file, and comes back as one.
+// Uses the classic model with 64-bit sizes: it is simple, and incomplete files can be recognized. Every call throws
+// Error with the file, the operation and the cause. An empty list is not stored, and reads back as empty.
 class NetcdfLists {
  public:
   static NetcdfLists create(const std::filesystem::path& path);
-  // `path`: whole (classic_netcdf.hpp) and not HDF5, which the library might not survive.
+  // `path`: complete (classic_netcdf.hpp) and not HDF5, on which the library might crash.
   static NetcdfLists open(const std::filesystem::path& path);
   ~NetcdfLists();
   NetcdfLists(NetcdfLists&& other) noexcept;
@@ -33,11 +33,11 @@ class NetcdfLists {
   double number(const std::string& name) const;
   std::string text(const std::string& name) const;
   std::vector<double> reals(const std::string& name) const;
-  // As many as there is room for, from number `begin` on.
+  // Fills the span with values from number `begin` on.
   void get(const std::string& name, std::span<double> values, std::int64_t begin) const;
   void get(const std::string& name, std::span<std::int64_t> values, std::int64_t begin) const;
   bool has_number(const std::string& name) const;
-  std::size_t size(const std::string& name) const;  // of a list; 0 where there is none
+  std::size_t size(const std::string& name) const;  // of a list; 0 if there is none
   int lists() const;
 
  private:

@@ -17,13 +17,13 @@ namespace {
 
 bool trial_reads = true;
 
-// Of the processor, s: ten times what the slowest compressed file took.
+// Limit of processor time, s: ten times that of the slowest compressed file.
 rlim_t patience(const std::filesystem::path& file) {
   std::error_code ignored;
   return 10 + std::filesystem::file_size(file, ignored) / 10'000'000;
 }
 
-// In the copy: no words of the library, no core, no end without end, and no signal handler of this program or of MPI.
+// In the child process: no output of the library, no core dump, a time limit, and no signal handlers of ours or of MPI.
 void prepare(const std::filesystem::path& file) {
   const int nowhere = ::open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
@@ -34,7 +34,7 @@ void prepare(const std::filesystem::path& file) {
   for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) signal(fatal, SIG_DFL);
 }
 
-// What is thrown goes to the other process as text.
+// Reads the file; sends an exception to the parent process as text.
 [[noreturn]] void perform(const std::filesystem::path& file, const std::function<void()>& read, int pipe) {
   prepare(file);
   std::string problem;

@@ -1,5 +1,5 @@
-// Reading files that the library may not survive. HDF5 does not check all that it finds in a damaged file: it may write
-// where it must not. So a copy of this process reads the file first; only where it comes through does this one.
+// Reads files that may crash the library. HDF5 does not check everything in a damaged file and may write to invalid
+// memory. So a child process reads the file first, and this process only if that succeeds.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace strut::io {
 
-// For HDF5 files only; others are checked otherwise (classic_netcdf.hpp). Throws Error where the copy crashes, does not
-// end or throws: the library, which leaves a damaged file open, never sees it in this process.
+// For HDF5 files only; others are checked directly (classic_netcdf.hpp). Throws Error if the child process crashes,
+// does not end or throws: the library, which leaves damaged files open, never opens such a file in this process.
 void try_in_child_process(const std::filesystem::path& file, const std::function<void()>& read);
 
 template <class Read>
@@ -17,7 +17,7 @@ auto read_after_trial(const std::filesystem::path& file, const Read& read) {
   return read();
 }
 
-// From now on, of this process: false where nothing may be forked (some networks under MPI); files are then trusted.
+// For this process from now on: false where fork is not possible (some networks under MPI); files are then trusted.
 void set_trial_reads(bool wanted);
 
 bool is_hdf5(const std::filesystem::path& file);

@@ -55,7 +55,7 @@ void copy_attributes(const Handle& from, int of, int count, const Handle& to) {
   }
 }
 
-// Numbers of dimensions and variables stay as they are.
+// Copies the header; the numbers of dimensions and variables stay the same.
 void copy_header(const Handle& from, const Handle& to) {
   int dimensions = 0, variables = 0, attributes = 0, unlimited = -1;
   from.check(nc_inq(from.number, &dimensions, &variables, &attributes, &unlimited));
@@ -78,8 +78,8 @@ void copy_header(const Handle& from, const Handle& to) {
 
 }  // namespace
 
-// The file stays the one that it is: the run has locked it. The wide header is made in memory, so that no second file
-// is left behind by a run that is killed here.
+// The file keeps its identity, because the run has locked it. The wide header is made in memory, so that a run killed
+// here leaves no second file behind.
 void widen(const fs::path& path) {
   Handle from(path), to(path);
   from.opened(nc_open(path.c_str(), NC_NOWRITE, &from.number));

@@ -72,7 +72,7 @@ void HistoryFile::go_on(const std::string& header, double sum) {
   if (failure || !file_) throw Error(path_.string() + ": cannot go on with it: " + std::strerror(errno));
 }
 
-// The rows that are kept.
+// Reads the rows that are kept.
 void HistoryFile::take(std::istream& file) {
   std::string portion(std::size_t{1} << 16, '\0');
   for (std::int64_t left = bytes_; left > 0 && file; left -= std::ssize(portion)) {

@@ -1,5 +1,5 @@
-// Totals over time, a line a row: CSV, numbers with all their digits, so that two runs can be compared. The first line
-// begins with # and has version, build and the units of the columns; the second one has their names.
+// The history: totals over time, one row per line, as CSV with all digits, so that two runs can be compared. The first
+// line begins with # and gives version, build and units of the columns; the second one gives their names.
 #pragma once
 
 #include <cstdint>
@@ -17,28 +17,28 @@
 namespace strut::io {
 
 struct HistoryColumn {
-  std::string name, unit;  // "1" for none
+  std::string name, unit;  // "1" if it has none
 };
 
-// Why this cannot be the name of a column; "" where it can.
+// The reason why this cannot be the name of a column; "" if it can.
 std::string history_name_problem(const std::string& name);
 
 // Collective; rank 0 writes.
 class HistoryFile {
  public:
-  // Replaces a file of that name, or goes on with the first `bytes` of it, whose check sum they must have. Throws Error
-  // on all ranks: the file cannot be created, another run writes to it, a name holds a comma, a quote or a line break;
-  // it is shorter, or has other columns or rows.
+  // Replaces a file of that name, or continues after its first `bytes`, which must have the checksum `sum`. Throws
+  // Error on all ranks if the file cannot be created, if another run writes to it, if a name contains a comma, a quote
+  // or a line break, or if the file is shorter or has other columns or rows.
   HistoryFile(const std::filesystem::path& path, const Communicator& communicator,
               const std::vector<HistoryColumn>& columns, std::int64_t bytes = 0, double sum = 0);
 
-  // Rank 0's row is written and flushed; the others' rows only have to be there. Throws Error on all ranks: the row has
-  // not one value per column, the disk is full.
+  // Writes and flushes rank 0's row; the other ranks' rows are ignored. Throws Error on all ranks if the row does not
+  // have one value per column, or if the disk is full.
   void write(std::span<const double> row);
 
-  std::int64_t bytes() const { return bytes_; }  // so far, on rank 0
-  double sum() const { return sum_.value(); }    // the check sum of them
-  void sync() const;                             // collective: they are on the disk
+  std::int64_t bytes() const { return bytes_; }  // written so far, on rank 0
+  double sum() const { return sum_.value(); }    // their checksum
+  void sync() const;                             // collective: forces the rows to the disk
 
  private:
   void begin(const std::string& units, const std::string& header);

@@ -22,13 +22,13 @@ struct Line {
   double volume = 0;
 };
 
-// A number that fills the word: "1.0e-3", but neither "1,5" nor "nan".
+// True if the whole word is a finite number: "1.0e-3", but neither "1,5" nor "nan".
 bool read_number(const std::string& word, double& value) {
   std::istringstream stream(word);
   return stream >> value && stream.eof() && std::isfinite(value);
 }
 
-// What is wrong with the line, or "".
+// Parses a line; returns the error, or "".
 std::string parse(const std::string& text, Line& line) {
   std::istringstream stream(text);
   std::vector<std::string> words;
@@ -46,7 +46,7 @@ std::string parse(const std::string& text, Line& line) {
   return "";
 }
 
-// The points of a file, one after the other.
+// The points of a file, read in order.
 class TextFile {
  public:
   explicit TextFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -55,7 +55,7 @@ class TextFile {
     if (!file_) throw Error(path_.string() + ": cannot open it: no such file, or it may not be read");
   }
 
-  // The next ones, so many at the most; none at the end.
+  // The next points, `most` at most; empty at the end.
   std::vector<Line> next(std::size_t most) {
     std::vector<Line> lines;
     std::string text;
@@ -77,13 +77,13 @@ class TextFile {
   std::size_t number_ = 0;  // of the line
 };
 
-// Some of the points, in the order of the lines.
+// A rank's part of the points, in the order of the lines.
 struct Part {
   std::vector<std::int64_t> ids;
   std::vector<Line> lines;
 };
 
-// Collective. Portions, to the ranks in turn: how many there are is not known yet.
+// Collective. Sends portions to the ranks in turn, because the number of points is not known yet.
 Part dealt(const std::filesystem::path& path, const Communicator& communicator) {
   std::optional<TextFile> file;
   run_on_root(communicator, [&] { file.emplace(path); });
@@ -111,7 +111,7 @@ Part dealt(const std::filesystem::path& path, const Communicator& communicator) 
   return mine;
 }
 
-// Collective. The numbers of the blocks, ascending.
+// Collective. The numbers of the blocks over all ranks, ascending.
 std::vector<int> block_numbers(const std::vector<Line>& lines, const Communicator& communicator) {
   std::set<int> found;
   for (const Line& line : lines) found.insert(line.block);
@@ -125,7 +125,7 @@ std::vector<int> block_numbers(const std::vector<Line>& lines, const Communicato
 
 }  // namespace
 
-// Blocks in the order of their numbers, points in the order of the lines.
+// Blocks are in the order of their numbers, points in the order of the lines.
 PointCloud read_text(const std::filesystem::path& file, const Communicator& communicator) {
   const Part part = dealt(file, communicator);
   const Slices slices(communicator, part.ids);
