@@ -76,10 +76,12 @@ def edge_of(places, volumes):
 def spacing_of(places, volumes):
     """Of points, along each axis, and the volume of each; None where bumps of one width do not join them."""
     edge = edge_of(places, volumes)
-    layers = [np.diff(np.unique(np.round(x / edge, 2))) for x in places.T]
-    least = np.array([gaps.min() if len(gaps) else np.nan for gaps in layers])
+    gaps = [np.diff(np.sort(x)) / edge for x in places.T]
+    least = np.array([np.min(between[between > 0.02], initial=np.inf) for between in gaps])
+    least[np.isinf(least)] = np.nan
     least[np.isnan(least)] = np.nanprod(least)**(-1 / max(1, np.isnan(least).sum()))  # a single layer is as thick as the volume is
-    if abs(least.prod() - 1) < 0.2:  # a lattice
+    steps = (places - places.min(axis=0)) / (least * edge)
+    if abs(least.prod() - 1) < 0.2 and np.abs(steps - np.rint(steps)).max() < 0.1:  # a lattice
         return least * edge
     apart = cKDTree(places).query(places, 2)[0][:, 1] if len(places) > 1 else np.array([edge])
     cell = max(np.median(apart), np.cbrt(np.quantile(volumes, 0.98))) if volumes is not None else np.median(apart)
@@ -87,7 +89,7 @@ def spacing_of(places, volumes):
 
 
 def surface_of(places, volumes, points):
-    """The surface of one block; points are their numbers in the result."""
+    """The surface of a block; points are their numbers in the result."""
     spacing = spacing_of(places, volumes)
     size = None if spacing is None else np.ptp(places / spacing, axis=0) + 4
     if size is None or size.prod() > MOST:
@@ -96,11 +98,13 @@ def surface_of(places, volumes, points):
     origin, edge = places.min(axis=0) - 2 * spacing, spacing / fine
     fills = np.ones(len(places)) if volumes is None else np.minimum(volumes / spacing.prod(), 1)
     # A row of points, a spacing apart, has the volume of its points within the level 1.
-    height, at, size = np.exp(fills / (np.pi * BUMP**2)) / (np.sqrt(np.pi) * BUMP), (places - origin) / edge, np.ceil(size * fine).astype(int)
+    height, at = np.exp(fills / (np.pi * BUMP**2)) / (np.sqrt(np.pi) * BUMP), (places - origin) / edge
+    size = np.ceil(size * fine).astype(int)
     here = sum_of_bumps(at, height, size, fine)[tuple(at.astype(int).T)]
     total = sum_of_bumps(at, height / np.maximum(1, here / INSIDE), size, fine)
     inside = total.size - int(np.clip(fills.sum() * fine**3, 1, total.size))
-    corners, quads = contour(total, np.clip(np.partition(total, inside, axis=None)[inside], *LEVELS))
+    level = np.clip(np.partition(total, inside, axis=None)[inside], *LEVELS)
+    corners, quads = contour(total, min(level, 0.9 * total.max()))  # a small piece alone is drawn, too
     corners = origin + (corners + 0.5) * edge
     tree = cKDTree(places / spacing)
     apart, near = (found.reshape(len(corners), -1) for found in tree.query(corners / spacing, min(NEAR, len(places))))

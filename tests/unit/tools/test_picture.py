@@ -391,6 +391,13 @@ class Surfaces(unittest.TestCase):
             self.assertEqual(pieces_of(found), 1)
             self.assert_closed(found)
 
+    def test_a_point_alone_is_drawn_however_little_of_its_cell_is_filled(self):
+        for fill in (0.01, 0.5, 1):
+            found = surface.surface_of(box(1, 1, 1), np.array([fill * H**3]), np.array([0]))
+            self.assertGreater(len(found.quads), 0)
+        far = np.concatenate([box(2, 1, 1), box(1, 1, 1, (9 * H, 0, 0))])
+        self.assertEqual(pieces_of(surface.surface_of(far, np.full(3, H**3), np.arange(3))), 2)
+
     def test_cells_that_are_longer_along_one_axis_are_one_body(self):
         places, volumes = box(6, 6, 6) * [1, 1, 2.5], np.full(216, 2.5 * H**3)
         found = surface.surface_of(places, volumes, np.arange(216))
