@@ -49,7 +49,7 @@ class Canvas:
         self.s, self.t = np.zeros(count, np.float32), np.zeros(count, np.float32)
 
     def put(self, pixel, near, quad, s, t):
-        """Of several samples in one pixel the last is stored: repeats until none is nearer than the stored one."""
+        """If several samples share a pixel the last one is stored: repeats until none is nearer than the stored one."""
         while len(pixel := pixel[wins := near > self.near[pixel]]):
             near, quad, s, t = near[wins], quad[wins], s[wins], t[wins]
             self.near[pixel], self.quad[pixel], self.s[pixel], self.t[pixel] = near, quad, s, t
