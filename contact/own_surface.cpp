@@ -18,12 +18,12 @@ namespace strut::contact {
 namespace {
 
 // Lengths are in spacings of the point's own body.
-constexpr double least_area = 0.1;  // of a cell: below it the surface has no direction
-constexpr double smooth = 0.2;      // largest spread of a cell's surface along its normals for a plane
-constexpr double rim = 0.55;        // spread from which a cell contains an edge of the body
-constexpr double around = 1.6;      // radius in which surface pieces give the curvature
-constexpr double alike = 0.1;       // least cosine between the normals of these pieces
-constexpr double sharpest = 0.5;    // largest mean curvature, that of a strut of two cells
+constexpr double least_area = 0.1;     // of a cell: below it the surface has no direction
+constexpr double smooth = 0.2;         // largest spread of a cell's surface along its normals for a plane
+constexpr double rim = 0.55;           // spread from which a cell contains an edge of the body
+constexpr double around = 1.6;         // radius in which surface pieces give the curvature
+constexpr double alike = 0.1;          // least cosine between the normals of these pieces
+constexpr double sharpest = 0.5;       // largest mean curvature, that of a strut of two cells
 constexpr double planes_within = 1.8;  // radius in which a point uses surface planes
 constexpr double deepest = 0.8;        // largest depth of a point without surface of its own that still touches
 

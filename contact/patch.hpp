@@ -17,7 +17,7 @@ struct Patch {
   Tensor per_couple = Tensor::Zero();  // rotation θ per couple: points get the forces weight θ × (position − middle)
   double smallest = 0;                 // smallest moment of its points about any axis, weight m²
   bool turns = false;                  // about any axis: its points are not in one line
-  Vector row = Vector::Zero();  // unit vector along the line; zero if the patch turns, or is like one point
+  Vector row = Vector::Zero();         // unit vector along the line; zero if the patch turns, or is like one point
 };
 
 // Sums over the points of a patch; positions are relative to one near them, m.

@@ -32,10 +32,10 @@ using BrokenCounts = std::vector<std::size_t>;
 
 // Points with partners, then the partners on other ranks. Both ends of a pair list each other.
 struct Pairs {
-  std::vector<int> owned;         // local indices in the body, ascending
-  std::vector<Site> sites;        // owned ones, then the others: positions at the search or the last exchange
-  std::vector<double> masses;     // kg
-  std::vector<std::int64_t> ids;  // of the sites' points, the others' ascending
+  std::vector<int> owned;             // local indices in the body, ascending
+  std::vector<Site> sites;            // owned ones, then the others: positions at the search or the last exchange
+  std::vector<double> masses;         // kg
+  std::vector<std::int64_t> ids;      // of the sites' points, the others' ascending
   std::vector<std::size_t> start{0};  // partners of owned[k]: partners[start[k]] … partners[start[k + 1] − 1],
   std::vector<int> partners;          // indices into sites, ordered by global id
   bool one_body = false;              // as in BlockPair

@@ -66,7 +66,7 @@ std::string range(double least, double most) { return as_duration(least) + " to 
 
 std::string check_steps(const deck::Deck& deck, Scene& scene) {
   constexpr double most =
-      2;  // factor if the step shrinks by deformation, points touch and are subcycled
+      2;  // factor on the time if the step shrinks by deformation, and points touch and are subcycled
   CentralDifference solver(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                            deck.solver.initial_time, std::move(scene.fracture));
   const double limit = solver.critical_time_step();

@@ -167,7 +167,7 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   say(communicator, describe_scene(scene, advice(deck, scene)));
   std::optional<OutputWriters> writers;
   writers.emplace(
-      deck, output_variables_of(deck, scene.body, scene.contact));  // checks all names before a file is replaced
+      deck, output_variables_of(deck, scene.body, scene.contact));  // all names are checked before any file is replaced
   Balance balance(deck);
   if (scene.quasi_static) {
     QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,

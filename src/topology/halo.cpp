@@ -50,7 +50,7 @@ std::vector<int> places_of(const Ids& wanted, std::span<const std::int64_t> owne
 
 struct Halo::Plan {
   Teuchos::RCP<Tpetra::Distributor> distributor;  // null if there is only one rank
-  std::vector<int> sent, receivers, received;  // local indices; ranks that `sent` go to; in the order of ranks
+  std::vector<int> sent, receivers, received;     // local indices; ranks that `sent` go to; in the order of ranks
   Buffer outgoing, incoming;
   std::vector<ImagePoint> images;
 };

@@ -28,7 +28,7 @@ struct BlockRows {
   std::vector<std::int64_t> columns;  // global point numbers, as counted by Krylov::first()
   std::vector<Eigen::Matrix3d> blocks;
   std::vector<Eigen::Matrix3d>
-      elsewhere;  // of each row: springs to points of other ranks, for factors on each rank
+      elsewhere;  // of each row: stiffness of the springs to points of other ranks, for factors on each rank
 };
 
 class Krylov {

@@ -99,9 +99,9 @@ class ConsistencyCorrection {
 
   Body& body_;
   QuadraticFits& fits_;
-  std::vector<int> points_;               // owned, by quadratic correspondence
-  std::vector<Vector> missing_;           // −r, of owned points, m²
-  std::vector<Matrix10> moments_;         // inverse moments of (ξ, q, 1) over the family and the point, of owned points
+  std::vector<int> points_;        // owned, by quadratic correspondence
+  std::vector<Vector> missing_;    // −r, of owned points, m²
+  std::vector<Matrix10> moments_;  // inverse moments of (ξ, q, 1) over the family and the point, of owned points
   std::vector<double> diagonal_, ridge_;  // a bound of K's diagonal; the regularization, m⁹
   std::vector<Share> shares_;             // of owned points and ghosts
   std::vector<Vector> image_;             // K μ, of owned points
