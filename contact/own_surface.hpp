@@ -13,14 +13,14 @@
 
 namespace strut::contact {
 
-// Numbers of the points of two blocks, in the order of BlockPair::points.
+// Values for the points of two blocks, in the order of BlockPair::points.
 struct OwnSurface {
-  std::vector<double> depths;   // m; that of a half cell where the mesh tells nothing
+  std::vector<double> depths;   // m; half a cell if the mesh has no surfaces
   std::vector<double> volumes;  // in ρ, m³
-  std::vector<char> may_touch;  // the body's surface is the point's
+  std::vector<char> may_touch;  // the point is at the surface of the body
 };
 
-// Collective. In the reference state. `reach`: from how far points see the other body, m.
+// Collective. In the reference state. `reach`: largest distance at which points see the other body, m.
 OwnSurface own_surface(const Domain& domain, const BlockPair& blocks, double reach);
 
 }  // namespace strut::contact

@@ -49,7 +49,7 @@ struct StepOf {
   T dt;                    // s
   T J;                     // det F at the end of the step
   SymmetricOf<T> stretch;  // U at the end of the step; F = U in the unrotated frame
-  T viscous_work{};        // of the artificial viscosity in this step, J per m³ of reference volume: it heats the point
+  T viscous_work{};  // of the artificial viscosity in this step, J per m³ of reference volume: it heats the point
 };
 
 template <class T>

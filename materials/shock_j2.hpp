@@ -33,7 +33,7 @@ struct ShockJ2 {
   StressOf<T> step(const StepOf<T>& step, const SymmetricOf<T>& stress, StateOf<T>& state) const {
     StateOf<T> next = state;
     const T grown = growth(step), volume = state.volume * grown, scale = step.J / volume;
-    const T expanded = scale * (volume - state.volume);  // per reference volume, as the forces do
+    const T expanded = scale * (volume - state.volume);                 // per reference volume, as the forces do
     const T cooling = 0.5 * energy_factor() * (volume - state.volume);  // isentropic
     if (metal.heating.capacity > 0) next.temperature *= (1 - cooling) / (1 + cooling);
     StressOf<T> result = metal.step(step, stress, next);

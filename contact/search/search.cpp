@@ -61,7 +61,7 @@ std::vector<int> near_points(const Kinematics& kinematics, const BlockPair& bloc
     const double room = others.isEmpty() ? std::numeric_limits<double>::infinity()
                                          : others.exteriorDistance(kinematics.domain.current(i)) - radius;
     if (room <= skins.of[k] + skins.largest) return false;
-    skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({room / 2, room - skins.largest, 1e30}));  // rounds
+    skins.of[k] = static_cast<float>((1 - 1e-6) * std::min({room / 2, room - skins.largest, 1e30}));  // rounding
     return true;
   });
   return near;

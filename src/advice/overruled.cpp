@@ -28,7 +28,7 @@ struct Held {
   Vector direction;
   double part;  // least component of a tool's normal that counts as held
   std::vector<int> points;
-  bool at_faces = false;  // on a symmetry plane, where cells end: only mirror images may hold their points
+  bool at_faces = false;          // on a symmetry plane, where cells end: only mirror images may hold their points
   Vector plane = Vector::Zero();  // a point on it, m
 };
 

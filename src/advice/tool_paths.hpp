@@ -1,4 +1,4 @@
-// What rigid tools meet on their paths, by these and the initial velocities.
+// Checks of what rigid tools meet on their paths, by these and the initial velocities.
 #pragma once
 
 #include <string>

@@ -31,7 +31,7 @@ struct VelocityUpdate {
   Body& body;
   ReactionImpulses& impulses;
 
-  // Of the condition that is acting now.
+  // The condition that is acting now.
   double Work::*ledger_entry = nullptr;
   int reaction_place = no_reaction;
 

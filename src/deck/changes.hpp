@@ -8,7 +8,7 @@ namespace strut::deck {
 
 struct Changes {
   std::vector<std::string>
-      refused;                     // keys that make it another run: "Materials > m > Density: 2000 before, 1000 now"
+      refused;                     // keys that make it another run, as "Materials > m > Density: 2000 before, 1000 now"
   std::vector<std::string> loads;  // loads that change from now on
   std::vector<std::string> accepted;  // times, steps, output, limits
 };

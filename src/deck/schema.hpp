@@ -49,7 +49,7 @@ struct Key {
   bool required = false;
   std::string meaning = {};
   std::vector<Hint> hints = {};  // about choices
-  std::string no_effect = {};  // reason, for keys that other programs need; reported if the value is not `fallback`
+  std::string no_effect = {};    // reason, for keys that other programs need; reported if the value is not `fallback`
 };
 
 inline const char* const any_name = "(any name)";

@@ -40,7 +40,7 @@ void Fracture::set_limits(const Body& body, double time) {
 
 // Points that failed in the last step: all of their bonds break, and the clusters of both ends are checked.
 void Fracture::take_failed(const Body& body) {
-  std::vector<char> is_new;  // empty while there is none, as in most steps
+  std::vector<char> is_new;  // empty if there are none, as in most steps
   for (std::size_t i = 0; i < limits_.size(); ++i) {
     if (limits_[i] == of_failed || !may_fail_[block_of_[i]]) continue;
     if (!body.force_states.has_failed(i)) continue;
@@ -60,7 +60,7 @@ void Fracture::set_most_steepness(const Body& body) {
     return coincident_images(body.domain, i) * std::pow(body.domain.cloud.spacings[i], 2);
   };
   const auto in_spacings = [&](int i) { return steepness(body, i) * per_steepness(i); };
-  std::vector<double> least;  // of each block, negated
+  std::vector<double> least;  // of each block, with negative sign
   for (const MaterialBlock& block : body.blocks) {
     double most = -never;
     for (const int i : block.points) most = std::max(most, in_spacings(i) > 0 ? -in_spacings(i) : -never);

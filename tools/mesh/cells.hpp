@@ -20,7 +20,7 @@ struct Cells {
   std::vector<io::PartialCell> parts;  // the material of each cell
   std::vector<int> places;             // of each cell in the grid, ascending; several pieces may share one
   std::vector<std::array<int, 2>>
-      contacts;                 // cells whose material has common faces: each pair once, the lower first
+      contacts;                 // cells whose material has common faces: each pair of indices once, the lower one first
   std::size_t merged = 0;       // pieces that became part of a neighbor
   std::size_t small = 0;        // kept below the limit: only they connect their neighbors
   std::size_t dropped = 0;      // pieces that were too small and had no neighbor

@@ -22,7 +22,7 @@ struct ComponentKeys {
 
   Vector of(const Values& values) const { return {values[axes[0]], values[axes[1]], values[axes[2]]}; }
 
-  // Of unit length.
+  // The vector scaled to unit length.
   Vector direction(const Values& values, Problems& problems) const {
     const Vector given = of(values);
     if (!given.isZero(0)) return unit_vector(given);

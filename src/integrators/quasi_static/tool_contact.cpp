@@ -17,7 +17,7 @@ constexpr double penalty_factor = 1;
 constexpr double tangential_share = 0.5;
 
 constexpr double most_penetration = 1e-4;  // spacings
-constexpr double most_softness = 2e-2;     // softness of sticking points, relative to the largest friction
+constexpr double most_softness = 2e-2;     // drag minus multiplier of sticking points, over the largest friction
 
 constexpr double just_touching = 1e-9;  // spacings
 

@@ -1,5 +1,5 @@
-// What an implicit step needs of mechanics besides forces: a copy of the state that it starts from, and the derivative
-// of each point's stress by its deformation gradient.
+// The data that an implicit step needs of mechanics besides forces: a copy of the state that it starts from, and the
+// derivative of each point's stress by its deformation gradient.
 #pragma once
 
 #include <vector>

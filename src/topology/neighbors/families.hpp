@@ -168,7 +168,7 @@ struct Families {
   std::vector<LatticeFamilies> lattices;
   std::vector<int> lattice_of;    // of owned points: index in lattices, −1 for lists; empty without a lattice
   std::vector<char> off_stencil;  // of owned points: has lost bonds of its stencil; empty if no lattice may
-  // Of owned points: the far ends of their broken bonds, local indices. Empty if no bond may break.
+  // The far ends of the broken bonds of each owned point, local indices. Empty if no bond may break.
   std::vector<std::vector<int>> broken;
 
   bool is_off_stencil(int i) const { return !off_stencil.empty() && off_stencil[i]; }
