@@ -110,7 +110,7 @@ std::string overruled_motions(const Situation& situation) {
     const double time = start + duration * k / looks;
     move_on(scene.conditions, body.domain, time, duration / looks, ways);
     for (std::size_t n = 0; n < tools.size(); ++n) {
-      if (!tools[n].free) look(tools[n], static_cast<int>(n), held, body, ways, time, met);
+      look(tools[n], static_cast<int>(n), held, body, ways, time, met);
     }
   }
   const int count = static_cast<int>(deck.conditions.size());
@@ -127,9 +127,9 @@ std::string overruled_motions(const Situation& situation) {
     if (found[n].count == 0) continue;
     text << "WARNING: the tool '" << scene.tools[n / count].name << "' runs into " << found[n].count << " points that '"
          << deck.conditions[n % count].name << "' holds along its normal, one of them at " << place_text(found[n].one)
-         << ", by t = " << -firsts[n]
-         << " s: tools have the last word, so that they do not move as prescribed; expected paths that agree, or a "
-            "Node Set of the tool without these points\n";
+         << ", by t = " << -firsts[n] << " s: tools have the last word, so that they do not move as prescribed"
+         << (tools[n / count].free ? ", and what the tool loses to them depends on the time step" : "")
+         << "; expected paths that agree, or a Node Set of the tool without these points\n";
   }
   return text.str();
 }

@@ -356,6 +356,10 @@ TEST(Tools, ThatRunIntoPointsWhichConditionsHoldAreWarnedOf) {
   EXPECT_EQ(told(motion("xy", "0"), "10*t").find("last word"), std::string::npos) << "held across the normal";
   EXPECT_EQ(told(motion("z", "10"), "10*t").find("last word"), std::string::npos) << "one path";
   EXPECT_EQ(told(motion("xyz", "0"), "0").find("last word"), std::string::npos) << "it stands";
+  const std::string flying_tool =
+      key("Point", "0 0 0") + key("Normal", "0 0 1") + key("Mass", "1e-3") + key("Speed Z", "10");
+  expect_told(told_of_tool("Rigid Plane", flying_tool, motion("xyz", "0"), "1e-5"),
+              {"16 points that 'foot' holds", "what the tool loses to them depends on the time step"});
 }
 
 // A bar of four by four points of ordinary bonds, in whose E a third and more is not the material's.
