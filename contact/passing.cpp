@@ -15,7 +15,8 @@ namespace {
 // Fraction of ρ at the nearest point of the other body. A body that presses on a face stays in front of its first layer
 // of points, where ρ falls by half within half a spacing.
 constexpr double as_deep = 0.95;
-// Of the share half a spacing further in: 0.7 spacings behind a face of nodes, 0.1 within a sheet of one cell.
+// Fraction of ρ half a spacing further in: it is reached 0.7 spacings behind a face of nodes, 0.1 in a sheet of one
+// cell.
 constexpr double as_far_in = 0.9;
 
 using Place = Vector (Domain::*)(int) const;

@@ -65,8 +65,8 @@ std::vector<Seen> at_surfaces(const Domain& domain) {
   return points;
 }
 
-// Whether a point is behind the face of another, a node: straight enough not to be beside it, before an edge or a
-// corner of its body.
+// True if the point lies behind the face at the node `face`: within the cone of this cosine around the inward normal,
+// so that points beside an edge or a corner of that body do not count.
 bool is_behind(const Seen& point, const Seen& face) {
   constexpr double straight = 0.85;  // the cosine; of the corner of a cube it is 0.82 at the most
   const Vector apart = place_of(point) - place_of(face), inward = Vector::Map(face.inward);

@@ -12,6 +12,7 @@
 #include "advice/unheld_bodies.hpp"
 #include "advice/weak_contact.hpp"
 #include "advice/without_effect.hpp"
+#include "mechanics/thin_members.hpp"
 #include "setup/blocks.hpp"
 #include "setup/contact.hpp"
 
@@ -56,7 +57,8 @@ Situation situation_of(const deck::Deck& deck, const Scene& scene) {
                       duration,
                       interactions_of(deck, cloud),
                       mean_spacings(cloud, scene.body.domain.communicator),
-                      trajectories(scene, start, duration)};
+                      trajectories(scene, start, duration),
+                      thicknesses(scene.body.domain)};
   set_surface_laws(scene.body, situation.interactions);
   return situation;
 }

@@ -23,7 +23,7 @@ bool declared(const std::vector<contact::Interaction>& interactions, int a, int 
 }  // namespace
 
 std::string undeclared_contacts(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   const Domain& domain = scene.body.domain;
   std::ostringstream text;
   for (int a = 0; a < static_cast<int>(trajectories.size()); ++a) {

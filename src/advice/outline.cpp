@@ -71,7 +71,7 @@ double mass_of(const Body& body) {
 
 // Largest difference of the velocities of points and tools, m/s.
 double largest_difference(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   const double moment = first_moment * duration;
   Eigen::AlignedBox3d velocities;
   for (const Trajectory& one : trajectories) velocities.extend(one.velocities);

@@ -81,7 +81,7 @@ std::vector<bool> of_whole_cells(const Domain& domain) {
 
 std::string thin_members(const Situation& situation) {
   const Body& body = situation.scene.body;
-  const std::vector<double> all = thicknesses(body.domain);
+  const std::vector<double>& all = situation.members;
   const std::vector<bool> whole = of_whole_cells(body.domain);
   std::ostringstream text;
   text.precision(2);
@@ -132,7 +132,7 @@ std::string narrow_surfaces_of_nodes(const Situation& situation) {
     if (std::holds_alternative<contact::SurfaceLaw>(model.law)) blocks.insert({first, second});
   }
   if (blocks.empty()) return "";
-  const std::vector<double> all = thicknesses(body.domain);
+  const std::vector<double>& all = situation.members;
   std::string names;
   for (const int b : blocks) {
     if (all[b] > 0 && all[b] <= narrow) names += (names.empty() ? "" : ", ") + body.blocks[b].name;

@@ -17,6 +17,7 @@ struct Situation {
   std::vector<contact::Interaction> interactions;  // as contact uses them
   std::vector<double> spacings;                    // mean spacing of each block, m
   std::vector<Trajectory> trajectories;            // of blocks
+  std::vector<double> members;  // thickness of the members of each block, spacings (mechanics/thin_members.hpp)
 };
 
 }  // namespace strut

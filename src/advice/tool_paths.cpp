@@ -149,7 +149,7 @@ bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
 }  // namespace
 
 std::string apart_tools(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   const Body& body = scene.body;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   if (tools.empty()) return "";
@@ -175,7 +175,7 @@ std::string apart_tools(const Situation& situation) {
 }
 
 std::string meeting_tools(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   const Body& body = scene.body;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   if (std::none_of(tools.begin(), tools.end(), [](const RigidTool& tool) { return tool.free != nullptr; })) return "";
@@ -206,7 +206,7 @@ std::string meeting_tools(const Situation& situation) {
 }
 
 std::string thin_tools(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   const Domain& domain = scene.body.domain;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   std::ostringstream text;

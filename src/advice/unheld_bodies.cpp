@@ -234,7 +234,7 @@ std::string name_of(const Piece& piece, const Domain& domain, const std::vector<
 }  // namespace
 
 std::string unheld_bodies(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   if (!scene.quasi_static) return "";
   const bool any_tools = !tools_of(scene.conditions).empty();
   if (interactions.empty() && any_tools) return "";

@@ -235,7 +235,7 @@ std::string weakness_when_pressed(const contact::Law& law, const Side& a, const 
 }  // namespace
 
 std::string weak_contacts(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories] = situation;
+  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
   const Domain& domain = scene.body.domain;
   if (interactions.empty()) return "";
   const std::vector<Side> sides = sides_of(scene.body, spacings);

@@ -31,7 +31,7 @@ Ball around(const RectangularCrack& crack) {
 
 Ball around(const DiskCrack& crack) { return {crack.center, crack.normal, crack.radius}; }
 
-// Whether the crack may be what parts a point from others: it is within its horizon.
+// True if the crack is within the horizon of point i, so that it may cross bonds of the point.
 bool may_part(const Ball& crack, const Domain& domain, int i) {
   const Vector apart = domain.reference(i) - crack.center;
   const double horizon = domain.horizon(i);

@@ -1,4 +1,4 @@
-// What a deck defines and nothing comes of: a slip of a name or a unit, more often than not.
+// Sections of a deck without any effect, which are mostly mistakes in a name or a unit.
 #pragma once
 
 #include <string>

@@ -3,20 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
-#include "base/errors.hpp"
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
 #include "fracture/critical_stretch.hpp"
 #include "fracture/spring_account.hpp"
-#include "fracture/strain_jump.hpp"
-#include "mechanics/formulation/steepness.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
 #include "topology/parallel_for.hpp"
-#include "topology/planes_through.hpp"
 
 namespace strut {
 

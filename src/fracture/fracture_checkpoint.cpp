@@ -96,7 +96,8 @@ void Fracture::restore(Body& body, const std::vector<double>& bits, int words) {
   };
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
     MaterialBlock& block = body.blocks[b];
-    for (std::size_t k = 0; body.may_break(b) && k < block.points.size(); ++k) {
+    const std::size_t breakable = body.may_break(b) ? block.points.size() : 0;
+    for (std::size_t k = 0; k < breakable; ++k) {
       const int i = block.points[k], c = lists.holding(i), lane = i - lists[c].points[0];
       const Cluster cluster = lists[c];  // neighbors in the order of their ids
       int place = 0, gone = 0;

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "mechanics/expected_error.hpp"
-#include "mechanics/thin_members.hpp"
 
 namespace strut {
 

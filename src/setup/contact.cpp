@@ -1,12 +1,9 @@
 #include "setup/contact.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <sstream>
 
 #include "base/errors.hpp"
-#include "setup/blocks.hpp"
 
 namespace strut {
 

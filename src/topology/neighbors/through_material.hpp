@@ -22,8 +22,9 @@ class ThroughMaterial {
   // `joints`: pairs of a joint and a point that has it, in any order. Points of different bodies do not touch.
   ThroughMaterial(const Joined& points, std::vector<std::pair<std::int64_t, int>> joints);
 
-  // Those of `asked` without a chain of touching points that are bonded to both ends. `family`: all points within the
-  // horizon of i; `asked`: some of them. Symmetric: i is apart from j if j is apart from i.
+  // Returns the points of `asked` that no chain of touching points, each bonded to both ends, connects with i.
+  // `family`: all points within the horizon of i; `asked`: some of them. Symmetric: i is apart from j if j is apart
+  // from i.
   std::vector<int> apart(int i, std::span<const int> family, std::span<const int> asked);
   bool touch(int i, int j) const;
 

@@ -385,8 +385,8 @@ class Surfaces(unittest.TestCase):
         for shape in ((5, 4, 3), (6, 6, 1), (20, 20, 20)):
             count = np.prod(shape)
             found = surface.surface_of(box(*shape), np.full(count, H**3), np.arange(count))
-            # What is rounded off at its edges is made up for up to a level of 0.8: a body has its volume within 5 %, a single layer
-            # lacks up to a fifth.
+            # The level of the surface, at most 0.8, restores the volume that rounding takes from the edges: a body keeps
+            # its volume within 5 %, a single layer lacks up to a fifth of it.
             self.assertAlmostEqual(volume_of(found) / (count * H**3), 1, delta=0.2 if 1 in shape else 0.05)
             self.assertEqual(pieces_of(found), 1)
             self.assert_closed(found)
