@@ -1,6 +1,6 @@
-#include "advice/cracks.hpp"
-
 #include <sstream>
+
+#include "advice/checks.hpp"
 
 namespace strut {
 

@@ -1,9 +1,8 @@
-#include "advice/declared_contact.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "setup/blocks.hpp"
 
 namespace strut {

@@ -1,11 +1,10 @@
-#include "advice/outline.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <type_traits>
 
+#include "advice/checks.hpp"
 #include "topology/bounding_box.hpp"
 
 namespace strut {

@@ -1,5 +1,3 @@
-#include "advice/overruled.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "advice/checks.hpp"
 #include "setup/found_points.hpp"
 #include "topology/point_group.hpp"
 

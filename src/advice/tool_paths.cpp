@@ -1,10 +1,9 @@
-#include "advice/tool_paths.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "conditions/tool_gap.hpp"
 
 namespace strut {

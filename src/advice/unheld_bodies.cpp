@@ -1,5 +1,3 @@
-#include "advice/unheld_bodies.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -7,7 +5,8 @@
 #include <span>
 #include <sstream>
 
-#include "base/parallel/portions.hpp"
+#include "advice/checks.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "setup/found_points.hpp"
 #include "topology/pieces.hpp"
 

@@ -1,11 +1,10 @@
-#include "advice/weak_contact.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <utility>
 
+#include "advice/checks.hpp"
 #include "base/errors.hpp"
 #include "deck/problems.hpp"
 

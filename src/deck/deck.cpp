@@ -5,7 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "deck/check.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
