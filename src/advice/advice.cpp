@@ -31,6 +31,7 @@ constexpr Check checks[] = {
     sudden_failure,
     noisy_cracks,
     breaks_under_pressure,
+    improbable_stretches,
     bonded_contacts,
     undeclared_contacts,
     unheld_bodies,

@@ -73,6 +73,10 @@ std::string noisy_cracks(const Situation& situation);
 // A line for each block whose bonds break by their energy, if several breaks in one step may create energy.
 std::string breaks_under_pressure(const Situation& situation);
 
+// A warning for each damage model whose bonds must more than double their length to break: percent taken for a
+// fraction.
+std::string improbable_stretches(const Situation& situation);
+
 // ---- resolution.cpp
 
 // A line for each block whose members are so thin that they lose a tenth of their bending stiffness, that
