@@ -70,7 +70,9 @@ double mass_of(const Body& body) {
 
 // Largest difference of the velocities of points and tools, m/s.
 double largest_difference(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const auto& trajectories = situation.trajectories;
+  const double start = situation.start, duration = situation.duration;
   const double moment = first_moment * duration;
   Eigen::AlignedBox3d velocities;
   for (const Trajectory& one : trajectories) velocities.extend(one.velocities);
