@@ -7,6 +7,7 @@
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/gather_scatter.hpp"
 #include "deck/check.hpp"
+#include "deck/laws/user_library.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/numbered_sets.hpp"
@@ -70,6 +71,7 @@ std::vector<ReadFile> read_files(const Deck& deck) {
 void look_at_files(Deck& deck, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   read_numbers(deck.node_sets, problems);
+  load_user_libraries(deck.materials, deck.file.parent_path(), problems);
   check_files(written_files(deck), read_files(deck), problems);
 }
 
@@ -85,6 +87,13 @@ Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, 
   if (file_check == FileCheck::yes) look_at_files(deck, problems);
   deck.notes = problems.notes();
   return deck;
+}
+
+// Libraries are loaded by each rank: those of rank 0 are loaded with its files.
+void load_libraries_of_ranks(Deck& deck, const Communicator& communicator) {
+  Problems mine;
+  if (communicator.rank() != 0) load_user_libraries(deck.materials, deck.file.parent_path(), mine);
+  raise_together(communicator, mine.text(deck.file.string()));
 }
 
 constexpr std::uintmax_t largest_deck = 1'000'000;  // bytes; a long deck has twenty thousand
@@ -115,6 +124,7 @@ Deck read(const fs::path& file, const Communicator& communicator, Problems& prob
   });
   communicator.broadcast(text);
   if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no, problems);
+  load_libraries_of_ranks(deck, communicator);
   for (const std::string& line : broadcast_names(problems.lines(), communicator)) problems.add(line);
   for (NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) communicator.broadcast(*set.numbers);
