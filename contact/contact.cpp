@@ -78,10 +78,10 @@ void Contact::search(const Kinematics& kinematics, double dt, ContactPair& conta
 
 // Collective. The bound grows with every vibration, so the distance that points have really moved is checked before a
 // search, which costs many times as much.
-void Contact::look(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
+void Contact::check(const Kinematics& kinematics, double dt, ContactPair& contact_pair) {
   static Teuchos::Time& timer = phase("Contact search");
   const Timed timed(timer);
-  contact_pair.due = false;
+  contact_pair.check_due = false;
   if (!contact_pair.searched) contact_pair.frame = frame_of(kinematics, contact_pair.blocks, contact_pair.pairs);
   contact_pair.mean_velocity = mean_velocity(kinematics, contact_pair.blocks, contact_pair.frame);
   if (contact_pair.searched)
@@ -113,7 +113,7 @@ bool Contact::breaks_meet(const Kinematics& kinematics, const ContactPair& conta
 void Contact::look_where_due(const Kinematics& kinematics, double dt) {
   const int before = searches_;
   for (ContactPair& contact_pair : contact_pairs_) {
-    if (contact_pair.due) look(kinematics, dt, contact_pair);
+    if (contact_pair.check_due) check(kinematics, dt, contact_pair);
   }
   if (searches_ > before) find_points_of_several();
 }
@@ -307,7 +307,7 @@ void Contact::take_agreed(std::span<const double> numbers, double dt) {
     contact_pair.meets = numbers[3 * m + 1] > 0;
     const double use = dt * numbers[3 * m + 2];
     contact_pair.used += use;
-    contact_pair.due = !contact_pair.searched || contact_pair.meets || !(contact_pair.used + forecast * use < 1);
+    contact_pair.check_due = !contact_pair.searched || contact_pair.meets || !(contact_pair.used + forecast * use < 1);
   }
   stiffness_ = std::max(of_points + of_surfaces, decay * stiffness_);
   penetration_ = numbers.back();
@@ -325,10 +325,10 @@ void Contact::serialize(Archive& archive, const Kinematics& kinematics, double d
   if (!archive.loading()) return;
   std::vector<Vector> forces(kinematics.domain.owned,
                              Vector::Zero());  // the solver has the forces; this restores pairs and friction
-  for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.due = true;
+  for (ContactPair& contact_pair : contact_pairs_) contact_pair.searched = false, contact_pair.check_due = true;
   add_forces(kinematics, dt, forces);
   for (ContactPair& contact_pair : contact_pairs_) {
-    contact_pair.due = true;  // the use of the skin distances in the next step is unknown
+    contact_pair.check_due = true;  // the use of the skin distances in the next step is unknown
     // An equilibrium has no time step from which to recompute friction: it is that of the last commit.
     const bool rubs = contact_pair.surfaces && contact_pair.model.friction > 0;
     if (rubs && dt == 0) contact_pair.friction = contact_pair.surfaces->committed_friction();

@@ -110,7 +110,7 @@ class Contact {
     Vector mean_velocity = Vector::Zero();  // m/s
     double used = 0;     // a bound of the fraction of its skin distance that any point has used since the last search
     bool meets = false;  // points whose bonds have broken since then are near each other
-    bool due = true;     // `used` has come near 1: the next check is due
+    bool check_due = true;  // `used` has come near 1: the next check is due
     ForceResult result = {};
     std::vector<Load> loads = {};       // of pairs.owned, if the model is one of points
     std::vector<Vector> friction = {};  // N, on pairs.owned
@@ -124,7 +124,7 @@ class Contact {
                                   const std::function<void(std::size_t, Vector)>& visit);
   void search(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   static bool breaks_meet(const Kinematics& kinematics, const ContactPair& contact_pair);
-  void look(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
+  void check(const Kinematics& kinematics, double dt, ContactPair& contact_pair);
   // Collective.
   void look_where_due(const Kinematics& kinematics, double dt);
   void add_forces(const Kinematics& kinematics, double dt, const Sliding& sliding, std::vector<Vector>& force_density);

@@ -13,7 +13,7 @@ namespace {
 constexpr double of_friction = 0.5;
 
 // Friction exchange: the friction on a point, as its partners need it.
-struct Rubbing {
+struct FrictionExchange {
   Vector drag = Vector::Zero();    // friction over the point's ρ, N
   Vector twist = Vector::Zero();   // rotation θ of the point's patch, N/m
   Vector middle = Vector::Zero();  // center of the patch, relative to the point, m
@@ -24,7 +24,7 @@ struct Rubbing {
 
 // The exchange of a force (N) on the point's body at a position relative to the point: its reaction there acts as a
 // force and a couple on the patch that the point feels.
-Rubbing rubbing_of(const Patch& patch, const Vector& place, const Vector& force) {
+FrictionExchange friction_exchange_of(const Patch& patch, const Vector& place, const Vector& force) {
   return {force / patch.weight, patch.per_couple * (patch.middle - place).cross(force), patch.middle};
 }
 
@@ -64,12 +64,12 @@ void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding
   std::vector<Vector> ways(pairs.sites.size(), Vector::Zero());
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) ways[k] = sliding.times * sliding.of[pairs.owned[k]];
   exchange_records(pairs, ways);
-  std::vector<Rubbing> rubbing(pairs.sites.size());
+  std::vector<FrictionExchange> exchanges(pairs.sites.size());
   std::vector<Couples::Neighborhood> own(pairs.owned.size());
   std::vector<Vector> turned(pairs.owned.size(), Vector::Zero());
   if (!sliding.is_trial) couples.bring_to_present(kinematics);
   friction.assign(pairs.owned.size(), Vector::Zero());
-  grips_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
+  friction_tangents_.assign(sliding.is_trial ? pairs.owned.size() : 0, {});
   if (!sliding.is_trial) slips_before_ = slips_;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     Vector& slip = slips_[places_[k]];
@@ -88,23 +88,23 @@ void Surfaces::add_friction(const Kinematics& kinematics, const Sliding& sliding
     const double stiffness = of_friction * law.stiffness() * points_[places_[k]].area;
     const double most = coefficient * facing_[k].push * gradient_[k].norm(), wanted = stiffness * slip.norm();
     friction[k] = yielding_spring(most, stiffness, slip);
-    rubbing[k] = rubbing_of(patch, place, friction[k]);
+    exchanges[k] = friction_exchange_of(patch, place, friction[k]);
     turned[k] = place.cross(friction[k]);
     if (!sliding.is_trial) continue;
     const bool slides = wanted > most;
-    grips_[k] = {.along = friction[k].stableNormalized(),
-                 .normal = normal,
-                 .spring = slides ? stiffness * most / wanted : stiffness,
-                 .by_share = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
-                 .patch = patch,
-                 .slides = slides};
+    friction_tangents_[k] = {.along = friction[k].stableNormalized(),
+                             .normal = normal,
+                             .spring = slides ? stiffness * most / wanted : stiffness,
+                             .by_share = slides ? coefficient * facing_[k].stiffness * gradient_[k].norm() : 0,
+                             .patch = patch,
+                             .slides = slides};
   }
-  exchange_records(pairs, rubbing);
+  exchange_records(pairs, exchanges);
   if (!sliding.is_trial) couples.add_forces(kinematics.domain, own, turned, force_density);
   if (!any_touches_) return;
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {
     over_feeling(pairs, k, [&](int partner, const Vector& eta, double distance2, double reach) {
-      friction[k] += pairs.sites[k].volume() * Smoothing(reach).value(distance2) * rubbing[partner].reaction(-eta);
+      friction[k] += pairs.sites[k].volume() * Smoothing(reach).value(distance2) * exchanges[partner].reaction(-eta);
     });
     force_density[pairs.owned[k]] += friction[k] / points_[places_[k]].volume;
   }
@@ -135,8 +135,8 @@ double Surfaces::friction_work(const Pairs& pairs, const std::vector<Vector>& fr
 void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::span<Vector> result) const {
   struct Change {
     Vector of_place = Vector::Zero();
-    Rubbing friction;    // change of the friction
-    double tension = 0;  // κ times the change of ρ
+    FrictionExchange friction;  // change of the friction
+    double tension = 0;         // κ times the change of ρ
   };
   std::vector<Change> changes(pairs.sites.size());
   std::vector<Vector> drags(pairs.owned.size(), Vector::Zero());
@@ -150,15 +150,15 @@ void Surfaces::add_stiffness(Pairs& pairs, std::span<const Vector> field, std::s
                eta.dot(changes[partner].of_place);
     });
     changes[k].tension = facing_[k].stiffness * share;
-    if (grips_.empty()) continue;
-    const Grip& grip = grips_[k];
+    if (friction_tangents_.empty()) continue;
+    const FrictionTangent& tangent = friction_tangents_[k];
     Vector slip =
-        slip_of(pairs, k, grip.patch, Vector::Zero(), false, [&](int site) { return changes[site].of_place; });
-    slip -= slip.dot(grip.normal) * grip.normal;
-    slip = bearable(grip.patch, Vector::Zero(), slip);
-    if (grip.slides) slip -= slip.dot(grip.along) * grip.along;
-    drags[k] = grip.spring * slip + grip.by_share * share * grip.along;
-    changes[k].friction = rubbing_of(grip.patch, Vector::Zero(), drags[k]);
+        slip_of(pairs, k, tangent.patch, Vector::Zero(), false, [&](int site) { return changes[site].of_place; });
+    slip -= slip.dot(tangent.normal) * tangent.normal;
+    slip = bearable(tangent.patch, Vector::Zero(), slip);
+    if (tangent.slides) slip -= slip.dot(tangent.along) * tangent.along;
+    drags[k] = tangent.spring * slip + tangent.by_share * share * tangent.along;
+    changes[k].friction = friction_exchange_of(tangent.patch, Vector::Zero(), drags[k]);
   }
   exchange_records(pairs, changes);
   for (std::size_t k = 0; k < pairs.owned.size(); ++k) {

@@ -234,8 +234,9 @@ void Surfaces::add_springs(const Pairs& pairs, std::span<Tensor> springs) const 
     over_gradients(pairs, k, [&](const Facing& felt_by, const Vector& gradient) {
       sum += felt_by.stiffness * gradient * gradient.transpose();
     });
-    if (!grips_.empty() && !grips_[k].slides) {
-      sum += grips_[k].spring * (Tensor::Identity() - grips_[k].normal * grips_[k].normal.transpose());
+    if (!friction_tangents_.empty() && !friction_tangents_[k].slides) {
+      sum += friction_tangents_[k].spring *
+             (Tensor::Identity() - friction_tangents_[k].normal * friction_tangents_[k].normal.transpose());
     }
     springs[pairs.owned[k]] += sum;
   }

@@ -85,7 +85,7 @@ class Surfaces {
   };
   struct Felt;
   // Friction tangent: how the friction on a point changes with its motion.
-  struct Grip {
+  struct FrictionTangent {
     Vector along = Vector::Zero();   // direction of the force
     Vector normal = Vector::Zero();  // normal of the surface
     double spring = 0;               // N/m, along the surface; while sliding, only across the direction of sliding
@@ -120,16 +120,16 @@ class Surfaces {
   std::vector<double> overlaps_;              // of blocks.points, as of the last forces, m
   std::vector<Vector> slips_, slips_before_;  // of blocks.points: stretch of the friction springs; a step before, m
   std::vector<Vector> friction_before_;       // of blocks.points, N: at the last commit
-  std::vector<Grip> grips_;                   // of pairs.owned, in a trial
-  std::vector<int> places_;                   // of pairs.owned in blocks.points
-  std::vector<double> due_;                   // of pairs.owned: the travel at which the point may touch, m
-  std::vector<double> smallest_reach_;        // of pairs.owned, for any partner, m
-  std::vector<Vector> seen_;                  // last positions of pairs.sites, m
-  double travel_ = 0;                         // since the search, m
-  std::vector<Facing> facing_;                // of pairs.sites, at the last forces
-  std::vector<char> touches_;                 // of pairs.sites: touches(), compact because every partner reads it
-  bool any_touches_ = false;                  // any of pairs.sites
-  std::vector<Vector> gradient_;              // ∂ρ/∂y of pairs.owned by their own positions, 1/m
+  std::vector<FrictionTangent> friction_tangents_;  // of pairs.owned, in a trial
+  std::vector<int> places_;                         // of pairs.owned in blocks.points
+  std::vector<double> due_;                         // of pairs.owned: the travel at which the point may touch, m
+  std::vector<double> smallest_reach_;              // of pairs.owned, for any partner, m
+  std::vector<Vector> seen_;                        // last positions of pairs.sites, m
+  double travel_ = 0;                               // since the search, m
+  std::vector<Facing> facing_;                      // of pairs.sites, at the last forces
+  std::vector<char> touches_;                       // of pairs.sites: touches(), compact because every partner reads it
+  bool any_touches_ = false;                        // any of pairs.sites
+  std::vector<Vector> gradient_;                    // ∂ρ/∂y of pairs.owned by their own positions, 1/m
 };
 
 // ---- Loops over the partners that points see, or that see them

@@ -12,10 +12,12 @@
 #include "materials/polymer_foam.hpp"
 #include "materials/shock_j2.hpp"
 #include "materials/thermal_j2.hpp"
+#include "materials/user_law.hpp"
 
 namespace strut::materials {
 
-using AnyLaw = std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam>;
+using AnyLaw =
+    std::variant<Elastic, J2, ThermalJ2, ShockJ2, Ductile, ThermalDuctile, DeshpandeFleck, PolymerFoam, UserLaw>;
 
 // The law of a metal whose points may fail; nullopt if there is none.
 std::optional<AnyLaw> failing(const AnyLaw& metal, const Ductility& ductility);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "materials/polymer_foam.hpp"
+#include "materials/user_law.hpp"
 
 namespace strut::materials {
 
@@ -16,6 +17,12 @@ inline void move_stress(const PolymerFoam& law, const Tensor& from, const Tensor
   const Tensor inverse = Tensor::Identity() - 2 * to_tensor(plastic), change = to.inverse() * from;
   plastic = 0.5 * symmetric_part(Tensor::Identity() - change * inverse * change.transpose());
   state.relative_density = law.initial_density / to.determinant();
+}
+
+// The next step of a library begins at the new stretch. A library of rates goes on from its stress; one whose stress is
+// a function of the stretch follows the jump.
+inline void move_stress(const UserLaw&, const Tensor& /* from */, const Tensor& to, UserLaw::State& state) {
+  Eigen::Map<Symmetric>(state.displacement) = symmetric_part(to - Tensor::Identity());
 }
 
 }  // namespace strut::materials

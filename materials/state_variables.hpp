@@ -11,7 +11,8 @@ struct StateVariable {
   std::string_view name, unit, meaning;
 };
 
-inline constexpr std::array<StateVariable, 20> state_variables{{
+inline constexpr std::array<StateVariable, 21> state_variables{{
+    {"Dissipated_Energy_Density", "J/m³", "by a law of a user's library, per reference volume"},
     {"Ductile_Damage", "1", "d: the part of its stress that a softening point has lost"},
     {"Elastic_Energy_Density", "J/m³", "stored elastic energy, per reference volume"},
     {"Equivalent_Plastic_Strain", "1", "ε̄_p = ∫ √(2/3 ė_p:ė_p) dt; of foams the one of uniaxial compression"},
@@ -38,7 +39,9 @@ inline constexpr std::array<StateVariable, 20> state_variables{{
 constexpr StateVariable state_variable(std::string_view name) {
   const auto* found = std::find_if(state_variables.begin(), state_variables.end(),
                                    [name](const StateVariable& variable) { return variable.name == name; });
-  return found == state_variables.end() ? StateVariable{name, "1", "state of its material law"} : *found;
+  if (found != state_variables.end()) return *found;
+  if (name.starts_with("User_State_")) return {name, "", "the state variable of this number of a user's library"};
+  return {name, "1", "state of its material law"};
 }
 
 }  // namespace strut::materials

@@ -168,23 +168,23 @@ Pairs pairs_of(const CandidatePool& candidates, const Lists& lists, bool one_bod
 // Calls visit(i, id) for owned points and the points that broken bonds or a crack separate from them: the search by
 // clusters leaves these pairs out.
 template <class Visit>
-void over_parted(const Domain& domain, const BrokenCounts& counts, const Visit& visit) {
+void over_separated(const Domain& domain, const BrokenCounts& counts, const Visit& visit) {
   for (std::size_t i = 0; i < domain.families.broken.size(); ++i) {
     const std::vector<int>& broken = domain.families.broken[i];
     const std::size_t count = counts.empty() ? broken.size() : counts[i];
     for (std::size_t n = 0; n < count; ++n) visit(static_cast<int>(i), domain.id(broken[n]));
   }
-  for (const auto& [i, id] : domain.parted) visit(i, id);
+  for (const auto& [i, id] : domain.separated) visit(i, id);
 }
 
-void add_parted_pairs(const Domain& domain, const BrokenCounts& counts, const CandidatePool& candidates,
-                      const Criterion& may_touch, IndexPairs& pairs) {
-  if (!may_touch.blocks.one_body || (domain.families.broken.empty() && domain.parted.empty())) return;
+void add_separated_pairs(const Domain& domain, const BrokenCounts& counts, const CandidatePool& candidates,
+                         const Criterion& may_touch, IndexPairs& pairs) {
+  if (!may_touch.blocks.one_body || (domain.families.broken.empty() && domain.separated.empty())) return;
   std::unordered_map<std::int64_t, int> index;
   for (std::size_t m = 0; m < candidates.members.size(); ++m) {
     index.emplace(candidates.members[m].id, static_cast<int>(m));
   }
-  over_parted(domain, counts, [&](int i, std::int64_t id) {
+  over_separated(domain, counts, [&](int i, std::int64_t id) {
     const auto here = index.find(domain.id(i)), there = index.find(id);
     if (here == index.end() || there == index.end()) return;  // far away, or in a third block
     const Candidate &one = candidates.members[here->second], &other = candidates.members[there->second];
@@ -201,7 +201,7 @@ Pairs find_pairs(const Kinematics& kinematics, const BlockPair& blocks, double r
   const CandidatePool candidates = candidates_of(kinematics, blocks, near, skins, radius);
   const Criterion may_touch{radius, blocks};
   IndexPairs found = pairs_in(candidates, may_touch);
-  add_parted_pairs(kinematics.domain, counts, candidates, may_touch, found);
+  add_separated_pairs(kinematics.domain, counts, candidates, may_touch, found);
   const Lists lists = lists_of(candidates, found);
   return pairs_of(candidates, lists, blocks.one_body, kinematics.domain.communicator);
 }

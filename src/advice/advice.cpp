@@ -1,17 +1,6 @@
 #include "advice/advice.hpp"
 
-#include "advice/cracks.hpp"
-#include "advice/declared_contact.hpp"
-#include "advice/doubled_numbers.hpp"
-#include "advice/filled_tools.hpp"
-#include "advice/outline.hpp"
-#include "advice/overlaps.hpp"
-#include "advice/overruled.hpp"
-#include "advice/resolution.hpp"
-#include "advice/tool_paths.hpp"
-#include "advice/unheld_bodies.hpp"
-#include "advice/weak_contact.hpp"
-#include "advice/without_effect.hpp"
+#include "advice/checks.hpp"
 #include "mechanics/thin_members.hpp"
 #include "setup/blocks.hpp"
 #include "setup/contact.hpp"
@@ -42,6 +31,7 @@ constexpr Check checks[] = {
     sudden_failure,
     noisy_cracks,
     breaks_under_pressure,
+    improbable_stretches,
     bonded_contacts,
     undeclared_contacts,
     unheld_bodies,

@@ -1,6 +1,6 @@
-#include "advice/cracks.hpp"
-
 #include <sstream>
+
+#include "advice/checks.hpp"
 
 namespace strut {
 
@@ -65,6 +65,19 @@ std::string breaks_under_pressure(const Situation& situation) {
             "below -1 %\n";
   }
   return text;
+}
+
+std::string improbable_stretches(const Situation& situation) {
+  std::ostringstream text;
+  for (const deck::NamedDamageModel& model : situation.deck.damage_models) {
+    const auto& critical = model.model.critical_stretch;
+    if (!critical || critical->depends_on_place() || critical->depends_on_time()) continue;
+    const double value = critical->evaluate(0, 0, 0, situation.start);
+    if (!(value > 1)) continue;
+    text << "WARNING: " << critical->path() << ": " << value << ", so bonds break at " << 1 + value
+         << " times their length; is it a fraction (2 % are 0.02)?\n";
+  }
+  return text.str();
 }
 
 }  // namespace strut

@@ -1,9 +1,8 @@
-#include "advice/declared_contact.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "setup/blocks.hpp"
 
 namespace strut {
@@ -23,7 +22,10 @@ bool declared(const std::vector<contact::Interaction>& interactions, int a, int 
 }  // namespace
 
 std::string undeclared_contacts(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const auto& interactions = situation.interactions;
+  const auto& trajectories = situation.trajectories;
+  const double start = situation.start, duration = situation.duration;
   const Domain& domain = scene.body.domain;
   std::ostringstream text;
   for (int a = 0; a < static_cast<int>(trajectories.size()); ++a) {

@@ -1,5 +1,3 @@
-#include "advice/doubled_numbers.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -7,7 +5,8 @@
 #include <sstream>
 #include <vector>
 
-#include "base/parallel/portions.hpp"
+#include "advice/checks.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
 

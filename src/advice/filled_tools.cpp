@@ -1,7 +1,7 @@
-#include "advice/filled_tools.hpp"
-
 #include <algorithm>
 #include <sstream>
+
+#include "advice/checks.hpp"
 
 namespace strut {
 

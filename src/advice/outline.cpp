@@ -1,11 +1,10 @@
-#include "advice/outline.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 #include <type_traits>
 
+#include "advice/checks.hpp"
 #include "topology/bounding_box.hpp"
 
 namespace strut {
@@ -71,7 +70,9 @@ double mass_of(const Body& body) {
 
 // Largest difference of the velocities of points and tools, m/s.
 double largest_difference(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const auto& trajectories = situation.trajectories;
+  const double start = situation.start, duration = situation.duration;
   const double moment = first_moment * duration;
   Eigen::AlignedBox3d velocities;
   for (const Trajectory& one : trajectories) velocities.extend(one.velocities);

@@ -1,10 +1,9 @@
-#include "advice/overlaps.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "contact/passing.hpp"
 #include "setup/found_points.hpp"
 #include "topology/nearby_ranks.hpp"

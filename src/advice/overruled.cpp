@@ -1,5 +1,3 @@
-#include "advice/overruled.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "advice/checks.hpp"
 #include "setup/found_points.hpp"
 #include "topology/point_group.hpp"
 
@@ -99,7 +98,9 @@ void look(const RigidTool& tool, int n, const std::vector<Held>& held, const Bod
 }  // namespace
 
 std::string overruled_motions(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const deck::Deck& deck = situation.deck;
+  const Scene& scene = situation.scene;
+  const double start = situation.start, duration = situation.duration;
   const Body& body = scene.body;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   const std::vector<Held> held = held_directions(deck, body.domain.cloud);

@@ -1,10 +1,9 @@
-#include "advice/resolution.hpp"
-
 #include <cmath>
 #include <limits>
 #include <set>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "mechanics/expected_error.hpp"
 #include "mechanics/formulation/steepness.hpp"
 #include "mechanics/thin_members.hpp"

@@ -1,10 +1,9 @@
-#include "advice/tool_paths.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "conditions/tool_gap.hpp"
 
 namespace strut {
@@ -149,7 +148,8 @@ bool meets_block(const RigidTool& tool, int block, const Domain& domain) {
 }  // namespace
 
 std::string apart_tools(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const double start = situation.start, duration = situation.duration;
   const Body& body = scene.body;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   if (tools.empty()) return "";
@@ -175,7 +175,8 @@ std::string apart_tools(const Situation& situation) {
 }
 
 std::string meeting_tools(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const double start = situation.start, duration = situation.duration;
   const Body& body = scene.body;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   if (std::none_of(tools.begin(), tools.end(), [](const RigidTool& tool) { return tool.free != nullptr; })) return "";
@@ -206,7 +207,10 @@ std::string meeting_tools(const Situation& situation) {
 }
 
 std::string thin_tools(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const auto& spacings = situation.spacings;
+  const auto& trajectories = situation.trajectories;
+  const double start = situation.start, duration = situation.duration;
   const Domain& domain = scene.body.domain;
   const std::vector<RigidTool> tools = tools_of(scene.conditions);
   std::ostringstream text;

@@ -1,5 +1,3 @@
-#include "advice/unheld_bodies.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -7,7 +5,8 @@
 #include <span>
 #include <sstream>
 
-#include "base/parallel/portions.hpp"
+#include "advice/checks.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "setup/found_points.hpp"
 #include "topology/pieces.hpp"
 
@@ -234,7 +233,9 @@ std::string name_of(const Piece& piece, const Domain& domain, const std::vector<
 }  // namespace
 
 std::string unheld_bodies(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const Scene& scene = situation.scene;
+  const auto& interactions = situation.interactions;
+  const double start = situation.start, duration = situation.duration;
   if (!scene.quasi_static) return "";
   const bool any_tools = !tools_of(scene.conditions).empty();
   if (interactions.empty() && any_tools) return "";

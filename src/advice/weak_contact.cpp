@@ -1,11 +1,10 @@
-#include "advice/weak_contact.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <utility>
 
+#include "advice/checks.hpp"
 #include "base/errors.hpp"
 #include "deck/problems.hpp"
 
@@ -235,7 +234,12 @@ std::string weakness_when_pressed(const contact::Law& law, const Side& a, const 
 }  // namespace
 
 std::string weak_contacts(const Situation& situation) {
-  const auto& [deck, scene, start, duration, interactions, spacings, trajectories, members] = situation;
+  const deck::Deck& deck = situation.deck;
+  const Scene& scene = situation.scene;
+  const double duration = situation.duration;
+  const auto& interactions = situation.interactions;
+  const auto& spacings = situation.spacings;
+  const auto& trajectories = situation.trajectories;
   const Domain& domain = scene.body.domain;
   if (interactions.empty()) return "";
   const std::vector<Side> sides = sides_of(scene.body, spacings);

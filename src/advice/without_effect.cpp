@@ -1,8 +1,7 @@
-#include "advice/without_effect.hpp"
-
 #include <algorithm>
 #include <sstream>
 
+#include "advice/checks.hpp"
 #include "setup/found_points.hpp"
 
 namespace strut {
@@ -42,7 +41,7 @@ std::string cracks_that_cut_nothing(const deck::Deck& deck, const Domain& domain
   std::ostringstream text;
   for (const Crack& crack : deck.discretization.cracks) {
     const Ball ball = std::visit([](const auto& one) { return around(one); }, crack);
-    const bool cuts = std::any_of(domain.parted.begin(), domain.parted.end(),
+    const bool cuts = std::any_of(domain.separated.begin(), domain.separated.end(),
                                   [&](const auto& pair) { return may_part(ball, domain, pair.first); });
     if (domain.communicator.max(cuts ? 1.0 : 0.0) > 0) continue;
     text << "WARNING: Discretization > Bond Filters: the crack around " << place_text(ball.center)

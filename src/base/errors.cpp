@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <sstream>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
 

@@ -27,17 +27,17 @@ void FreeMotion::advance(double t, double dt, const Body& body) {
   before = velocity, time = t;
   mid_steps.before = step / (step + dt);
   force_impulse = 0.5 * (step + dt) * load;
-  owed_impulse = sum_of_points(body, owed);
-  owed.assign(owed.size(), Vector::Zero());
-  velocity += (force_impulse - owed_impulse) / mass;
+  pending_sum = sum_of_points(body, pending);
+  pending.assign(pending.size(), Vector::Zero());
+  velocity += (force_impulse - pending_sum) / mass;
   step = dt;
 }
 
 void FreeMotion::push_back(const Vector& impulse, const Body& body, ImpulseWork& work) {
-  velocity = before + (force_impulse - owed_impulse - impulse) / mass;
+  velocity = before + (force_impulse - pending_sum - impulse) / mass;
   if (body.domain.communicator.rank() != 0) return;  // only once
-  work.before.tools -= 0.5 * (impulse + owed_impulse).dot(before);
-  work.after.tools -= 0.5 * (impulse + owed_impulse).dot(velocity);
+  work.before.tools -= 0.5 * (impulse + pending_sum).dot(before);
+  work.after.tools -= 0.5 * (impulse + pending_sum).dot(velocity);
   work.before.external += 0.5 * force_impulse.dot(before);
   work.after.external += 0.5 * force_impulse.dot(velocity);
 }
@@ -52,8 +52,8 @@ void FreeMotion::serialize(Archive& archive, const std::string& name, int owned)
   archive.number(name + "_time", time);
   archive.number(name + "_step", step);
   archive.number(name + "_begun", begun);
-  owed.resize(owned, Vector::Zero());
-  archive.field(name + "_owed", 3, [this](std::size_t i, int c) -> double& { return owed[i][c]; });
+  pending.resize(owned, Vector::Zero());
+  archive.field(name + "_pending", 3, [this](std::size_t i, int c) -> double& { return pending[i][c]; });
 }
 
 }  // namespace strut

@@ -26,7 +26,8 @@ struct FreeMotion {
   double time = 0, step = 0;       // s; the step that begins at `time`
   MidSteps mid_steps;
   bool begun = false;
-  std::vector<Vector> owed = {};  // N s, pending impulses: given to this rank's points in substeps since; may be empty
+  std::vector<Vector> pending =
+      {};  // N s, pending impulses: given to this rank's points in substeps since; may be empty
 
   Vector offset_at(double t) const { return offset + (t - time) * velocity; }
 
@@ -42,7 +43,7 @@ struct FreeMotion {
   void serialize(Archive& archive, const std::string& name, int owned);  // at the group of all owned points
 
   // N s, at `time`: of the force, and the pending impulse of the substeps before.
-  Vector force_impulse = Vector::Zero(), owed_impulse = Vector::Zero();
+  Vector force_impulse = Vector::Zero(), pending_sum = Vector::Zero();
 };
 
 // Collective. The sum over all ranks of one vector per point, the same to the last bit on any number of ranks.

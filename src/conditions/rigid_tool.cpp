@@ -59,8 +59,8 @@ Vector correction(const Surface& at, double friction, const Vector& velocity, do
   if (friction == 0) return push;
   const Vector sliding = velocity - speed * at.normal;
   const double length = sliding.norm();
-  const double grip = friction * std::abs(allowed - speed);
-  return grip < length ? push - grip / length * sliding : Vector(push - sliding);
+  const double friction_change = friction * std::abs(allowed - speed);
+  return friction_change < length ? push - friction_change / length * sliding : Vector(push - sliding);
 }
 
 // Calls visit(i, change of velocity) for the points of this rank that would enter the tool.
@@ -155,8 +155,8 @@ void RigidTool::change_velocities(VelocityUpdate& update) {
   });
   if (!free) return;
   if (in_whole_steps) return free->push_back(sum_of_points(update.body, given), update.body, update.of_tools);
-  free->owed.resize(given.size(), Vector::Zero());
-  for (std::size_t i = 0; i < given.size(); ++i) free->owed[i] += given[i];
+  free->pending.resize(given.size(), Vector::Zero());
+  for (std::size_t i = 0; i < given.size(); ++i) free->pending[i] += given[i];
 }
 
 std::optional<RigidTool> RigidTool::in_substeps(const MovingPoints& moving) const {

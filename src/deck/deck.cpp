@@ -5,8 +5,9 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "deck/check.hpp"
+#include "deck/laws/user_library.hpp"
 #include "deck/peridigm/peridigm.hpp"
 #include "deck/sections/inertia.hpp"
 #include "deck/sections/numbered_sets.hpp"
@@ -72,6 +73,7 @@ std::vector<ReadFile> read_files(const Deck& deck) {
 void look_at_files(Deck& deck, Problems& problems) {
   check_mesh(deck.discretization.mesh, problems);
   read_numbers(deck.node_sets, problems);
+  load_user_libraries(deck.materials, deck.file.parent_path(), problems);
   check_files(written_files(deck), read_files(deck), problems);
 }
 
@@ -100,6 +102,13 @@ Deck parse(const std::string& text, const fs::path& file, FileCheck file_check, 
   return deck;
 }
 
+// Libraries are loaded by each rank: those of rank 0 are loaded with its files.
+void load_libraries_of_ranks(Deck& deck, const Communicator& communicator) {
+  Problems mine;
+  if (communicator.rank() != 0) load_user_libraries(deck.materials, deck.file.parent_path(), mine);
+  raise_together(communicator, mine.text(deck.file.string()));
+}
+
 constexpr std::uintmax_t largest_deck = 1'000'000;  // bytes; a long deck has twenty thousand
 
 std::string contents(const fs::path& file) {
@@ -124,6 +133,7 @@ Deck read_text(std::string text, const fs::path& file, const Communicator& commu
   run_on_root(communicator, [&] { deck = parse(text, file, FileCheck::yes, problems); });
   communicator.broadcast(text);
   if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no, problems);
+  load_libraries_of_ranks(deck, communicator);
   for (const std::string& line : broadcast_names(problems.lines(), communicator)) problems.add(line);
   for (NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) communicator.broadcast(*set.numbers);

@@ -1,7 +1,7 @@
 // A point whose bonds have broken.
 #pragma once
 
-#include "fracture/point_account.hpp"
+#include "fracture/bond_work_balance.hpp"
 #include "mechanics/body.hpp"
 
 namespace strut {

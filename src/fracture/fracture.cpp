@@ -7,7 +7,7 @@
 #include "base/timing.hpp"
 #include "fracture/broken_family.hpp"
 #include "fracture/critical_stretch.hpp"
-#include "fracture/spring_account.hpp"
+#include "fracture/spring_work_balance.hpp"
 #include "mechanics/kernels/lane_groups.hpp"
 #include "mechanics/off_stencil.hpp"
 #include "mechanics/reflected.hpp"
@@ -63,7 +63,7 @@ double part_of_springs(const Body& body, const MaterialBlock& block, int k) {
 }
 
 // The energy missing in the balance of a point, J.
-double released(const PointAccount& before, const PointAccount& after) {
+double released(const BondWorkBalance& before, const BondWorkBalance& after) {
   return 0.5 * (before.work + after.work) - (after.energy - before.energy);
 }
 
@@ -260,7 +260,7 @@ void Fracture::cut(Body& body, MaterialBlock& block, int cluster_number, double 
                        cluster_number,
                        first,
                        members,
-                       accounts_of(block, first, cluster, start),
+                       balances_of(block, first, cluster, start),
                        {}});
   if (block.has_springs(ResidualKind::both_gradients)) affected_.back().families = families_of(cluster, members);
   for (std::size_t n = 0; n < gone.size(); ++n) {
@@ -307,7 +307,7 @@ void Fracture::soften_springs(Body& body, Part part) {
 void Fracture::count(Body& body, const Affected& one) {
   const StepEnd end{body, start_, false};
   const Cluster cluster = body.domain.families.lists[one.cluster];
-  const auto after = accounts_of(body.blocks[one.block], one.first, cluster, end);
+  const auto after = balances_of(body.blocks[one.block], one.first, cluster, end);
   for (std::size_t l = 0; l < cluster.points.size(); ++l) {
     if (one.members >> l & 1) body.fracture_energy[cluster.points[l]] += released(one.before[l], after[l]);
   }
@@ -337,8 +337,9 @@ void Fracture::count_springs(Body& body) {
     const auto families = families_of(cluster, one.members);
     for (std::size_t l = 0; l < cluster.points.size(); ++l) {
       const int i = cluster.points[l];
-      const PointAccount before = SpringAccount{start, start_gradients_, start_gradients_, now}.of(i, one.families[l]);
-      const PointAccount after = SpringAccount{end, now, start_gradients_, now}.of(i, families[l]);
+      const BondWorkBalance before =
+          SpringWorkBalance{start, start_gradients_, start_gradients_, now}.of(i, one.families[l]);
+      const BondWorkBalance after = SpringWorkBalance{end, now, start_gradients_, now}.of(i, families[l]);
       body.fracture_energy[i] += released(before, after);
     }
   }

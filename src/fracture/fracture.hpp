@@ -20,7 +20,7 @@
 
 #include "base/archive.hpp"
 #include "fracture/bond_energies.hpp"
-#include "fracture/point_account.hpp"
+#include "fracture/bond_work_balance.hpp"
 #include "fracture/travel.hpp"
 #include "mechanics/bond_breaking.hpp"
 
@@ -52,7 +52,7 @@ class Fracture : public BondBreaking {
     std::size_t block;
     int cluster, first;  // first: index of its first point in the block
     unsigned members;    // a bit for each point whose bonds break
-    std::array<PointAccount, Cluster::width> before;
+    std::array<BondWorkBalance, Cluster::width> before;
     std::vector<std::vector<int>> families;  // of the members, if they have springs on both ends' gradients
   };
   struct Stretches;

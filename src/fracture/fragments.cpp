@@ -4,7 +4,7 @@
 #include <map>
 #include <span>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "topology/pieces.hpp"
 
 namespace strut {

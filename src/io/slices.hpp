@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut::io {
 

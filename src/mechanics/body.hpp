@@ -12,7 +12,7 @@
 #include "base/deduplicated.hpp"
 #include "base/fields.hpp"
 #include "mechanics/force_states.hpp"
-#include "mechanics/law_points.hpp"
+#include "mechanics/integration_points.hpp"
 #include "mechanics/material_block.hpp"
 #include "topology/domain.hpp"
 #include "topology/site.hpp"
@@ -116,7 +116,7 @@ struct Body : PointFields {
   }
   Vector current(int i) const { return domain.current(i); }
   // Integration point q of block.points[k].
-  MaterialPoint law_point(const MaterialBlock& block, std::size_t k, int q) const {
+  MaterialPoint integration_point(const MaterialBlock& block, std::size_t k, int q) const {
     return block.is_quadratic() ? block.cells[block.place(k, q)] : points[block.points[k]];
   }
   // True if bonds of an owned point have broken.

@@ -45,7 +45,7 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
   std::size_t cells = 0;
   for (MaterialBlock& block : blocks) {
     const auto fresh_state = [&block]<class L>(const L& law) {
-      block.state->assign(block.law_points(), materials::to_columns<L>(materials::virgin_state_of(law)));
+      block.state->assign(block.integration_points(), materials::to_columns<L>(materials::virgin_state_of(law)));
       block.state.set_parts(parts_of_state<L>());
     };
     std::visit(fresh_state, block.material.law);
@@ -54,10 +54,10 @@ std::vector<MaterialBlock> blocks_of(const Domain& domain, const std::vector<Blo
     }
     if (block.is_ordinary()) block.ordinary.use(block.points.size());
     if (block.is_quadratic()) {
-      block.cells.use(block.law_points());
+      block.cells.use(block.integration_points());
       block.flowed.use(block.points.size());
     }
-    block.first_law_point = cells;
+    block.first_integration_point = cells;
     cells += block.cells->places();
   }
   return blocks;
@@ -186,7 +186,7 @@ double part_of_edge(const Domain& domain, const MaterialBlock& block, int i) {
 }
 
 void set_viscous(const Domain& domain, MaterialBlock& block) {
-  block.viscous.use(block.law_points());
+  block.viscous.use(block.integration_points());
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
     const double edge = part_of_edge(domain, block, i) * std::cbrt(coincident_images(domain, i) * domain.volume(i));

@@ -12,7 +12,7 @@
 #include "materials/laws.hpp"
 #include "mechanics/damage_model.hpp"
 #include "mechanics/formulation/formulation.hpp"
-#include "mechanics/law_points.hpp"
+#include "mechanics/integration_points.hpp"
 #include "mechanics/stabilization/stabilization.hpp"
 #include "topology/domain.hpp"
 
@@ -76,12 +76,12 @@ struct MaterialBlock {
   int lattice = -1;            // index in domain.families.lattices if its points are on one
   SelectedPoints off_stencil;  // points of a lattice that have lost bonds: their sums use neighbor lists
 
-  std::size_t first_law_point = 0;  // index of the first of `cells` among those of all blocks
+  std::size_t first_integration_point = 0;  // index of the first of `cells` among those of all blocks
 
   // Integration points: one per point, points[k] at k; or four per cell, in tiles of as many cells as there are SIMD
   // lanes. Interior and boundary points begin tiles of their own; the rest of their last tiles stays unused.
   int places_a_point() const { return is_quadratic() ? 4 : 1; }
-  std::size_t law_points() const {
+  std::size_t integration_points() const {
     return is_quadratic() ? 4 * in_tiles(in_tiles(interior) + points.size() - interior) : points.size();
   }
   std::size_t place(std::size_t k, int q) const {

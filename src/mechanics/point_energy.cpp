@@ -12,7 +12,7 @@ PointEnergy law_energy(const Body& body, const MaterialBlock& block, const L& la
   const bool carries_stress = steepness(body, block.points[k]) > 0;
   PointEnergy sum;
   for (int q = 0; q < places; ++q) {
-    const MaterialPoint point = body.law_point(block, k, q);
+    const MaterialPoint point = body.integration_point(block, k, q);
     const auto state = block.state_of<L>(block.place(k, q));
     const double J = point.deformation_gradient.determinant();
     if (carries_stress) sum.elastic += materials::stored_energy_of(law, point.stress, state, J) / places;

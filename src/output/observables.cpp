@@ -214,14 +214,19 @@ Observable of_state(const std::string& name) {
 }
 
 template <class L>
-void add_state_names(std::set<std::string>& names) {
-  names.insert(L::state_names.begin(), L::state_names.end());
+void add_state_names(const L& law, std::set<std::string>& names) {
+  for (std::size_t k = 0; k < L::state_names.size(); ++k) {
+    if constexpr (requires { law.shows(k); }) {
+      if (!law.shows(k)) continue;
+    }
+    names.emplace(L::state_names[k]);
+  }
 }
 
 std::set<std::string> states_of_all_laws() {
   std::set<std::string> states;
   [&]<class... L>(std::type_identity<std::variant<L...>>) {
-    (add_state_names<L>(states), ...);
+    (add_state_names(L{}, states), ...);
   }(std::type_identity<materials::AnyLaw>());
   return states;
 }
@@ -240,7 +245,7 @@ std::vector<Observable> with_states(const std::set<std::string>& states) {
 std::vector<Observable> observables(const std::vector<materials::AnyLaw>& laws) {
   std::set<std::string> states;
   for (const materials::AnyLaw& law : laws) {
-    std::visit([&]<class L>(const L&) { add_state_names<L>(states); }, law);
+    std::visit([&](const auto& one) { add_state_names(one, states); }, law);
   }
   return with_states(states);
 }

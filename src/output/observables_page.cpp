@@ -32,9 +32,13 @@ metal foams alone, say; by quadratic correspondence it is the mean over the cell
 )";
 
 // Escapes text for a cell of a table.
-std::string escaped(std::string text) {
-  for (std::size_t i = text.find('|'); i != std::string::npos; i = text.find('|', i + 2)) text.insert(i, 1, '\\');
-  return text;
+std::string escaped(const std::string& text) {
+  std::string escaped;
+  for (const char one : text) {
+    if (one == '|') escaped += '\\';
+    escaped += one;
+  }
+  return escaped;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::vector<double> work_of_points(const Scene& scene, const contact::Contact& c
   std::vector<double> work(body.owned());
   for (int i = 0; i < body.owned(); ++i) {
     const int updates = body.time_levels.empty() ? 1 : 1 << body.time_levels[i];
-    work[i] = updates * scene.cuts.costs[body.domain.cloud.blocks[i]];
+    work[i] = updates * scene.weights.costs[body.domain.cloud.blocks[i]];
   }
   contact.add_where_touched(cost_of_contact, work);
   return work;
@@ -70,7 +70,7 @@ std::optional<std::vector<int>> Balance::better_ranks(const Scene& scene, const 
   const double now = imbalance(work, std::vector<int>(work.size(), communicator.rank()), communicator);
   if (verbose_) tell(communicator, solver.steps(), "the rank with most work has " + to_text(now) + " times the mean");
   if (!(now > std::max(most_, worse * accepted_))) return std::nullopt;
-  const std::vector<int> ranks = bisected(whole_cloud(scene.body.domain), work, scene.cuts.lengths, communicator);
+  const std::vector<int> ranks = bisected(whole_cloud(scene.body.domain), work, scene.weights.lengths, communicator);
   const double then = imbalance(work, ranks, communicator);
   const double steps_left = (final_time_ - solver.time()) / solver.dt();
   const bool pays = (now - then) * steps_left > cost_of_change;

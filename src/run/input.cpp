@@ -5,7 +5,7 @@
 #include "base/errors.hpp"
 #include "base/files.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "checkpoint/checkpoint.hpp"
 #include "io/file_lock.hpp"
 #include "output/variables.hpp"

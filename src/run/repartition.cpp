@@ -28,7 +28,7 @@ Snapshot saved(const ExplicitRun& run, double time) {
 // Rebuilds everything that depends on the order of points in memory, in the order of dependence.
 void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
   const Communicator communicator = run.scene->body.domain.communicator;
-  Kept kept = kept_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));
+  MigrationState kept = migration_state_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));
   HistoryRows* const rows = run.writers->history.kept_rows();
   run.writers.reset();
   run.solver.reset();

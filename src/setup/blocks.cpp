@@ -94,11 +94,11 @@ std::vector<BlockBonds> block_bonds(const deck::Deck& deck, const PointCloud& cl
     bonds.push_back(section->horizon_factor ? BlockBonds::per_spacing(*section->horizon_factor, body)
                                             : BlockBonds(*section->horizon, body));
     const deck::Material& material = deck.materials[section->material];
-    const bool by_touch = is_quadratic(material) && cloud.joined;
+    const bool by_touch = is_quadratic(material) && cloud.has_shared_nodes;
     const bool is_alike = deck.discretization.influence == Influence::one;  // others decrease with distance
     bonds.back().touching = by_touch && is_alike && !section->across_voids.value_or(false);
-    bonds.back().through_material = !section->across_voids.value_or(!(by_touch && !is_alike));
-    const bool any = bonds.back().touching || bonds.back().through_material;
+    bonds.back().visible_only = !section->across_voids.value_or(!(by_touch && !is_alike));
+    const bool any = bonds.back().touching || bonds.back().visible_only;
     bonds.back().may_lose_bonds = section->damage_model || !deck.discretization.cracks.empty();
     if (any || material.formulation != Formulation::correspondence) {
       bonds.back().families = FamilyKind::lists;

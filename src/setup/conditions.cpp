@@ -122,6 +122,7 @@ void add_conditions(const deck::Deck& deck, Scene& scene, const Communicator& co
   check_contradictions(deck, points, scene.body, problems);
   scene.warnings += check_initial_displacements(deck, points, scene.body, problems);
   scene.warnings += sudden_motions(deck, points, scene.body);
+  scene.warnings += sampled_pulses(deck, points, scene.body);
   // Held points: for a body that continues behind a plane as its mirror image, only the points on the plane.
   for (std::size_t c = 0; c < points.size(); ++c) {
     const auto* plane = std::get_if<SymmetryPlane>(&deck.conditions[c].kind);

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "topology/pieces.hpp"
 
 namespace strut {

@@ -8,7 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "base/timing.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/grid/grid.hpp"
@@ -183,7 +183,7 @@ void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communi
   // between them.
   std::vector<BlockBonds> bonds;
   if (cloud.at == PointsAt::nodes) bonds = block_bonds(deck, cloud);
-  const auto by_elements = [&](int b) { return bonds[b].through_material || bonds[b].touching; };
+  const auto by_elements = [&](int b) { return bonds[b].visible_only || bonds[b].touching; };
   const auto allowed = [&](int a, int b) {
     return !bonds.empty() && (bonds[a].body != bonds[b].body || by_elements(a) || by_elements(b));
   };

@@ -30,7 +30,7 @@ struct Scene {
   std::optional<Fracture> fracture;  // if bonds may break
   StepControl control;
   std::optional<QuasiStaticControl> quasi_static;  // instead of `control`, for equilibria
-  Cuts cuts;                                       // the partition weights
+  PartitionWeights weights;                        // the partition weights
   std::int64_t points = 0, bonds = 0, pieces = 0;  // over all ranks
   Dropped dropped;
   std::vector<ToolOfScene> tools = {};  // as tools_of(conditions)

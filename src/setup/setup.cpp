@@ -9,11 +9,11 @@
 #include "setup/blocks.hpp"
 #include "setup/conditions.hpp"
 #include "setup/contact.hpp"
-#include "setup/cuts.hpp"
 #include "setup/families.hpp"
 #include "setup/mass_scaling.hpp"
 #include "setup/mesh.hpp"
 #include "setup/mirrors.hpp"
+#include "setup/partition_weights.hpp"
 #include "topology/partition.hpp"
 #include "topology/pieces.hpp"
 
@@ -28,7 +28,7 @@ std::optional<QuasiStaticControl> quasi_static_of(const deck::Solver& solver) {
 }
 
 // Builds the scene from the partitioned cloud.
-Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Communicator& communicator) {
+Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weights, const Communicator& communicator) {
   Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   const Mirrors found = mirrors(deck, cloud, communicator);
@@ -40,7 +40,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, Cuts cuts, const Commu
       {},
       {deck.solver.fixed_dt.value_or(0), deck.solver.safety_factor, deck.solver.subcycling, !deck.watch.stops_inverted},
       quasi_static_of(deck.solver),
-      std::move(cuts),
+      std::move(weights),
       0,
       0,
       0,
@@ -60,13 +60,13 @@ void add_contact(const deck::Deck& deck, Scene& scene) {
 
 }  // namespace
 
-Kept kept_of(const Scene& scene, PointCloud cloud) {
-  return {std::move(cloud), scene.cuts,   scene.dropped, scene.points,
-          scene.bonds,      scene.pieces, scene.tools,   scene.highest_frequency};
+MigrationState migration_state_of(const Scene& scene, PointCloud cloud) {
+  return {std::move(cloud), scene.weights, scene.dropped, scene.points,
+          scene.bonds,      scene.pieces,  scene.tools,   scene.highest_frequency};
 }
 
-Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& communicator) {
-  Scene scene = assembled(deck, std::move(kept.cloud), std::move(kept.cuts), communicator);
+Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator) {
+  Scene scene = assembled(deck, std::move(kept.cloud), std::move(kept.weights), communicator);
   scene.points = kept.points, scene.bonds = kept.bonds, scene.pieces = kept.pieces, scene.dropped = kept.dropped;
   for (std::size_t t = 0; t < scene.tools.size(); ++t) *scene.tools[t].touched = *kept.tools[t].touched;
   scene.highest_frequency = kept.highest_frequency;
@@ -108,10 +108,10 @@ Scene set_up(const deck::Deck& deck, const Communicator& communicator) {
 
 Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& communicator) {
   const std::vector<double> spacing = mean_spacings(cloud, communicator), taken = std::move(cloud.taken_volumes);
-  Cuts by;
+  PartitionWeights by;
   {
     const Timed timed(phase("Partition"));
-    by = cuts(deck, cloud, spacing, communicator);
+    by = partition_weights(deck, cloud, spacing, communicator);
     cloud = partitioned(cloud, communicator, by);
   }
   Scene scene = assembled(deck, std::move(cloud), std::move(by), communicator);

@@ -23,18 +23,18 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
 Scene set_up(const deck::Deck& deck, const Communicator& communicator);
 
 // Migration state: the part of a scene from which it is rebuilt on another partition, once the scene is deleted.
-struct Kept {
+struct MigrationState {
   PointCloud cloud;  // of this rank in the new partition
-  Cuts cuts;
+  PartitionWeights weights;
   Dropped dropped;
   std::int64_t points = 0, bonds = 0, pieces = 0;
   std::vector<ToolOfScene> tools;
   double highest_frequency = 0;
 };
 
-Kept kept_of(const Scene& scene, PointCloud cloud);
+MigrationState migration_state_of(const Scene& scene, PointCloud cloud);
 
 // Collective. The same scene on another partition, at its initial time, without its messages.
-Scene set_up_again(const deck::Deck& deck, Kept kept, const Communicator& communicator);
+Scene set_up_again(const deck::Deck& deck, MigrationState kept, const Communicator& communicator);
 
 }  // namespace strut

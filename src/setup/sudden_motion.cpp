@@ -22,18 +22,12 @@ constexpr int looks = 1000;   // samples of a function of time in a run
 constexpr int halvings = 40;  // bisections between two samples that distinguish a jump from a steep slope
 
 struct Jump {
-  double time = 0, length = 0;  // s, m
+  double time = 0, length = 0;  // s, and m or the unit of a load
 };
 
-// The largest change of `of_time` between two samples, and how much of it remains as they approach each other.
+// What remains of the change between `from` and `to` as they approach each other: nothing of a steep slope.
 template <class OfTime>
-Jump largest_jump(const OfTime& of_time, double start, double end) {
-  double from = start, to = start, most = 0;
-  for (int k = 0; k < looks; ++k) {
-    const double a = start + (end - start) * k / looks, b = start + (end - start) * (k + 1) / looks;
-    const double change = std::abs(of_time(b) - of_time(a));
-    if (change > most) most = change, from = a, to = b;
-  }
+Jump jump_between(const OfTime& of_time, double from, double to) {
   for (int n = 0; n < halvings; ++n) {
     const double middle = 0.5 * (from + to);
     if (std::abs(of_time(middle) - of_time(from)) > std::abs(of_time(to) - of_time(middle))) {
@@ -43,6 +37,42 @@ Jump largest_jump(const OfTime& of_time, double start, double end) {
     }
   }
   return {to, std::abs(of_time(to) - of_time(from))};
+}
+
+// Calls visit(change, from, to) between each two samples in time.
+template <class OfTime, class Visit>
+void for_each_change(const OfTime& of_time, double start, double end, const Visit& visit) {
+  for (int k = 0; k < looks; ++k) {
+    const double a = start + (end - start) * k / looks, b = start + (end - start) * (k + 1) / looks;
+    visit(std::abs(of_time(b) - of_time(a)), a, b);
+  }
+}
+
+// The largest change of `of_time` between two samples, as a jump.
+template <class OfTime>
+Jump largest_jump(const OfTime& of_time, double start, double end) {
+  double from = start, to = start, most = 0;
+  for_each_change(of_time, start, end, [&](double change, double a, double b) {
+    if (change > most) most = change, from = a, to = b;
+  });
+  return jump_between(of_time, from, to);
+}
+
+// The least time between two jumps of `of_time` by a tenth of its largest value or more, s; infinite without two.
+template <class OfTime>
+double shortest_pulse(const OfTime& of_time, double start, double end) {
+  double largest = 0;
+  for (int k = 0; k <= looks; ++k) largest = std::max(largest, std::abs(of_time(start + (end - start) * k / looks)));
+  double last = -std::numeric_limits<double>::infinity(), shortest = -last;
+  if (std::abs(of_time(start)) > 0.1 * largest) last = start;
+  for_each_change(of_time, start, end, [&](double change, double a, double b) {
+    if (!(change > 0.1 * largest)) return;
+    const Jump jump = jump_between(of_time, a, b);
+    if (!(jump.length > 0.1 * largest)) return;
+    shortest = std::min(shortest, jump.time - last);
+    last = jump.time;
+  });
+  return shortest;
 }
 
 // The box of the points of a condition over all ranks, and their least spacing.
@@ -62,21 +92,35 @@ Where where(const std::vector<int>& points, const Body& body) {
   return all;
 }
 
+// Calls visit(of_time) with the value as a function of time at each corner of the box, or once if it is the same there.
+template <class Visit>
+void at_corners(const Function& value, const Where& where, const Visit& visit) {
+  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
+    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+    visit([&](double t) { return value.evaluate(X[0], X[1], X[2], t); });
+  }
+}
+
 // The largest jump at the corners of the box.
 Jump largest_jump(const Function& value, const Where& where, double start, double end) {
   Jump worst;
-  for (int corner = 0; corner < (value.depends_on_place() ? 8 : 1); ++corner) {
-    const Vector X = where.box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    const auto of_time = [&](double t) { return value.evaluate(X[0], X[1], X[2], t); };
+  at_corners(value, where, [&](const auto& of_time) {
     const Jump jump = largest_jump(of_time, start, end);
     if (jump.length > worst.length) worst = jump;
-  }
+  });
   return worst;
 }
 
 const PrescribedMotion* displacement_of(const deck::Condition& condition) {
   const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
   return motion && !motion->is_velocity ? motion : nullptr;
+}
+
+// The value of a load or a prescribed velocity.
+const Function* sampled_value(const deck::Condition& condition) {
+  if (const auto* load = std::get_if<BodyForce>(&condition.kind)) return &load->value;
+  const auto* motion = std::get_if<PrescribedMotion>(&condition.kind);
+  return motion && motion->is_velocity ? &motion->value : nullptr;
 }
 
 // The functions of time that give positions of points or of a tool.
@@ -86,6 +130,17 @@ std::vector<Function> ways_of(const deck::Condition& condition) {
     if (!tool->free) return tool->values_at_points();
   }
   return {};
+}
+
+// The largest time that a wave takes for one spacing of a block, s: no step is longer.
+double longest_step(const Body& body) {
+  double longest = 0;
+  for (std::size_t b = 0; b < body.blocks.size(); ++b) {
+    const BlockMaterial& material = body.blocks[b].material;
+    const double modulus = std::visit([](const auto& law) { return law.moduli().longitudinal(); }, material.law);
+    longest = std::max(longest, body.domain.blocks[b].spacing * std::sqrt(material.density / modulus));
+  }
+  return longest;
 }
 
 }  // namespace
@@ -134,6 +189,28 @@ std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& poi
       text << "WARNING: " << way.path() << ": jumps by " << jump.length << " m, " << jump.length / there.spacing
            << " spacings, at t = " << jump.time << " s: within one step; is it meant to change so suddenly?\n";
     }
+  }
+  return text.str();
+}
+
+std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body) {
+  if (deck.solver.quasi_static) return "";
+  constexpr double told = 0.005;  // of the impulse
+  const double step = longest_step(body);
+  std::ostringstream text;
+  text.precision(2);
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const Function* value = sampled_value(deck.conditions[c]);
+    if (!value || !value->depends_on_time()) continue;
+    double pulse = std::numeric_limits<double>::infinity();
+    at_corners(*value, where(points[c], body), [&](const auto& of_time) {
+      pulse = std::min(pulse, shortest_pulse(of_time, deck.solver.initial_time, deck.solver.final_time));
+    });
+    if (!(step > told * pulse)) continue;
+    text << "WARNING: " << value->path() << ": jumps twice within " << pulse
+         << " s, and each step takes the value at one "
+         << "time: the integral over these is off by up to a step, " << 100 * step / pulse
+         << " %; a ramp over some steps at each end reduces that\n";
   }
   return text.str();
 }

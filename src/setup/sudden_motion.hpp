@@ -1,4 +1,4 @@
-// Values of conditions that move points by a jump within one step.
+// Values of conditions that jump within one step.
 #pragma once
 
 #include <string>
@@ -16,5 +16,9 @@ std::string check_initial_displacements(const deck::Deck& deck, const PointsOfCo
 
 // Collective. For explicit steps: warns of jumps in displacements and in the travel of tools, a line each.
 std::string sudden_motions(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
+
+// Collective. For explicit steps: warns of loads and velocities that jump up and down within so few steps that their
+// integral depends on where the steps fall, a line each.
+std::string sampled_pulses(const deck::Deck& deck, const PointsOfConditions& points, const Body& body);
 
 }  // namespace strut

@@ -55,11 +55,11 @@ struct PointCloud {
   // Shared nodes: numbers that a point has in common with the points that it touches, ascending. They are the nodes of
   // an element, or the elements around a node. Two points touch if they have one of these numbers in common. Bits from
   // first_plane_bit on: the symmetry planes that a node lies on.
-  std::vector<std::vector<std::int64_t>> joints;
+  std::vector<std::vector<std::int64_t>> shared_nodes;
 
   // The same on all ranks.
   PointsAt at = PointsAt::elements;
-  bool joined = false;  // every point has joints
+  bool has_shared_nodes = false;  // every point has shared nodes
   std::vector<std::string> block_names;
   std::vector<std::string> set_names;  // at most 64
   // For points at nodes as they are read, by pairs of blocks: volume of the elements of the second block that points of

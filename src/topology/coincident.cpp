@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "topology/sent_to_ranks.hpp"
 
 namespace strut {

@@ -139,7 +139,7 @@ Domain make_domain(PointCloud cloud, const std::vector<BlockBonds>& bonds, const
           std::move(families),
           std::move(halo),
           std::move(members.ghost_ids),
-          parted_by_cracks(search, pool, order.points),
+          separated_by_cracks(search, pool, order.points),
           all.mirrors};
 }
 

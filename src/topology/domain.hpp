@@ -38,7 +38,7 @@ struct Domain {
   std::vector<std::int64_t> ghost_ids;
   // Points separated by a crack: owned points, each with the id of a point to which only a crack prevents a bond;
   // ascending. The other point need not be a ghost.
-  std::vector<std::pair<int, std::int64_t>> parted;
+  std::vector<std::pair<int, std::int64_t>> separated;
   // Symmetry planes. The mirror images of points are ghosts, with ids by Images::id.
   std::vector<Mirror> mirrors = {};
 

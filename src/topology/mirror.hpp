@@ -15,7 +15,7 @@ struct Mirror {
   Vector on = Vector::Zero(), normal = Vector::UnitX();  // m; of unit length
   int body = 0;                                          // BlockBonds::body
   int number = 0;                                        // index in the deck of its condition
-  int bit = 0;                                           // bit of `joints` for nodes on it (cloud.hpp)
+  int bit = 0;                                           // bit of `shared_nodes` for nodes on it (cloud.hpp)
 
   double distance(const Vector& X) const { return normal.dot(X - on); }  // m, negative behind the normal
   // True if a point is on it, to round-off; `size`: its horizon or spacing, m.

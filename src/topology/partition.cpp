@@ -11,31 +11,31 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
 
 namespace {
 
-// A point, in the form in which it is sent; the numbers of its shape and its joints follow separately.
+// A point, in the form in which it is sent; the numbers of its shape and its shared nodes follow separately.
 struct Parcel {
   std::int64_t id, element_id;
   double position[3];
   double volume, spacing;
   int block;
   std::uint64_t sets;
-  bool has_shape, has_joints;
-  int joints;
+  bool has_shape, has_shared_nodes;
+  int shared_nodes;
 };
 
 Parcel packed(const PointCloud& cloud, std::size_t i) {
   const Vector& X = cloud.positions[i];
-  const bool has_joints = !cloud.joints.empty();
+  const bool has_shared_nodes = !cloud.shared_nodes.empty();
   return {cloud.ids[i],       cloud.element_ids[i],
           {X[0], X[1], X[2]}, cloud.volumes[i],
           cloud.spacings[i],  cloud.blocks[i],
           cloud.sets[i],      !cloud.shapes.empty(),
-          has_joints,         has_joints ? static_cast<int>(cloud.joints[i].size()) : 0};
+          has_shared_nodes,   has_shared_nodes ? static_cast<int>(cloud.shared_nodes[i].size()) : 0};
 }
 
 void append(PointCloud& cloud, const Parcel& parcel) {
@@ -52,17 +52,17 @@ void append(PointCloud& cloud, const Parcel& parcel) {
 void append(PointCloud& cloud, const PointCloud& from, std::size_t i) {
   append(cloud, packed(from, i));
   if (!from.shapes.empty()) cloud.shapes.push_back(from.shapes[i]);
-  if (!from.joints.empty()) cloud.joints.push_back(from.joints[i]);
+  if (!from.shared_nodes.empty()) cloud.shared_nodes.push_back(from.shared_nodes[i]);
 }
 
 // Data for Zoltan's callbacks.
-struct Parted {
+struct PointsToDivide {
   const PointCloud& cloud;
   const std::vector<double>& costs;
   Vector lengths;
 };
 
-const PointCloud& cloud_of(void* data) { return static_cast<const Parted*>(data)->cloud; }
+const PointCloud& cloud_of(void* data) { return static_cast<const PointsToDivide*>(data)->cloud; }
 
 int count(void* data, int* error) {
   *error = ZOLTAN_OK;
@@ -71,7 +71,7 @@ int count(void* data, int* error) {
 
 void list(void* data, int, int, ZOLTAN_ID_PTR global, ZOLTAN_ID_PTR local, int weights, float* weight, int* error) {
   const PointCloud& cloud = cloud_of(data);
-  const std::vector<double>& costs = static_cast<const Parted*>(data)->costs;
+  const std::vector<double>& costs = static_cast<const PointsToDivide*>(data)->costs;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     global[i] = static_cast<ZOLTAN_ID_TYPE>(cloud.ids[i]);
     local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
@@ -87,7 +87,7 @@ int dimensions(void*, int* error) {
 
 void place(void* data, int, int, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, double* position, int* error) {
   Eigen::Map<Vector>{position} =
-      cloud_of(data).positions[*local].cwiseProduct(static_cast<const Parted*>(data)->lengths);
+      cloud_of(data).positions[*local].cwiseProduct(static_cast<const PointsToDivide*>(data)->lengths);
   *error = ZOLTAN_OK;
 }
 
@@ -95,7 +95,7 @@ void require(int status, const char* what) {
   if (status != ZOLTAN_OK && status != ZOLTAN_WARN) throw Error(std::string("Zoltan failed to ") + what);
 }
 
-Zoltan started_zoltan(const Communicator& communicator, Parted& parted) {
+Zoltan started_zoltan(const Communicator& communicator, PointsToDivide& to_divide) {
   float version = 0;
   require(Zoltan_Initialize(0, nullptr, &version), "start");
   const auto mpi = Teuchos::rcp_dynamic_cast<const Teuchos::MpiComm<int>>(communicator.teuchos());
@@ -104,10 +104,10 @@ Zoltan started_zoltan(const Communicator& communicator, Parted& parted) {
   zoltan.Set_Param("LB_METHOD", "RCB");
   zoltan.Set_Param("RETURN_LISTS", "EXPORT");
   zoltan.Set_Param("OBJ_WEIGHT_DIM", "1");
-  zoltan.Set_Num_Obj_Fn(count, &parted);
-  zoltan.Set_Obj_List_Fn(list, &parted);
-  zoltan.Set_Num_Geom_Fn(dimensions, &parted);
-  zoltan.Set_Geom_Fn(place, &parted);
+  zoltan.Set_Num_Obj_Fn(count, &to_divide);
+  zoltan.Set_Obj_List_Fn(list, &to_divide);
+  zoltan.Set_Num_Geom_Fn(dimensions, &to_divide);
+  zoltan.Set_Geom_Fn(place, &to_divide);
   return zoltan;
 }
 
@@ -115,28 +115,28 @@ Zoltan started_zoltan(const Communicator& communicator, Parted& parted) {
 PointCloud emptied(const PointCloud& cloud) {
   PointCloud result;
   result.at = cloud.at;
-  result.joined = cloud.joined;
+  result.has_shared_nodes = cloud.has_shared_nodes;
   result.block_names = cloud.block_names;
   result.set_names = cloud.set_names;
   return result;
 }
 
-// Data for each rank, one rank after the other; shapes and joints only if there are any.
+// Data for each rank, one rank after the other; shapes and shared nodes only if there are any.
 struct Load {
   std::vector<Parcel> parcels;
   std::vector<ShapeNumbers> shapes;
-  std::vector<std::int64_t> joints;
+  std::vector<std::int64_t> shared_nodes;
 };
 
 // Numbers of each that go to, or come from, each rank.
 struct Counts {
-  std::vector<std::int64_t> parcels, shapes, joints;
+  std::vector<std::int64_t> parcels, shapes, shared_nodes;
 
-  explicit Counts(int ranks) : parcels(ranks, 0), shapes(parcels), joints(parcels) {}
+  explicit Counts(int ranks) : parcels(ranks, 0), shapes(parcels), shared_nodes(parcels) {}
   void add(int rank, const Parcel& parcel) {
     ++parcels[rank];
     shapes[rank] += parcel.has_shape;
-    joints[rank] += parcel.joints;
+    shared_nodes[rank] += parcel.shared_nodes;
   }
 };
 
@@ -151,8 +151,9 @@ PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, cons
     leaving.parcels.push_back(packed(cloud, i));
     to.add(ranks[i], leaving.parcels.back());
     if (!cloud.shapes.empty()) leaving.shapes.push_back(numbers_of(cloud.shapes[i]));
-    if (!cloud.joints.empty()) {
-      leaving.joints.insert(leaving.joints.end(), cloud.joints[i].begin(), cloud.joints[i].end());
+    if (!cloud.shared_nodes.empty()) {
+      leaving.shared_nodes.insert(leaving.shared_nodes.end(), cloud.shared_nodes[i].begin(),
+                                  cloud.shared_nodes[i].end());
     }
   }
   const auto sent = [&]<class T>(const std::vector<T>& values, std::vector<std::int64_t> Counts::*which) {
@@ -164,16 +165,18 @@ PointCloud migrated(const PointCloud& cloud, const std::vector<int>& ranks, cons
   for (int rank = 0; rank < communicator.size(); ++rank) {
     for (const std::size_t end = next + from.parcels[rank]; next < end; ++next) {
       from.shapes[rank] += parcels[next].has_shape;
-      from.joints[rank] += parcels[next].joints;
+      from.shared_nodes[rank] += parcels[next].shared_nodes;
     }
   }
   const std::vector<ShapeNumbers> shapes = sent(leaving.shapes, &Counts::shapes);
-  const std::vector<std::int64_t> joints = sent(leaving.joints, &Counts::joints);
+  const std::vector<std::int64_t> shared_nodes = sent(leaving.shared_nodes, &Counts::shared_nodes);
   PointCloud arrived = emptied(cloud);
-  auto joint = joints.begin();
+  auto shared_node = shared_nodes.begin();
   for (const Parcel& parcel : parcels) {
     append(arrived, parcel);
-    if (parcel.has_joints) arrived.joints.emplace_back(joint, joint + parcel.joints), joint += parcel.joints;
+    if (parcel.has_shared_nodes)
+      arrived.shared_nodes.emplace_back(shared_node, shared_node + parcel.shared_nodes),
+          shared_node += parcel.shared_nodes;
   }
   for (const ShapeNumbers& numbers : shapes) arrived.shapes.push_back(shape_of(numbers));
   return arrived;
@@ -255,8 +258,8 @@ std::vector<int> bisected(const PointCloud& cloud, const std::vector<double>& co
   std::vector<int> ranks(cloud.size(), communicator.rank());
   if (communicator.size() == 1) return ranks;
   check_size(cloud, communicator);
-  Parted parted{cloud, costs, lengths};
-  Zoltan zoltan = started_zoltan(communicator, parted);
+  PointsToDivide to_divide{cloud, costs, lengths};
+  Zoltan zoltan = started_zoltan(communicator, to_divide);
   int changed, gid_size, lid_size, imports, exports;
   ZOLTAN_ID_PTR import_gids, import_lids, export_gids, export_lids;
   int *import_ranks, *import_parts, *export_ranks, *export_parts;
@@ -274,10 +277,10 @@ PointCloud moved(const PointCloud& cloud, const std::vector<int>& ranks, const C
   return reordered(mine, along_curve(mine));
 }
 
-PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts) {
+PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const PartitionWeights& weights) {
   std::vector<double> costs(cloud.size(), 1);
-  for (std::size_t i = 0; i < costs.size() && !cuts.costs.empty(); ++i) costs[i] = cuts.costs[cloud.blocks[i]];
-  return moved(cloud, bisected(cloud, costs, cuts.lengths, communicator), communicator);
+  for (std::size_t i = 0; i < costs.size() && !weights.costs.empty(); ++i) costs[i] = weights.costs[cloud.blocks[i]];
+  return moved(cloud, bisected(cloud, costs, weights.lengths, communicator), communicator);
 }
 
 PointCloud reordered(const PointCloud& cloud, const std::vector<int>& order) {

@@ -7,7 +7,7 @@ namespace strut {
 
 class Communicator;
 
-struct Cuts {
+struct PartitionWeights {
   std::vector<double> costs;        // of a point of each block, in any unit: ranks get equal sums (empty: equal costs)
   Vector lengths = Vector::Ones();  // weight of a length along each axis: cuts are across the longest
 };
@@ -22,7 +22,7 @@ std::vector<int> bisected(const PointCloud& cloud, const std::vector<double>& co
 PointCloud moved(const PointCloud& cloud, const std::vector<int>& ranks, const Communicator& communicator);
 
 // Collective. Bisects and moves.
-PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const Cuts& cuts = {});
+PointCloud partitioned(const PointCloud& cloud, const Communicator& communicator, const PartitionWeights& weights = {});
 
 // The points order[0], order[1], … of `cloud`.
 PointCloud reordered(const PointCloud& cloud, const std::vector<int>& order);

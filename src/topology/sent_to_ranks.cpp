@@ -1,7 +1,7 @@
 #include "topology/sent_to_ranks.hpp"
 
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 namespace strut {
 

@@ -101,7 +101,7 @@ std::int64_t number_of(const Place& place) {
 PointCloud cloud_of(const std::vector<Cell>& cells, double edge, double spacing, bool at_grid) {
   PointCloud cloud;
   cloud.block_names = {"strut"};
-  cloud.joined = true;
+  cloud.has_shared_nodes = true;
   for (const Cell& cell : cells) {
     const Vector centroid = edge * cell.first / cell.cubes;
     const Vector position = at_grid ? Vector(spacing * cell.place.cast<double>().matrix()) : centroid;

@@ -41,8 +41,8 @@ void merge_small(std::vector<Cell>& cells, int fewest);
 // An unique number of a place; places from −2¹⁹ to 2¹⁹.
 std::int64_t number_of(const Place& place);
 
-// One point for each cell, without joints. `edge`: of a small cube; `spacing`: of the cells, m. `at_grid`: the points
-// stand where their cell has its place, times the spacing, and not at the centroid.
+// One point for each cell, without shared nodes. `edge`: of a small cube; `spacing`: of the cells, m. `at_grid`: the
+// points stand where their cell has its place, times the spacing, and not at the centroid.
 PointCloud cloud_of(const std::vector<Cell>& cells, double edge, double spacing, bool at_grid);
 
 }  // namespace strut::reference

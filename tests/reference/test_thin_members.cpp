@@ -77,24 +77,24 @@ TEST(SquarePrism, KnowsItsCorners) {
   EXPECT_LT((nodes.shapes[0].surface - Vector::Constant(-h * h / 4)).norm(), round_off);
 }
 
-int joints_shared(const PointCloud& cloud, int i, int j) {
+int nodes_shared(const PointCloud& cloud, int i, int j) {
   std::vector<std::int64_t> shared;
-  std::set_intersection(cloud.joints[i].begin(), cloud.joints[i].end(), cloud.joints[j].begin(), cloud.joints[j].end(),
-                        std::back_inserter(shared));
+  std::set_intersection(cloud.shared_nodes[i].begin(), cloud.shared_nodes[i].end(), cloud.shared_nodes[j].begin(),
+                        cloud.shared_nodes[j].end(), std::back_inserter(shared));
   return static_cast<int>(shared.size());
 }
 
-TEST(SquarePrism, NeighborsHaveJointsInCommon) {
+TEST(SquarePrism, NeighborsHaveNodesInCommon) {
   const PointCloud elements = square_prism(2, PointsAt::elements), nodes = square_prism(2, PointsAt::nodes);
-  EXPECT_EQ(joints_shared(elements, 0, 0), 8);
-  EXPECT_EQ(joints_shared(elements, 0, 1), 4);
-  EXPECT_EQ(joints_shared(elements, 0, 3), 2);
-  EXPECT_EQ(joints_shared(elements, 0, 7), 1);
-  EXPECT_EQ(joints_shared(elements, 0, 8), 0);
-  EXPECT_EQ(joints_shared(nodes, 0, 0), 1);
-  EXPECT_EQ(joints_shared(nodes, 13, 13), 8);  // in the middle of the second layer
-  EXPECT_EQ(joints_shared(nodes, 13, 22), 4);
-  EXPECT_EQ(joints_shared(nodes, 0, 2), 0);
+  EXPECT_EQ(nodes_shared(elements, 0, 0), 8);
+  EXPECT_EQ(nodes_shared(elements, 0, 1), 4);
+  EXPECT_EQ(nodes_shared(elements, 0, 3), 2);
+  EXPECT_EQ(nodes_shared(elements, 0, 7), 1);
+  EXPECT_EQ(nodes_shared(elements, 0, 8), 0);
+  EXPECT_EQ(nodes_shared(nodes, 0, 0), 1);
+  EXPECT_EQ(nodes_shared(nodes, 13, 13), 8);  // in the middle of the second layer
+  EXPECT_EQ(nodes_shared(nodes, 13, 22), 4);
+  EXPECT_EQ(nodes_shared(nodes, 0, 2), 0);
 }
 
 // Parts of a cell that the surface cuts are in or out as a whole, at random places: measured 9e-4 of the volume, 1.8e-3
@@ -117,7 +117,7 @@ TEST(RoundCylinder, WholeCellsAreCubes) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     EXPECT_NEAR(cloud.volumes[i], 1.0 / 64, round_off);
     EXPECT_LT((cloud.shapes[i].moments - spherical(1.0 / 16 / 12)).norm(), 1e-11);  // differences of second moments
-    EXPECT_EQ(cloud.joints[i].size(), 8);
+    EXPECT_EQ(cloud.shared_nodes[i].size(), 8);
   }
 }
 

@@ -68,7 +68,7 @@ PointCloud square_prism(int across, int along, PointsAt at) {
   PointCloud cloud = cloud_of(cells, body.edge, spacing, at_nodes);
   cloud.at = at;
   for (const Cell& cell : cells) {
-    cloud.joints.push_back(at_nodes ? elements_around(cell.place, body) : corners(cell.place));
+    cloud.shared_nodes.push_back(at_nodes ? elements_around(cell.place, body) : corners(cell.place));
   }
   const Vector middle(0.5, 0.5, 0.5 * along * spacing);
   for (Vector& position : cloud.positions) position -= middle;
@@ -100,7 +100,7 @@ PointCloud round_cylinder(int across, const Placement& placement, Cells cells) {
   std::vector<Cell> kept = gathered(body, [&](const Place& cube) { return divided(cube, per_edge); });
   merge_small(kept, static_cast<int>(std::ceil(least_part * per_edge * per_edge * per_edge)));
   PointCloud cloud = cloud_of(kept, body.edge, spacing, false);
-  for (const Cell& cell : kept) cloud.joints.push_back(corners(cell.place));
+  for (const Cell& cell : kept) cloud.shared_nodes.push_back(corners(cell.place));
   for (Vector& position : cloud.positions) position -= spacing * placement.offset;
   return cloud;
 }

@@ -97,7 +97,7 @@ VoxelMesh voxels_of(const PointCloud& elements) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     Corners corners;
     for (int c = 0; c < 8; ++c) {
-      const auto [found, is_new] = numbers.try_emplace(elements.joints[i][c], static_cast<int>(numbers.size()));
+      const auto [found, is_new] = numbers.try_emplace(elements.shared_nodes[i][c], static_cast<int>(numbers.size()));
       corners[c] = found->second;
       const Vector from_middle = place(c) - Vector::Constant(0.5);
       if (is_new) voxels.nodes.emplace_back(elements.positions[i] + voxels.edge * from_middle);

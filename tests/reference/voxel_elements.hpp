@@ -22,7 +22,7 @@ struct VoxelMesh {
 
 // Of all blocks. Throws Error where an element is not a cube along the axes, as large as the others.
 VoxelMesh voxels_of(const io::Mesh& mesh);
-// The whole cells that these points at elements stand for, with their joints for corners (thin_members.hpp).
+// The whole cells that these points at elements stand for, with their shared nodes for corners (thin_members.hpp).
 VoxelMesh voxels_of(const PointCloud& elements);
 
 // N/m; component c of corner n is number 3 n + c.

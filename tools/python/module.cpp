@@ -16,7 +16,7 @@
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
 #include "base/parallel/launch.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "base/parallel/threads.hpp"
 #include "deck/deck.hpp"
 #include "deck/numbers.hpp"

@@ -4,6 +4,7 @@
 #include "deck/laws/metal.hpp"
 #include "deck/laws/metal_foam.hpp"
 #include "deck/laws/polymer_foam.hpp"
+#include "deck/laws/user_library.hpp"
 
 namespace strut::deck {
 
@@ -34,6 +35,7 @@ const std::vector<LawEntry>& laws() {
       {metal_section(), make_metal},
       {metal_foam_section(), make_metal_foam},
       {polymer_foam_section(), make_polymer_foam},
+      {user_library_section(), make_user_library},
   };
   return entries;
 }

@@ -174,8 +174,10 @@ Ledger QuasiStatic::ledger() {
   now.heat = stored.heat;
   now.external = external_;
   now.tools = by_tools_;
-  now.contact = by_friction_ - body.domain.communicator.sum(contact().energy());
-  now.balance(now.elastic + now.dissipated + now.stabilization, now.external + now.tools + now.contact,
+  const double in_contact = body.domain.communicator.sum(contact().energy());
+  now.contact = by_friction_ - in_contact;
+  // What contact stores is an energy of the scene, and all of it where every point is prescribed.
+  now.balance(now.elastic + now.dissipated + now.stabilization + in_contact, now.external + now.tools + by_friction_,
               largest_energy_);
   return now;
 }

@@ -118,8 +118,9 @@ template <class T>
 std::vector<T> dealt(const Communicator& communicator, const std::optional<NetcdfLists>& file, const std::string& name,
                      std::vector<std::int64_t> counts, int width, OnRoot& on_root) {
   for (std::int64_t& count : counts) count *= width;
-  return deal<T>(communicator, counts,
-                 [&](std::int64_t begin, std::span<T> values) { on_root([&] { file->get(name, values, begin); }); });
+  return scatterv<T>(communicator, counts, [&](std::int64_t begin, std::span<T> values) {
+    on_root([&] { file->get(name, values, begin); });
+  });
 }
 
 // Collective. Reads the columns of a group: each rank gets a slice and passes it on to the points, so that it never has

@@ -81,7 +81,7 @@ void fill(std::optional<NetcdfLists>& file, const Communicator& communicator, co
   const auto put = [&]<class T>(const std::string& name, std::span<const T> mine) {
     std::int64_t begin = 0;
     CheckSum sum;
-    collect(communicator, mine, [&](std::span<const T> portion) {
+    gatherv(communicator, mine, [&](std::span<const T> portion) {
       on_root([&] { file->put(name, portion, begin); });
       sum.add(portion);
       begin += std::ssize(portion);

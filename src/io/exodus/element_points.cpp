@@ -24,26 +24,27 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-// A node with the bits of the symmetry planes that it lies on (PointCloud::joints).
-std::int64_t joint_at(const MeshSlice& slice, int node, const std::vector<Mirror>& planes, double spacing) {
-  std::int64_t joint = slice.nodes[node];
+// A node with the bits of the symmetry planes that it lies on (PointCloud::shared_nodes).
+std::int64_t node_at(const MeshSlice& slice, int node, const std::vector<Mirror>& planes, double spacing) {
+  std::int64_t shared_node = slice.nodes[node];
   for (const Mirror& plane : planes) {
-    if (plane.holds(slice.mesh.nodes[node], spacing)) joint |= std::int64_t{1} << (first_plane_bit + plane.bit);
+    if (plane.holds(slice.mesh.nodes[node], spacing)) shared_node |= std::int64_t{1} << (first_plane_bit + plane.bit);
   }
-  return joint;
+  return shared_node;
 }
 
-std::vector<std::int64_t> joints_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element,
-                                    const std::vector<Mirror>& planes, double spacing) {
+std::vector<std::int64_t> nodes_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element,
+                                   const std::vector<Mirror>& planes, double spacing) {
   if (block.type == "SPHERE") return {};
   const std::size_t size = block.nodes.size() / block.elements();
-  std::vector<std::int64_t> joints;
+  std::vector<std::int64_t> shared_nodes;
   for (std::size_t n = element * size; n < (element + 1) * size; ++n) {
-    joints.push_back(joint_at(slice, block.nodes[n], planes, spacing));
+    shared_nodes.push_back(node_at(slice, block.nodes[n], planes, spacing));
   }
-  std::sort(joints.begin(), joints.end());
-  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());  // an element collapsed to a wedge
-  return joints;
+  std::sort(shared_nodes.begin(), shared_nodes.end());
+  shared_nodes.erase(std::unique(shared_nodes.begin(), shared_nodes.end()),
+                     shared_nodes.end());  // an element collapsed to a wedge
+  return shared_nodes;
 }
 
 bool is_of_a_body(const Symmetric& moments) {
@@ -120,7 +121,7 @@ class Converter {
       shape.surface = block.cells[element].surface;
       shape.surface_moments = block.cells[element].surface_moments;
     }
-    cloud_.joints.push_back(joints_of(slice_, block, element, planes_, cloud_.spacings.back()));
+    cloud_.shared_nodes.push_back(nodes_of(slice_, block, element, planes_, cloud_.spacings.back()));
   }
 
   const MeshSlice& slice_;

@@ -26,7 +26,7 @@ namespace strut::io {
 // hex8 or tet4 element, in the first of its blocks in the file; ids count the file's nodes from 0.
 // Throws Error on all ranks: file missing, not Exodus, unsupported element type, no elements, volume not positive
 // (names element and block, or node), more than 64 node sets; points at the nodes of spheres.
-// `with_cells`: also shapes and joints of the points (cloud.hpp); faces on symmetry `planes` are no surface.
+// `with_cells`: also shapes and shared nodes of the points (cloud.hpp); faces on symmetry `planes` are no surface.
 // HEX8 blocks with the attributes of PartialCell: volume and position of a point at an element are those of the cell;
 // the spacing is the hexahedron's. Throws Error for an invalid cell (names element and block), and for points at nodes.
 PointCloud read_exodus(const std::filesystem::path& file, const Communicator& communicator,

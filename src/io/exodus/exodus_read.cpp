@@ -47,7 +47,7 @@ PointCloud on_all_ranks(const Communicator& communicator, const Action& action) 
 std::vector<std::int64_t> numbers_of(const MeshSource* file, MeshSource::On on, std::int64_t total,
                                      const Communicator& communicator) {
   OnRoot on_root(communicator);
-  auto mine = deal<std::int64_t>(
+  auto mine = scatterv<std::int64_t>(
       communicator, slice_counts(total, communicator.size()),
       [&](std::int64_t begin, std::span<std::int64_t> values) { on_root([&] { file->numbers(on, begin, values); }); });
   on_root.raise();
@@ -119,9 +119,9 @@ PointCloud points_of(const MeshSource* mesh, const std::string& name, PointsAt a
   const MeshLayout layout = broadcast_layout(mesh ? mesh->layout() : MeshLayout(), communicator);
   PointCloud cloud =
       (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, name, with_cells, planes, communicator);
-  const auto alone = [](const std::vector<std::int64_t>& joints) { return joints.empty(); };
-  const bool any_alone = std::any_of(cloud.joints.begin(), cloud.joints.end(), alone);
-  cloud.joined = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
+  const auto alone = [](const std::vector<std::int64_t>& shared_nodes) { return shared_nodes.empty(); };
+  const bool any_alone = std::any_of(cloud.shared_nodes.begin(), cloud.shared_nodes.end(), alone);
+  cloud.has_shared_nodes = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
   return cloud;
 }
 

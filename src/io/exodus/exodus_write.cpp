@@ -108,7 +108,7 @@ struct ExodusWriter::File {
   template <class T, class Put>
   void in_portions(const std::vector<T>& mine, OnRoot& on_root, const Put& put) const {
     std::int64_t begin = 0;
-    collect<T>(communicator, mine, [&](std::span<const T> portion) {
+    gatherv<T>(communicator, mine, [&](std::span<const T> portion) {
       on_root([&] { put(portion, begin); });
       begin += std::ssize(portion);
     });

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/errors.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/netcdf/trial_read.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 
@@ -182,7 +182,7 @@ class SliceReader {
   template <class T, class Read>
   std::vector<T> dealt(const std::vector<std::int64_t>& counts, const Read& read) const {
     OnRoot on_root(communicator_);
-    std::vector<T> mine = deal<T>(
+    std::vector<T> mine = scatterv<T>(
         communicator_, counts, [&](std::int64_t begin, std::span<T> values) { on_root([&] { read(begin, values); }); });
     on_root.raise();
     return mine;

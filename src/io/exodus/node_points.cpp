@@ -28,7 +28,7 @@ class Shares {
   Shares(const MeshSlice& slice, const std::string& file)
       : slice_(slice), mesh_(slice.mesh), file_(file), shares_(slice.nodes.size()) {}
 
-  std::vector<Share> collect() {
+  std::vector<Share> gatherv() {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
       const Mesh::Block& block = mesh_.blocks[b];
       if (block.type == "HEX8") add_block<8>(static_cast<int>(b), hexahedron_parts);
@@ -75,7 +75,7 @@ class Cells {
         integrals_(slice.nodes.size()),
         surface_(slice.nodes.size(), Vector::Zero()),
         surface_moments_(slice.nodes.size(), Tensor::Zero()),
-        joints_(slice.nodes.size()) {
+        shared_nodes_(slice.nodes.size()) {
     for (const Mesh::Block& block : mesh_.blocks) {
       if (block.type == "HEX8") add_block<8>(block, hexahedron_pieces);
       if (block.type == "TET4") add_block<4>(block, tetrahedron_pieces);
@@ -98,7 +98,7 @@ class Cells {
     cloud.shapes.push_back(cell_shape(integrals_[node]));
     cloud.shapes.back().surface = surface_[node];
     cloud.shapes.back().surface_moments = surface_moments_[node];
-    cloud.joints.push_back(std::move(joints_[node]));
+    cloud.shared_nodes.push_back(std::move(shared_nodes_[node]));
   }
 
  private:
@@ -109,9 +109,9 @@ class Cells {
       for (std::size_t n = 0; n < size; ++n) {
         const int node = block.nodes[e * size + n];
         integrals_[node] += pieces[n];
-        std::vector<std::int64_t>& joints = joints_[node];
+        std::vector<std::int64_t>& shared_nodes = shared_nodes_[node];
         const std::int64_t element = slice_.elements[elements_];
-        if (joints.empty() || joints.back() != element) joints.push_back(element);
+        if (shared_nodes.empty() || shared_nodes.back() != element) shared_nodes.push_back(element);
       }
     }
   }
@@ -121,7 +121,7 @@ class Cells {
   std::vector<Integrals> integrals_;
   std::vector<Vector> surface_;
   std::vector<Tensor> surface_moments_;
-  std::vector<std::vector<std::int64_t>> joints_;
+  std::vector<std::vector<std::int64_t>> shared_nodes_;
   std::size_t elements_ = 0;  // processed so far
 };
 
@@ -158,7 +158,7 @@ PointCloud elements_of(const MeshSlice& slice, const NodeRange& own) {
 PointCloud points_at_nodes(const MeshSlice& slice, const NodeRange& own, const std::vector<std::int64_t>& numbers,
                            const std::string& file, bool with_cells, const std::vector<Mirror>& planes) {
   check_corners(slice, file);
-  const std::vector<Share> shares = Shares(slice, file).collect();
+  const std::vector<Share> shares = Shares(slice, file).gatherv();
   std::optional<Cells> cells;
   if (with_cells) cells.emplace(slice, planes);
   PointCloud cloud;

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "io/slices.hpp"
 
 namespace strut::io {

@@ -64,19 +64,19 @@ void set_surface(const std::array<int, 3>& at, const std::array<int, 3>& points,
   }
 }
 
-// The corners of a cell, numbered x fastest, with the bits of the planes that they lie on (PointCloud::joints).
+// The corners of a cell, numbered x fastest, with the bits of the planes that they lie on (PointCloud::shared_nodes).
 std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::array<int, 3>& points, const Vector& cell,
                                      const Vector& origin, const std::vector<Mirror>& planes) {
   std::vector<std::int64_t> corners;
   for (const std::int64_t z : {at[2], at[2] + 1}) {
     for (const std::int64_t y : {at[1], at[1] + 1}) {
       for (const std::int64_t x : {at[0], at[0] + 1}) {
-        std::int64_t joint = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
+        std::int64_t shared_node = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
         const Vector X = origin + cell.cwiseProduct(Vector(x, y, z));
         for (const Mirror& plane : planes) {
-          if (plane.holds(X, cell.minCoeff())) joint |= std::int64_t{1} << (first_plane_bit + plane.bit);
+          if (plane.holds(X, cell.minCoeff())) shared_node |= std::int64_t{1} << (first_plane_bit + plane.bit);
         }
-        corners.push_back(joint);
+        corners.push_back(shared_node);
       }
     }
   }
@@ -93,9 +93,9 @@ void add_cells(const Vector& cell, const Vector& origin, const std::array<int, 3
     CellShape& shape = cloud.shapes.emplace_back();
     shape.moments.head<3>() = squares;
     set_surface(at, points, cell, cloud.positions[i], planes, shape);
-    cloud.joints.push_back(corners_of(at, points, cell, origin, planes));
+    cloud.shared_nodes.push_back(corners_of(at, points, cell, origin, planes));
   }
-  cloud.joined = true;
+  cloud.has_shared_nodes = true;
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ class Communicator;
 namespace strut::io {
 
 // Collective. Makes `points` cells along x, y, z, x fastest, in the block "block_1"; each rank gets a contiguous slice.
-// `with_cells`: also shapes, and joints, which are the corners of the cells; faces on symmetry `planes` are no surface.
+// `with_cells`: also shapes, and shared nodes, which are the corners of the cells; faces on symmetry `planes` are no
+// surface.
 PointCloud make_grid(const Vector& origin, const Vector& length, const std::array<int, 3>& points,
                      const Communicator& communicator, bool with_cells = false, const std::vector<Mirror>& planes = {});
 

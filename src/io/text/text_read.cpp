@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "io/exodus/exodus.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
@@ -97,9 +97,10 @@ Part dealt(const std::filesystem::path& path, const Communicator& communicator) 
     communicator.broadcast(size);
     if (size[0] == 0) break;
     counts[static_cast<std::size_t>(turn)] = size[0];
-    const std::vector<Line> own = deal<Line>(communicator, counts, [&](std::int64_t begin, std::span<Line> portion) {
-      std::copy_n(lines.begin() + begin, portion.size(), portion.begin());
-    });
+    const std::vector<Line> own =
+        scatterv<Line>(communicator, counts, [&](std::int64_t begin, std::span<Line> portion) {
+          std::copy_n(lines.begin() + begin, portion.size(), portion.begin());
+        });
     mine.lines.insert(mine.lines.end(), own.begin(), own.end());
     for (std::int64_t n = 0; n < std::ssize(own); ++n) mine.ids.push_back(first + n);
     first += size[0];

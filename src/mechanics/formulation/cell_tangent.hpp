@@ -33,7 +33,7 @@ class CellTangent {
     CellTensors dP;
     for (int q = 0; q < 4; ++q) {
       const std::size_t place = block_.place(k_, q);
-      dP[q] = tangents_ ? (*tangents_)[body_.owned() + block_.first_law_point + place].times(dF[q])
+      dP[q] = tangents_ ? (*tangents_)[body_.owned() + block_.first_integration_point + place].times(dF[q])
                         : elastic_change(block_.cells[place], block_.moduli(place), dF[q]);
     }
     if (shared_) shared_->share_stresses(dP);

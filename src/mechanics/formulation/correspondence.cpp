@@ -107,7 +107,7 @@ struct Update {
   // Advances a group; returns the largest frequency bound² of its points, 1/s².
   double advance(const LaneGroup& group) const {
     GroupTile<materials::state_size<L>, 1> state(*block().state, group.k, group.count);
-    const LawPoints<PointRecords> g{group, group.k, members(group), state.rows()};
+    const IntegrationPoints<PointRecords> g{group, group.k, members(group), state.rows()};
     const LaneSymmetric shape_inverse = shape_inverses(group, body());
     const auto [N, pull] = moments(body(), group, with_springs);
     const Lanes trace = shape_inverse.c[0] + shape_inverse.c[1] + shape_inverse.c[2];

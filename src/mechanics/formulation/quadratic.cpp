@@ -32,7 +32,7 @@ class CellsAtPlace {
         numbers_(block.cells->tiles(), places_, group.count),
         state_(*block.state, places_, group.count) {}
 
-  LawPoints<PointTile> points() const { return {group_, places_, {numbers_.rows()}, state_.rows()}; }
+  IntegrationPoints<PointTile> points() const { return {group_, places_, {numbers_.rows()}, state_.rows()}; }
   PointTile numbers() const { return {numbers_.rows()}; }
   void give_back() const {
     numbers_.give_back(block_.cells->tiles(), places_, group_.count);

@@ -90,7 +90,7 @@ struct PointTile {
 
 // The integration points of a group: one for each of its points.
 template <class Numbers>
-struct LawPoints {
+struct IntegrationPoints {
   const LaneGroup& group;
   std::array<int, LaneGroup::width> places;  // indices of their states
   Numbers numbers;
@@ -172,7 +172,7 @@ struct LawUpdate {
 
   // Advances stress and state.
   template <class Numbers>
-  void set_stress(const LawPoints<Numbers>& g, const Lanes& share, Deformed& now) const {
+  void set_stress(const IntegrationPoints<Numbers>& g, const Lanes& share, Deformed& now) const {
     now.stiffness = stiffness_of(g);
     if (!(pass.dt > 0)) {
       now.stress = g.numbers.stresses();
@@ -191,7 +191,7 @@ struct LawUpdate {
   static constexpr std::size_t columns = materials::state_size<L>;
 
   template <class Numbers>
-  typename L::State state_at(const LawPoints<Numbers>& g, int l) const {
+  typename L::State state_at(const IntegrationPoints<Numbers>& g, int l) const {
     std::array<double, columns> values;
     for (std::size_t c = 0; c < columns; ++c) values[c] = g.state[c].lane[l];
     return materials::from_columns<L>(values);
@@ -199,7 +199,7 @@ struct LawUpdate {
 
   // Advances stress and state of one integration point.
   template <class Numbers>
-  void advance_law(const LawPoints<Numbers>& g, int l, const Deformed& now, double dt, double viscous_work,
+  void advance_law(const IntegrationPoints<Numbers>& g, int l, const Deformed& now, double dt, double viscous_work,
                    LaneSymmetric& all) const {
     Symmetric rate, stretch, old;
     for (int c = 0; c < 6; ++c) rate[c] = now.rates.c[c][l], stretch[c] = now.polar.stretch.c[c][l], old[c] = all[c][l];
@@ -215,7 +215,7 @@ struct LawUpdate {
 
   // Advances stress and state of the integration points of a group at once.
   template <class Numbers>
-  LaneSymmetric advance_side_by_side(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
+  LaneSymmetric advance_side_by_side(const IntegrationPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
                                      const Lanes& viscous_work) const {
     using State = typename L::template StateOf<small::RawLanes>;
     std::array<small::RawLanes, columns> numbers;
@@ -250,7 +250,7 @@ struct LawUpdate {
 
   // The stresses of a group at the end of the step.
   template <class Numbers>
-  LaneSymmetric advance_laws(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
+  LaneSymmetric advance_laws(const IntegrationPoints<Numbers>& g, const Deformed& now, const Lanes& dt,
                              const Lanes& viscous_work) const {
     if constexpr (materials::takes_lanes<L>) {
       return advance_side_by_side(g, now, dt, viscous_work);
@@ -270,7 +270,7 @@ struct LawUpdate {
 
   // The viscous pressure of points that are compressed in this step; adds up the work that it dissipates.
   template <class Numbers>
-  Viscous add_viscosity(const LawPoints<Numbers>& g, const Deformed& now, const Lanes& dt) const {
+  Viscous add_viscosity(const IntegrationPoints<Numbers>& g, const Deformed& now, const Lanes& dt) const {
     const auto [linear, quadratic] = block.material.viscosity;
     const Lanes speed2 = now.stiffness * now.J / block.material.density,
                 steepness2 = small::square(now.inverse_stretch) / 3;
@@ -294,7 +294,7 @@ struct LawUpdate {
 
   // M of integration points, Pa; 0 for those that have failed.
   template <class Numbers>
-  Lanes stiffness_of(const LawPoints<Numbers>& g) const {
+  Lanes stiffness_of(const IntegrationPoints<Numbers>& g) const {
     Lanes modulus = Lanes::Constant(law.moduli().longitudinal());
     if constexpr (materials::has_changing_moduli<L>) {
       for (int l = 0; l < LaneGroup::width; ++l) modulus[l] = law.moduli(state_at(g, l)).longitudinal();

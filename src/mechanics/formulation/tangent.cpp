@@ -104,7 +104,7 @@ std::vector<PointTangent> point_tangents(const Body& body, const Committed& star
         }
         for (int q = 0; q < block.places_a_point(); ++q) {
           const std::size_t place = block.place(k, q);
-          PointTangent& tangent = tangents[body.owned() + block.first_law_point + place];
+          PointTangent& tangent = tangents[body.owned() + block.first_integration_point + place];
           tangent = at_place(place, start.cell(b, place), block.cells[place]);
           tangents[i].by_gradient += tangent.by_gradient / block.places_a_point();
         }

@@ -26,11 +26,11 @@ struct BlockBonds {
   // Bonds may break, or are left out because of a crack: lists are then kept beside a stencil. One block of a body with
   // this flag is enough.
   bool may_lose_bonds = false;
-  // Visibility: a bond is left out unless a chain of touching points (PointCloud::joints), all within the horizon of
-  // both ends, joins its ends. Needs joints and lists. For two blocks, one with this flag is enough.
-  bool through_material = false;
+  // Visibility: a bond is left out unless a chain of touching points (PointCloud::shared_nodes), all within the horizon
+  // of both ends, joins its ends. Needs shared nodes and lists. For two blocks, one with this flag is enough.
+  bool visible_only = false;
   // A family consists of the points that touch, whatever their distance: the centroid or node of a cell does not show
-  // its extent. Needs joints and lists. For two blocks, one with this flag is enough.
+  // its extent. Needs shared nodes and lists. For two blocks, one with this flag is enough.
   bool touching = false;
 
   // δ of a point with this local spacing, m.

@@ -80,7 +80,7 @@ CandidatePool candidates_of(const PointCloud& cloud, const std::vector<double>& 
   CandidatePool pool{cloud.positions, cloud.volumes, cloud.ids, horizons, {}, {}};
   const auto add_block = [&](int block) {
     pool.bodies.push_back(bonds[block].body);
-    pool.asks.push_back(bonds[block].touching ? 2 : bonds[block].through_material ? 1 : 0);
+    pool.asks.push_back(bonds[block].touching ? 2 : bonds[block].visible_only ? 1 : 0);
     pool.deltas.push_back(pool.horizons[pool.deltas.size()] / bonds[block].search_factor());
   };
   for (const int block : cloud.blocks) add_block(block);

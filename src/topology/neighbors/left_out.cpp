@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "base/errors.hpp"
-#include "topology/neighbors/through_material.hpp"
+#include "topology/neighbors/visibility.hpp"
 
 namespace strut {
 
@@ -15,24 +15,24 @@ std::vector<char> concerned(const std::vector<BlockBonds>& bonds) {
   std::vector<char> blocks;
   for (const BlockBonds& block : bonds) {
     blocks.push_back(std::any_of(bonds.begin(), bonds.end(), [&](const BlockBonds& other) {
-      return (other.through_material || other.touching) && other.body == block.body;
+      return (other.visible_only || other.touching) && other.body == block.body;
     }));
   }
   return blocks;
 }
 
 // Collective.
-void check_through_material(const PointCloud& cloud, const std::vector<BlockBonds>& bonds,
-                            const Communicator& communicator) {
+void check_visibility(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Communicator& communicator) {
   std::string problem;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    if ((bonds[b].through_material || bonds[b].touching) && bonds[b].families != FamilyKind::lists) {
+    if ((bonds[b].visible_only || bonds[b].touching) && bonds[b].families != FamilyKind::lists) {
       throw std::logic_error("block '" + cloud.block_names[b] + "' asks for bonds through material without lists");
     }
   }
   for (std::size_t i = 0; i < cloud.size() && problem.empty(); ++i) {
     const BlockBonds& block = bonds[cloud.blocks[i]];
-    if (!(block.through_material || block.touching) || (!cloud.joints.empty() && !cloud.joints[i].empty())) continue;
+    if (!(block.visible_only || block.touching) || (!cloud.shared_nodes.empty() && !cloud.shared_nodes[i].empty()))
+      continue;
     problem = "block '" + cloud.block_names[cloud.blocks[i]] +
               "': its bonds shall run through material, but its points share nothing with each other; expected "
               "hexahedra or tetrahedra, not spheres or a text mesh";
@@ -40,30 +40,30 @@ void check_through_material(const PointCloud& cloud, const std::vector<BlockBond
   raise_together(communicator, problem);
 }
 
-// A joint of a candidate, in the form in which it is sent.
-struct JointOf {
-  std::int64_t id, joint;
+// A shared node of a candidate, in the form in which it is sent.
+struct SharedNodeOf {
+  std::int64_t id, shared_node;
 };
 
-// The joints (shared nodes) of points and of their images.
-class Joints {
+// The shared nodes of points and of their images.
+class SharedNodes {
  public:
-  Joints(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored)
+  SharedNodes(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, const Mirrored& mirrored)
       : cloud_(cloud), bonds_(bonds), mirrored_(mirrored) {}
 
-  // Calls visit(joint) for those of an image of point i. A joint on a symmetry plane is its own image.
+  // Calls visit(shared node) for those of an image of point i. A shared node on a symmetry plane is its own image.
   template <class Visit>
   void for_each(int i, int image, const Visit& visit) const {
     const int body = bonds_[cloud_.blocks[i]].body;
     const bool is_mirrored = !mirrored_.images.of_body(body).empty();
-    for (const std::int64_t joint : cloud_.joints[i]) {
-      const std::int64_t number = joint & ((std::int64_t{1} << first_plane_bit) - 1);
+    for (const std::int64_t shared_node : cloud_.shared_nodes[i]) {
+      const std::int64_t number = shared_node & ((std::int64_t{1} << first_plane_bit) - 1);
       if (!is_mirrored) {
         visit(number);
-      } else if (cloud_.at == PointsAt::nodes) {  // joints are elements, none of which is its own image
+      } else if (cloud_.at == PointsAt::nodes) {  // shared nodes are elements, none of which is its own image
         for_each_image_at(body, cloud_.positions[i], image, [&](int one) { visit(Images::id(number, one)); });
       } else {
-        visit(Images::id(number, first_image(body, joint >> first_plane_bit, image)));
+        visit(Images::id(number, first_image(body, shared_node >> first_plane_bit, image)));
       }
     }
   }
@@ -113,31 +113,31 @@ class Joints {
   double size_ = mirrored_.boxes.empty() ? 0 : mirrored_.boxes.front().sizes().norm();
 };
 
-// Collective. Each joint of some blocks with a pool member that has it. Those of candidates come from their owners,
-// which process the same offers in the same order as for the candidates themselves.
-std::vector<std::pair<std::int64_t, int>> joints_of(const PointCloud& cloud, const std::vector<char>& blocks,
-                                                    const CandidatePool& pool, const Joints& all,
-                                                    const std::vector<Offered>& offers, double reach,
-                                                    const Communicator& communicator) {
-  std::vector<std::pair<std::int64_t, int>> joints;
+// Collective. Each shared node of some blocks with a pool member that has it. Those of candidates come from their
+// owners, which process the same offers in the same order as for the candidates themselves.
+std::vector<std::pair<std::int64_t, int>> nodes_of(const PointCloud& cloud, const std::vector<char>& blocks,
+                                                   const CandidatePool& pool, const SharedNodes& all,
+                                                   const std::vector<Offered>& offers, double reach,
+                                                   const Communicator& communicator) {
+  std::vector<std::pair<std::int64_t, int>> shared_nodes;
   std::vector<Vector> places;
-  std::vector<JointOf> mine;
+  std::vector<SharedNodeOf> mine;
   std::vector<char> is_image;
   for (const auto& [i, image, place] : offers) {
-    if (cloud.joints.empty() || !blocks[cloud.blocks[i]]) continue;
-    all.for_each(i, image, [&](std::int64_t joint) {
-      if (image == 0) joints.emplace_back(joint, i);
+    if (cloud.shared_nodes.empty() || !blocks[cloud.blocks[i]]) continue;
+    all.for_each(i, image, [&](std::int64_t shared_node) {
+      if (image == 0) shared_nodes.emplace_back(shared_node, i);
       places.push_back(place);
-      mine.push_back({Images::id(cloud.ids[i], image), joint});
+      mine.push_back({Images::id(cloud.ids[i], image), shared_node});
       is_image.push_back(image > 0);
     });
   }
   std::size_t member = cloud.size();
-  for (const JointOf& one : received(cloud, places, mine, is_image, reach, communicator)) {
+  for (const SharedNodeOf& one : received(cloud, places, mine, is_image, reach, communicator)) {
     while (pool.ids[member] != one.id) ++member;
-    joints.emplace_back(one.joint, static_cast<int>(member));
+    shared_nodes.emplace_back(one.shared_node, static_cast<int>(member));
   }
-  return joints;
+  return shared_nodes;
 }
 
 LeftOut left_out_of(std::vector<std::pair<int, int>> pairs, int owned) {
@@ -158,9 +158,9 @@ LeftOut left_out(const PointCloud& cloud, const std::vector<BlockBonds>& bonds, 
                  const Communicator& communicator) {
   const std::vector<char> blocks = concerned(bonds);
   if (std::find(blocks.begin(), blocks.end(), 1) == blocks.end()) return {};
-  check_through_material(cloud, bonds, communicator);
-  ThroughMaterial material({pool.positions, pool.horizons, pool.bodies},
-                           joints_of(cloud, blocks, pool, Joints(cloud, bonds, mirrored), offers, reach, communicator));
+  check_visibility(cloud, bonds, communicator);
+  Visibility material({pool.positions, pool.horizons, pool.bodies},
+                      nodes_of(cloud, blocks, pool, SharedNodes(cloud, bonds, mirrored), offers, reach, communicator));
   std::vector<std::pair<int, int>> pairs;
   std::vector<int> family, asked, apart;
   const int owned = static_cast<int>(cloud.size());

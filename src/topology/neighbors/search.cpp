@@ -4,8 +4,8 @@
 
 namespace strut {
 
-std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
-                                                           const std::vector<int>& order) {
+std::vector<std::pair<int, std::int64_t>> separated_by_cracks(const Search& search, const CandidatePool& pool,
+                                                              const std::vector<int>& order) {
   std::vector<std::pair<int, std::int64_t>> pairs;
   if (std::ranges::all_of(search.cracks, [](const std::vector<Crack>& of_body) { return of_body.empty(); }))
     return pairs;

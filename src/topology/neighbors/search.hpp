@@ -32,8 +32,8 @@ void for_each_neighbor(const Search& search, const CandidatePool& pool, int i, V
 }
 
 // Pairs of an owned point, in the order given, and a point to which only a crack prevents a bond
-// (Domain::parted).
-std::vector<std::pair<int, std::int64_t>> parted_by_cracks(const Search& search, const CandidatePool& pool,
-                                                           const std::vector<int>& order);
+// (Domain::separated).
+std::vector<std::pair<int, std::int64_t>> separated_by_cracks(const Search& search, const CandidatePool& pool,
+                                                              const std::vector<int>& order);
 
 }  // namespace strut

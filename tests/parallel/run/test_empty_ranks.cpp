@@ -14,7 +14,7 @@ Scene scene_of(const deck::Deck& deck, const Communicator& world, bool on_one_ra
   advice(deck, scene);
   if (!on_one_rank) return scene;
   const std::vector<int> ranks(scene.body.owned(), world.size() - 1);
-  return set_up_again(deck, kept_of(scene, moved(whole_cloud(scene.body.domain), ranks, world)), world);
+  return set_up_again(deck, migration_state_of(scene, moved(whole_cloud(scene.body.domain), ranks, world)), world);
 }
 
 // To an archive and back, which is where ranks meet that have no part in a group of points.

@@ -13,7 +13,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "topology/domain.hpp"
 #include "topology/neighbors/lattice.hpp"
 #include "topology/partition.hpp"
@@ -306,9 +306,10 @@ TEST(Lattice, NeighborsAtExactlyTheHorizonAreIn) {
   EXPECT_EQ(bonds, 2 * 3 * 5 * 6 * 6);
 }
 
-// ---- Bonds through material, shapes and joints ----------------------------------------------------------------------
+// ---- Bonds through material, shapes and shared nodes
+// ----------------------------------------------------------------------
 
-// Cells of a porous block, with their corners for joints; shapes by their ids. Of two blocks one above the other.
+// Cells of a porous block, with their corners for shared nodes; shapes by their ids. Of two blocks one above the other.
 struct Porous {
   double filled;   // the part of the cells that is there
   double horizon;  // spacings; of the upper block 0.8 of it
@@ -347,7 +348,7 @@ PointCloud whole_cloud(const Porous& c) {
         cloud.positions.push_back(Vector(i, c.stretch * j, k) + shift);
         cloud.spacings.push_back(spacing);
         cloud.blocks.push_back(k < 4 ? 0 : 1);
-        cloud.joints.push_back(corners_of(i, j, k));
+        cloud.shared_nodes.push_back(corners_of(i, j, k));
         cloud.shapes.push_back(shape_of_id(cloud.ids.back()));
       }
     }
@@ -361,14 +362,14 @@ PointCloud whole_cloud(const Porous& c) {
 std::vector<BlockBonds> bonds_of(const Porous& c) {
   std::vector<BlockBonds> bonds = {BlockBonds::per_spacing(c.horizon),
                                    BlockBonds::per_spacing(0.8 * c.horizon, c.separate)};
-  bonds[0].through_material = c.lower_asks, bonds[1].through_material = c.upper_asks;
+  bonds[0].visible_only = c.lower_asks, bonds[1].visible_only = c.upper_asks;
   for (BlockBonds& block : bonds) block.families = FamilyKind::lists;
   return bonds;
 }
 
 // By the words of the definition, over all pairs: the points that are bonded to both ends fall into parts that hang
 // together, and both ends must be in one.
-std::set<Pair> through_material(const Porous& c) {
+std::set<Pair> visible_only(const Porous& c) {
   const PointCloud cloud = whole_cloud(c);
   const std::vector<BlockBonds> bonds = bonds_of(c);
   const auto n = static_cast<int>(cloud.size());
@@ -379,8 +380,8 @@ std::set<Pair> through_material(const Porous& c) {
   };
   const auto touch = [&](int i, int j) {
     std::vector<std::int64_t> common;
-    std::set_intersection(cloud.joints[i].begin(), cloud.joints[i].end(), cloud.joints[j].begin(),
-                          cloud.joints[j].end(), std::back_inserter(common));
+    std::set_intersection(cloud.shared_nodes[i].begin(), cloud.shared_nodes[i].end(), cloud.shared_nodes[j].begin(),
+                          cloud.shared_nodes[j].end(), std::back_inserter(common));
     return !common.empty();
   };
   std::vector<std::vector<int>> touching(n);
@@ -405,7 +406,7 @@ std::set<Pair> through_material(const Porous& c) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       if (i == j || !in_reach(i, j)) continue;
-      const bool asked = block(i).through_material || block(j).through_material;
+      const bool asked = block(i).visible_only || block(j).visible_only;
       if (!asked || joined(i, j)) pairs.emplace(i, j);
     }
   }
@@ -423,11 +424,11 @@ TEST_P(PorousDomain, FamiliesAreThoseOfTheDefinitionOverAllPairs) {
   const std::vector<Pair> bonds = all_bonds(domain, ids, world);
   const std::set<Pair> distinct(bonds.begin(), bonds.end());
   EXPECT_EQ(distinct.size(), bonds.size());
-  EXPECT_EQ(distinct, through_material(GetParam()));
+  EXPECT_EQ(distinct, visible_only(GetParam()));
   Porous all = GetParam();
   all.lower_asks = all.upper_asks = false;
   if ((GetParam().lower_asks || GetParam().upper_asks) && GetParam().filled > 0.1) {
-    EXPECT_LT(distinct.size(), through_material(all).size()) << "a case without pores";
+    EXPECT_LT(distinct.size(), visible_only(all).size()) << "a case without pores";
   }
 }
 
@@ -448,16 +449,16 @@ TEST_P(PorousDomain, FamiliesAreInTheOrderOfIdsAndNeedTheirGhosts) {
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0);
 }
 
-TEST_P(PorousDomain, PointsKeepTheirShapesAndJoints) {
+TEST_P(PorousDomain, PointsKeepTheirShapesAndSharedNodes) {
   const PointCloud whole = whole_cloud(GetParam());
   const PointCloud again = strut::whole_cloud(domain);
   ASSERT_EQ(domain.cloud.shapes.size(), domain.cloud.size());
-  ASSERT_EQ(again.joints.size(), again.size());
+  ASSERT_EQ(again.shared_nodes.size(), again.size());
   for (std::size_t i = 0; i < again.size(); ++i) {
     const Id id = again.ids[i];
     EXPECT_EQ(domain.cloud.ids[i], id);
     EXPECT_EQ(numbers_of(domain.cloud.shapes[i]), numbers_of(shape_of_id(id)));
-    EXPECT_EQ(again.joints[i], whole.joints[id]);
+    EXPECT_EQ(again.shared_nodes[i], whole.shared_nodes[id]);
   }
 }
 
@@ -469,7 +470,7 @@ INSTANTIATE_TEST_SUITE_P(Points, PorousDomain,
                                          Porous{0.004, 4, true, true}),       // fewer points than ranks
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-TEST(ThroughMaterial, NeedsListsAndJoints) {
+TEST(Visibility, NeedsListsAndSharedNodes) {
   const Communicator world;
   const Porous c = {0.3, 2.2, true, true};
   std::vector<BlockBonds> bonds = bonds_of(c);
@@ -478,10 +479,10 @@ TEST(ThroughMaterial, NeedsListsAndJoints) {
   EXPECT_THROW(make_domain(cloud, bonds, world), std::logic_error);
   bonds[1].families = FamilyKind::lists;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.blocks[i] == 1) cloud.joints[i].clear();
+    if (cloud.blocks[i] == 1) cloud.shared_nodes[i].clear();
   }
   for (const bool all : {false, true}) {
-    if (all) cloud.joints.clear();
+    if (all) cloud.shared_nodes.clear();
     try {
       make_domain(cloud, bonds, world);
       FAIL() << "no error";

@@ -283,6 +283,18 @@ TEST(BreaksUnderPressure, AreToldOfWhereTheyMayGiveEnergy) {
   EXPECT_FALSE(tells("Elastic Correspondence", "0.3", by_stretch, ""));
 }
 
+TEST(CriticalStretch, InPercentIsToldOf) {
+  const auto tells = [](const std::string& value) {
+    Parts parts;
+    parts.damage = section("brittle", key("Damage Model", "Critical Stretch") + key("Critical Stretch", value));
+    parts.blocks = section("metal", key("Block Names", "all") + key("Material", "copper") + key("Horizon", "2.01e-3") +
+                                        key("Damage Model", "brittle"));
+    return told_of(parts).find("bonds break at 3 times their length; is it a fraction") != std::string::npos;
+  };
+  EXPECT_TRUE(tells("2"));
+  EXPECT_FALSE(tells("0.02"));
+}
+
 // 4 x 4 points of the lowest layer have their centers 0.5 mm above z = 0, of the next 1.5 mm.
 TEST(Tools, ThatAreInsideOfABodyAtTheStartAreToldOf) {
   Parts parts;

@@ -176,6 +176,23 @@ TEST(Displacement, ThatIsNotZeroAtTheStartIsAnErrorOfExplicitSteps) {
   expect_said(said_of(later).error, {"0.005 m at the initial time, t = 0.001 s"}, "another initial time");
 }
 
+// Steps sample a value at one time each: a rectangle of 20 steps may get 19 or 21 of them, a smooth pulse integrates to
+// far less than a percent, and of a single jump only the time is off, by half a step.
+TEST(Pulses, OfFewStepsAreTold) {
+  const auto load = [](const std::string& value) { return along("a", "Body Force", "foot", "z", value); };
+  const std::string pulse =
+      "if (t &lt; 2e-6) { value = 0; } else if (t &lt; 4e-6) { value = 1e9; } else { value = 0; }";
+  for (const std::string& sampled : {load(pulse), velocity("a", "foot", "z", pulse)}) {
+    expect_said(said_of(block(sampled)).warnings,
+                {"WARNING: Boundary Conditions > a > Value: jumps twice within 2e-06 s", "off by up to a step"},
+                sampled);
+  }
+  for (const std::string& value :
+       {"1e9*exp(-(1e6*t - 3)^2)", "if (t &lt; 2e-6) { value = 0; } else { value = 1e9; }", "1e9"}) {
+    EXPECT_EQ(said_of(block(load(value))).warnings.find("jumps"), std::string::npos) << value;
+  }
+}
+
 TEST(Displacement, ThatJumpsIsTold) {
   const std::string jump = "if (t &lt; 2e-6) { value = 0; } else { value = 1e-4; }";
   expect_said(said_of(block(displacement("a", "foot", "z", jump))).warnings,

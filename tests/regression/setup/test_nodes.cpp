@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "mechanics/rigid_motion.hpp"
 #include "output/observables.hpp"
 #include "regression/bodies.hpp"

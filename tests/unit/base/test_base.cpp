@@ -14,8 +14,8 @@
 #include "base/math/function.hpp"
 #include "base/math/tensors.hpp"
 #include "base/parallel/communicator.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "base/parallel/launch.hpp"
-#include "base/parallel/portions.hpp"
 #include "base/parallel/reproducible_sum.hpp"
 #include "base/timing.hpp"
 

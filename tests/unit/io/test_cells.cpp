@@ -1,4 +1,4 @@
-// What points stand for of a body: moments, surface, joints, cells that are partly filled; and bonds that need
+// What points stand for of a body: moments, surface, shared nodes, cells that are partly filled; and bonds that need
 // material.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "bricks.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"
@@ -218,16 +218,16 @@ TEST_F(Cells, HaveTheFacesOfTheBox) {
   EXPECT_LT((at_nodes.at(0).moments.head<3>() - Vector(0.25, 0.25, 0.0025) / 12).norm(), 1e-15);
 }
 
-TEST_F(Cells, JointsAreTheNodesOfAnElementAndTheElementsAroundANode) {
+TEST_F(Cells, SharedNodesAreTheNodesOfAnElementAndTheElementsAroundANode) {
   Mesh mesh = bricks({0, 1, 2, 3}, {0, 1}, {0, 1});
   mesh.nodes.emplace_back(9, 9, 9);
   mesh.blocks.push_back({"ball", "SPHERE", {16}, {8}});
   const std::vector<std::vector<std::int64_t>> nodes = {
       {0, 1, 4, 5, 8, 9, 12, 13}, {1, 2, 5, 6, 9, 10, 13, 14}, {2, 3, 6, 7, 10, 11, 14, 15}, {}};
   const PointCloud elements = read(mesh);
-  ASSERT_EQ(elements.joints.size(), elements.size());
+  ASSERT_EQ(elements.shared_nodes.size(), elements.size());
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    EXPECT_EQ(elements.joints[i], nodes[elements.ids[i]]);
+    EXPECT_EQ(elements.shared_nodes[i], nodes[elements.ids[i]]);
     if (elements.ids[i] == 3) {
       EXPECT_LT((elements.shapes[i].moments - cube_moments(8)).norm(), 1e-15);
       EXPECT_EQ(elements.shapes[i].surface, Vector::Zero());
@@ -236,8 +236,8 @@ TEST_F(Cells, JointsAreTheNodesOfAnElementAndTheElementsAroundANode) {
   mesh.blocks.pop_back();
   const std::vector<std::vector<std::int64_t>> around = {{0}, {0, 1}, {1, 2}, {2}};
   const PointCloud at_nodes = read(mesh, PointsAt::nodes);
-  ASSERT_EQ(at_nodes.joints.size(), at_nodes.size());
-  for (std::size_t i = 0; i < at_nodes.size(); ++i) EXPECT_EQ(at_nodes.joints[i], around[at_nodes.ids[i] % 4]);
+  ASSERT_EQ(at_nodes.shared_nodes.size(), at_nodes.size());
+  for (std::size_t i = 0; i < at_nodes.size(); ++i) EXPECT_EQ(at_nodes.shared_nodes[i], around[at_nodes.ids[i] % 4]);
 }
 
 TEST_F(Cells, AreNotThereUnlessAskedForAndChangeNothingElse) {
@@ -245,7 +245,7 @@ TEST_F(Cells, AreNotThereUnlessAskedForAndChangeNothingElse) {
   for (const PointsAt at : {PointsAt::elements, PointsAt::nodes}) {
     const PointCloud plain = read(mesh, at, false), full = read(mesh, at);
     EXPECT_TRUE(plain.shapes.empty());
-    EXPECT_TRUE(plain.joints.empty());
+    EXPECT_TRUE(plain.shared_nodes.empty());
     EXPECT_EQ(plain.positions, full.positions);
     EXPECT_EQ(plain.volumes, full.volumes);
     EXPECT_EQ(plain.spacings, full.spacings);
@@ -256,7 +256,7 @@ TEST_F(Cells, OfAGridAreThoseOfTheMeshOfItsCells) {
   const PointCloud grid = make_grid({0, 0, 0}, {3, 1, 1.5}, {3, 2, 4}, world, true);
   const PointCloud mesh = read(bricks({0, 1, 2, 3}, {0, 0.5, 1}, {0, 0.375, 0.75, 1.125, 1.5}));
   ASSERT_EQ(grid.ids, mesh.ids);
-  EXPECT_EQ(grid.joints, mesh.joints);
+  EXPECT_EQ(grid.shared_nodes, mesh.shared_nodes);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     EXPECT_LT((grid.shapes[i].moments - mesh.shapes[i].moments).norm(), 1e-15);
     EXPECT_LT((grid.shapes[i].surface - mesh.shapes[i].surface).norm(), 1e-15);
@@ -296,7 +296,7 @@ TEST_F(Cells, ThatArePartlyFilledComeOutOfTheFileAgain) {
       EXPECT_EQ(cloud.shapes[i].offset, Vector::Zero());
       EXPECT_EQ(cloud.shapes[i].moments, cell.moments);
       EXPECT_EQ(cloud.shapes[i].surface, cell.surface);
-      EXPECT_EQ(cloud.joints[i].size(), 8u);
+      EXPECT_EQ(cloud.shared_nodes[i].size(), 8u);
     }
   }
   if (world.rank() != 0) return;
@@ -341,11 +341,11 @@ TEST_F(Cells, ThatNoBodyCanFillAreErrorsThatNameTheElement) {
 
 // The bonds over all ranks whose ends `crosses` says are on different sides.
 template <class Crosses>
-std::int64_t bonds_across(const PointCloud& cloud, double horizon, bool through_material, const Communicator& world,
+std::int64_t bonds_across(const PointCloud& cloud, double horizon, bool visible_only, const Communicator& world,
                           const Crosses& crosses) {
   BlockBonds bonds(horizon);
   bonds.families = FamilyKind::lists;
-  bonds.through_material = through_material;
+  bonds.visible_only = visible_only;
   const Domain domain = make_domain(partitioned(cloud, world), {bonds}, world);
   std::int64_t count = 0;
   for (int i = 0; i < domain.owned; ++i) {

@@ -8,7 +8,7 @@
 
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 #include "bricks.hpp"
 #include "io/exodus/elements.hpp"
 #include "io/exodus/exodus.hpp"

@@ -117,7 +117,7 @@ TEST(Portions, AreInOrderAndBounded) {
   const Communicator world;
   constexpr std::int64_t total = 3 * static_cast<std::int64_t>(largest_portion) + 17;
   const std::vector<std::int64_t> counts = slice_counts(total, world.size());
-  const auto mine = deal<std::int64_t>(world, counts, [](std::int64_t begin, std::span<std::int64_t> values) {
+  const auto mine = scatterv<std::int64_t>(world, counts, [](std::int64_t begin, std::span<std::int64_t> values) {
     EXPECT_LE(values.size(), largest_portion);
     std::iota(values.begin(), values.end(), begin);
   });
@@ -125,7 +125,7 @@ TEST(Portions, AreInOrderAndBounded) {
   EXPECT_EQ(mine.front(), slice_begin(total, world.size(), world.rank()));
   EXPECT_TRUE(std::is_sorted(mine.begin(), mine.end()));
   std::int64_t next = 0;
-  collect<std::int64_t>(world, mine, [&next](std::span<const std::int64_t> values) {
+  gatherv<std::int64_t>(world, mine, [&next](std::span<const std::int64_t> values) {
     EXPECT_LE(values.size(), largest_portion);
     for (const std::int64_t value : values) EXPECT_EQ(value, next++);
   });
@@ -136,7 +136,7 @@ TEST(Portions, AreInOrderAndBounded) {
 TEST(Portions, WhatIsTooMuchForAMessageGoesInSeveral) {
   const Communicator world;
   const int ranks = world.size();
-  for (const std::size_t largest : {std::size_t{3}, std::size_t{40}, portions::largest_message}) {
+  for (const std::size_t largest : {std::size_t{3}, std::size_t{40}, gather_scatter::largest_message}) {
     std::vector<std::int64_t> to, leaving, expected;
     for (int r = 0; r < ranks; ++r) {
       to.push_back((r + 2 * world.rank()) % 3 * 9);

@@ -58,7 +58,7 @@ TEST(Quadratic, LinearMotionsAreExactAtAllPlacesAndSurfaces) {
   advance_stress_and_force(body, 1, true);
   for (const MaterialBlock& b : body.blocks) {
     for (std::size_t k = 0; k < b.points.size(); ++k) {
-      for (int q = 0; q < 4; ++q) EXPECT_LT((body.law_point(b, k, q).deformation_gradient - F).norm(), exact);
+      for (int q = 0; q < 4; ++q) EXPECT_LT((body.integration_point(b, k, q).deformation_gradient - F).norm(), exact);
     }
   }
   EXPECT_LT(largest_over(body, [&](int i) { return (body.points[i].deformation_gradient - F).norm(); }), exact);
@@ -170,7 +170,7 @@ MaterialBlock cell_of(double last) {
   MaterialBlock block;
   block.material.formulation = Formulation::quadratic;
   block.points = {0};
-  block.cells->resize(block.law_points());
+  block.cells->resize(block.integration_points());
   for (int q = 0; q < 4; ++q) {
     MaterialPoint at;
     at.deformation_gradient += Tensor::NullaryExpr([&] { return number(engine); });

@@ -11,16 +11,17 @@
 namespace strut {
 
 // The points of a search, owned or of other ranks; they are identified by their indices in these columns.
-struct Joined {
+struct MeshedPoints {
   std::span<const Vector> positions;
   std::span<const double> horizons;
   std::span<const int> bodies;
 };
 
-class ThroughMaterial {
+class Visibility {
  public:
-  // `joints`: pairs of a joint and a point that has it, in any order. Points of different bodies do not touch.
-  ThroughMaterial(const Joined& points, std::vector<std::pair<std::int64_t, int>> joints);
+  // `shared_nodes`: pairs of a shared node and a point that has it, in any order. Points of different bodies do not
+  // touch.
+  Visibility(const MeshedPoints& points, std::vector<std::pair<std::int64_t, int>> shared_nodes);
 
   // Returns the points of `asked` that no chain of touching points, each bonded to both ends, connects with i.
   // `family`: all points within the horizon of i; `asked`: some of them. Symmetric: i is apart from j if j is apart
@@ -40,7 +41,7 @@ class ThroughMaterial {
   bool walks_straight(int i, int j) const;
   bool floods(int i, int j);
 
-  Joined points_;
+  MeshedPoints points_;
   std::vector<std::size_t> start_{0};
   std::vector<int> touching_;  // touching points of each point, ascending, without itself
   // One per point: twice the number of the present search if the point is in its family, one more if it has been joined

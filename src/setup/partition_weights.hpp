@@ -8,7 +8,7 @@
 namespace strut {
 
 // Collective. `spacings`: mean spacing of each block, m.
-Cuts cuts(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
-          const Communicator& communicator);
+PartitionWeights partition_weights(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                                   const Communicator& communicator);
 
 }  // namespace strut

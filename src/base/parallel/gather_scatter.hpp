@@ -18,26 +18,26 @@ namespace strut {
 // The largest number of values of other ranks that rank 0 holds at a time.
 constexpr std::size_t largest_portion = std::size_t{1} << 16;
 
-namespace portions {
+namespace gather_scatter {
 
 // The implementation of the functions below, in bytes; `size`: of a value.
 using Take = std::function<void(const char* values, std::size_t count)>;
 using Give = std::function<void(std::int64_t begin, char* values, std::size_t count)>;
-void collect(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size, const Take& take);
-void deal(const Communicator& communicator, const std::vector<std::int64_t>& counts, char* mine, std::size_t size,
-          const Give& give);
+void gatherv(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size, const Take& take);
+void scatterv(const Communicator& communicator, const std::vector<std::int64_t>& counts, char* mine, std::size_t size,
+              const Give& give);
 constexpr std::size_t largest_message = std::size_t{1} << 30;  // bytes
 void exchange(const Communicator& communicator, const char* leaving, const std::vector<std::int64_t>& to_ranks,
               char* arriving, const std::vector<std::int64_t>& from_ranks, std::size_t size,
               std::size_t largest_message);
 
-}  // namespace portions
+}  // namespace gather_scatter
 
 // Gatherv: takes all ranks' values in the order of ranks, by repeated calls of take(portion) on rank 0.
 template <class T, class TakePortion>
-void collect(const Communicator& communicator, std::span<const T> mine, const TakePortion& take) {
+void gatherv(const Communicator& communicator, std::span<const T> mine, const TakePortion& take) {
   static_assert(std::is_trivially_copyable_v<T>);
-  portions::collect(
+  gather_scatter::gatherv(
       communicator, reinterpret_cast<const char*>(mine.data()), mine.size(), sizeof(T),
       [&take](const char* values, std::size_t count) { take(std::span(reinterpret_cast<const T*>(values), count)); });
 }
@@ -46,21 +46,21 @@ void collect(const Communicator& communicator, std::span<const T> mine, const Ta
 template <class T>
 std::vector<T> gather(const Communicator& communicator, std::span<const T> mine) {
   std::vector<T> all;
-  collect(communicator, mine,
+  gatherv(communicator, mine,
           [&all](std::span<const T> portion) { all.insert(all.end(), portion.begin(), portion.end()); });
   return all;
 }
 
 // Scatterv: sends rank r the next counts[r] values; on rank 0, give(begin, portion) fills those from number `begin` on.
 template <class T, class GivePortion>
-std::vector<T> deal(const Communicator& communicator, const std::vector<std::int64_t>& counts,
-                    const GivePortion& give) {
+std::vector<T> scatterv(const Communicator& communicator, const std::vector<std::int64_t>& counts,
+                        const GivePortion& give) {
   static_assert(std::is_trivially_copyable_v<T>);
   std::vector<T> mine(static_cast<std::size_t>(counts[static_cast<std::size_t>(communicator.rank())]));
-  portions::deal(communicator, counts, reinterpret_cast<char*>(mine.data()), sizeof(T),
-                 [&give](std::int64_t begin, char* values, std::size_t count) {
-                   give(begin, std::span(reinterpret_cast<T*>(values), count));
-                 });
+  gather_scatter::scatterv(communicator, counts, reinterpret_cast<char*>(mine.data()), sizeof(T),
+                           [&give](std::int64_t begin, char* values, std::size_t count) {
+                             give(begin, std::span(reinterpret_cast<T*>(values), count));
+                           });
   return mine;
 }
 
@@ -73,12 +73,12 @@ std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
 template <class T>
 std::vector<T> exchange(const Communicator& communicator, std::span<const T> leaving,
                         const std::vector<std::int64_t>& to_ranks, const std::vector<std::int64_t>& from_ranks,
-                        std::size_t largest_message = portions::largest_message) {
+                        std::size_t largest_message = gather_scatter::largest_message) {
   static_assert(std::is_trivially_copyable_v<T>);
   std::vector<T> arriving(
       static_cast<std::size_t>(std::accumulate(from_ranks.begin(), from_ranks.end(), std::int64_t{0})));
-  portions::exchange(communicator, reinterpret_cast<const char*>(leaving.data()), to_ranks,
-                     reinterpret_cast<char*>(arriving.data()), from_ranks, sizeof(T), largest_message);
+  gather_scatter::exchange(communicator, reinterpret_cast<const char*>(leaving.data()), to_ranks,
+                           reinterpret_cast<char*>(arriving.data()), from_ranks, sizeof(T), largest_message);
   return arriving;
 }
 

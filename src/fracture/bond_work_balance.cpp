@@ -1,4 +1,4 @@
-#include "fracture/point_account.hpp"
+#include "fracture/bond_work_balance.hpp"
 
 #include "mechanics/formulation/quadratic_fits.hpp"
 #include "mechanics/kernels/quadratic_bonds.hpp"
@@ -105,12 +105,12 @@ double energy_of(const Body& body, const MaterialBlock& block, int k, double squ
 
 }  // namespace
 
-std::array<PointAccount, Cluster::width> accounts_of(const MaterialBlock& block, int first, const Cluster& cluster,
-                                                     const StepEnd& end) {
+std::array<BondWorkBalance, Cluster::width> balances_of(const MaterialBlock& block, int first, const Cluster& cluster,
+                                                        const StepEnd& end) {
   const Sums sums = block.is_ordinary()    ? sums_of_ordinary(cluster, end)
                     : block.is_quadratic() ? sums_of_quadratic(cluster, end)
                                            : sums_of_correspondence(cluster, end);
-  std::array<PointAccount, Cluster::width> accounts;
+  std::array<BondWorkBalance, Cluster::width> accounts;
   for (std::size_t l = 0; l < cluster.points.size(); ++l) {
     const double volume = end.body.domain.volume(cluster.points[l]);
     const double energy = energy_of(end.body, block, first + static_cast<int>(l), sums.squares[l]);

@@ -18,14 +18,14 @@ struct StepEnd {
   Vector place(int j) const { return at_start ? start[j] : body.domain.current(j); }
 };
 
-struct PointAccount {
+struct BondWorkBalance {
   double energy = 0;  // elastic, dissipated, and of springs on the point's own gradient, J
   double work = 0;  // of the point's force states along the step's motion of its family, J: V Σ ω V_j T⟨ξ⟩·Δη
 };
 
 // The balances of a cluster's points, block.points[first] and those that follow, with their present families, states
 // and force states.
-std::array<PointAccount, Cluster::width> accounts_of(const MaterialBlock& block, int first, const Cluster& cluster,
-                                                     const StepEnd& end);
+std::array<BondWorkBalance, Cluster::width> balances_of(const MaterialBlock& block, int first, const Cluster& cluster,
+                                                        const StepEnd& end);
 
 }  // namespace strut

@@ -1,4 +1,4 @@
-#include "topology/neighbors/through_material.hpp"
+#include "topology/neighbors/visibility.hpp"
 
 #include <algorithm>
 
@@ -8,21 +8,21 @@ namespace strut {
 
 namespace {
 
-using Joint = std::pair<std::int64_t, int>;
+using SharedNode = std::pair<std::int64_t, int>;
 
-// Joints renumbered from 0: the points of each joint, or the joints of each point.
+// Shared nodes renumbered from 0: the points of each shared node, or the shared nodes of each point.
 struct Table {
   std::vector<std::size_t> start{0};
   std::vector<int> entries;
 };
 
-Table points_of_joints(const std::vector<Joint>& joints) {
+Table points_of_nodes(const std::vector<SharedNode>& shared_nodes) {
   Table table;
-  for (std::size_t k = 0; k < joints.size(); ++k) {
-    if (k > 0 && joints[k].first != joints[k - 1].first) table.start.push_back(k);
-    table.entries.push_back(joints[k].second);
+  for (std::size_t k = 0; k < shared_nodes.size(); ++k) {
+    if (k > 0 && shared_nodes[k].first != shared_nodes[k - 1].first) table.start.push_back(k);
+    table.entries.push_back(shared_nodes[k].second);
   }
-  table.start.push_back(joints.size());
+  table.start.push_back(shared_nodes.size());
   return table;
 }
 
@@ -33,9 +33,9 @@ Table turned(const Table& points_of, std::size_t points) {
   for (std::size_t i = 0; i < points; ++i) table.start[i + 1] += table.start[i];
   table.entries.resize(points_of.entries.size());
   std::vector<std::size_t> next(table.start.begin(), table.start.end() - 1);
-  for (std::size_t joint = 0; joint + 1 < points_of.start.size(); ++joint) {
-    for (std::size_t k = points_of.start[joint]; k < points_of.start[joint + 1]; ++k) {
-      table.entries[next[points_of.entries[k]]++] = static_cast<int>(joint);
+  for (std::size_t shared_node = 0; shared_node + 1 < points_of.start.size(); ++shared_node) {
+    for (std::size_t k = points_of.start[shared_node]; k < points_of.start[shared_node + 1]; ++k) {
+      table.entries[next[points_of.entries[k]]++] = static_cast<int>(shared_node);
     }
   }
   return table;
@@ -47,19 +47,19 @@ std::span<const int> row(const Table& table, std::size_t i) {
 
 }  // namespace
 
-ThroughMaterial::ThroughMaterial(const Joined& points, std::vector<Joint> joints)
+Visibility::Visibility(const MeshedPoints& points, std::vector<SharedNode> shared_nodes)
     : points_(points),
       mark_(points.positions.size(), 0),
       seen_(points.positions.size(), 0),
       before_(points.positions.size(), -1) {
-  std::sort(joints.begin(), joints.end());
-  const Table points_of = points_of_joints(joints);
-  const Table joints_of = turned(points_of, points.positions.size());
+  std::sort(shared_nodes.begin(), shared_nodes.end());
+  const Table points_of = points_of_nodes(shared_nodes);
+  const Table nodes_of = turned(points_of, points.positions.size());
   for (std::size_t i = 0; i < points.positions.size(); ++i) {
     std::vector<int>& near = front_;
     near.clear();
-    for (const int joint : row(joints_of, i)) {
-      for (const int j : row(points_of, joint)) {
+    for (const int shared_node : row(nodes_of, i)) {
+      for (const int j : row(points_of, shared_node)) {
         if (j != static_cast<int>(i) && points.bodies[j] == points.bodies[i]) near.push_back(j);
       }
     }
@@ -70,17 +70,17 @@ ThroughMaterial::ThroughMaterial(const Joined& points, std::vector<Joint> joints
   }
 }
 
-bool ThroughMaterial::touch(int i, int j) const {
+bool Visibility::touch(int i, int j) const {
   const std::span<const int> near = touching(i);
   return std::binary_search(near.begin(), near.end(), j);
 }
 
-bool ThroughMaterial::near(int i, int j) const {
+bool Visibility::near(int i, int j) const {
   return bonded(points_.horizons[i], points_.horizons[j], points_.positions[j] - points_.positions[i]);
 }
 
 // In a solid body the paths of spread() reach all points; walk and flood are for those separated or around a corner.
-std::vector<int> ThroughMaterial::apart(int i, std::span<const int> family, std::span<const int> asked) {
+std::vector<int> Visibility::apart(int i, std::span<const int> family, std::span<const int> asked) {
   ++now_;
   for (const int j : family) mark_[j] = 2 * now_;
   spread(i, family.size());
@@ -92,7 +92,7 @@ std::vector<int> ThroughMaterial::apart(int i, std::span<const int> family, std:
 }
 
 // Extends paths from i by one point each. It keeps one of many paths to a point, so that it misses some points.
-void ThroughMaterial::spread(int i, std::size_t family) {
+void Visibility::spread(int i, std::size_t family) {
   front_.clear();
   const auto join = [this](int j, int before) {
     ++mark_[j];
@@ -110,7 +110,7 @@ void ThroughMaterial::spread(int i, std::size_t family) {
   }
 }
 
-bool ThroughMaterial::is_near_path(int j, int end) const {
+bool Visibility::is_near_path(int j, int end) const {
   for (int k = end; k >= 0; k = before_[k]) {
     if (!near(j, k)) return false;
   }
@@ -118,7 +118,7 @@ bool ThroughMaterial::is_near_path(int j, int end) const {
 }
 
 // Walks from i to the touching point nearest to j, as long as the distance decreases.
-bool ThroughMaterial::walks_straight(int i, int j) const {
+bool Visibility::walks_straight(int i, int j) const {
   const auto distance = [&](int k) { return (points_.positions[j] - points_.positions[k]).squaredNorm(); };
   double left = distance(i);
   for (int at = i; !touch(at, j);) {
@@ -134,7 +134,7 @@ bool ThroughMaterial::walks_straight(int i, int j) const {
   return true;
 }
 
-bool ThroughMaterial::floods(int i, int j) {
+bool Visibility::floods(int i, int j) {
   ++flood_;
   front_.assign(1, i);
   while (!front_.empty()) {

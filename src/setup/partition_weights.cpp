@@ -1,4 +1,4 @@
-#include "setup/cuts.hpp"
+#include "setup/partition_weights.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -64,8 +64,8 @@ Vector lengths_for_cuts(const std::vector<contact::Interaction>& interactions, c
 
 }  // namespace
 
-Cuts cuts(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
-          const Communicator& communicator) {
+PartitionWeights partition_weights(const deck::Deck& deck, const PointCloud& cloud, const std::vector<double>& spacings,
+                                   const Communicator& communicator) {
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const BondCosts costs = bond_costs(cloud, bonds, spacings, communicator);
   return {step_costs(deck, cloud, costs.of_block),

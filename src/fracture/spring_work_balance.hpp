@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
-#include "fracture/point_account.hpp"
+#include "fracture/bond_work_balance.hpp"
 
 namespace strut {
 
-struct SpringAccount {
+struct SpringWorkBalance {
   const StepEnd& end;
   const std::vector<GradientState>& now;     // of owned points and ghosts, at the end of the step that is evaluated
   const std::vector<GradientState>& start;   // at the start of the step
@@ -22,7 +22,7 @@ struct SpringAccount {
 
   // Energy and work along the step (J) of owned point i, whose bonds break in this step, with this family; without the
   // work −½ t·ΔF_i ξ, which is part of the point's own force state.
-  PointAccount of(int i, std::span<const int> family) const;
+  BondWorkBalance of(int i, std::span<const int> family) const;
 };
 
 }  // namespace strut

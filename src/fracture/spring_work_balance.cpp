@@ -1,4 +1,4 @@
-#include "fracture/spring_account.hpp"
+#include "fracture/spring_work_balance.hpp"
 
 #include "mechanics/kernels/bonds.hpp"
 
@@ -30,9 +30,9 @@ Numbers numbers_of(const Vector& v) { return {{v[0], v[1], v[2]}}; }
 
 }  // namespace
 
-PointAccount SpringAccount::of(int i, std::span<const int> family) const {
+BondWorkBalance SpringWorkBalance::of(int i, std::span<const int> family) const {
   const Body& body = end.body;
-  PointAccount sums;
+  BondWorkBalance sums;
   const auto add = [&]<class S>(std::size_t kind, int j, double weight, const Vector& xi) {
     const double C = 2 * std::min(bonds::stiffness_of(kind, now[i].stiffness(), now[i].kind()),
                                   bonds::stiffness_of(kind, now[j].stiffness(), now[j].kind()));

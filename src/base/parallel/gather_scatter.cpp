@@ -1,4 +1,4 @@
-#include "base/parallel/portions.hpp"
+#include "base/parallel/gather_scatter.hpp"
 
 #include <mpi.h>
 
@@ -22,8 +22,8 @@ void in_portions(std::size_t count, const Portion& portion) {
 
 }  // namespace
 
-void portions::collect(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size,
-                       const Take& take) {
+void gather_scatter::gatherv(const Communicator& communicator, const char* mine, std::size_t count, std::size_t size,
+                             const Take& take) {
   const MPI_Comm comm = raw(communicator);
   const std::uint64_t own = count;
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(communicator.rank() == 0 ? communicator.size() : 0));
@@ -44,8 +44,8 @@ void portions::collect(const Communicator& communicator, const char* mine, std::
   }
 }
 
-void portions::deal(const Communicator& communicator, const std::vector<std::int64_t>& counts, char* mine,
-                    std::size_t size, const Give& give) {
+void gather_scatter::scatterv(const Communicator& communicator, const std::vector<std::int64_t>& counts, char* mine,
+                              std::size_t size, const Give& give) {
   const MPI_Comm comm = raw(communicator);
   const auto count_of = [&](int rank) { return static_cast<std::size_t>(counts[static_cast<std::size_t>(rank)]); };
   if (communicator.rank() != 0) {
@@ -76,9 +76,10 @@ std::vector<std::int64_t> counts_from_ranks(const Communicator& communicator,
 }
 
 // Counts in MPI messages are ints: larger data go in several messages, which arrive in order.
-void portions::exchange(const Communicator& communicator, const char* leaving,
-                        const std::vector<std::int64_t>& to_ranks, char* arriving,
-                        const std::vector<std::int64_t>& from_ranks, std::size_t size, std::size_t largest_message) {
+void gather_scatter::exchange(const Communicator& communicator, const char* leaving,
+                              const std::vector<std::int64_t>& to_ranks, char* arriving,
+                              const std::vector<std::int64_t>& from_ranks, std::size_t size,
+                              std::size_t largest_message) {
   const MPI_Comm comm = raw(communicator);
   const auto own = static_cast<std::size_t>(communicator.rank());
   std::vector<MPI_Request> requests;

@@ -1,0 +1,317 @@
+#include "materials/user_law.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "materials/step_work.hpp"
+#include "materials/strut_law.h"
+#include "materials/tangent.hpp"
+
+namespace strut::materials {
+
+namespace {
+
+constexpr int most_points = 8, most = UserLaw::most_states;
+
+// ---- Crashes --------------------------------------------------------------------------------------------------------
+
+// The library that this thread is in, so that its crash is not taken for one of strut.
+thread_local const char* inside = nullptr;
+
+void tell(const char* what) {
+  for (const char* text : {"\nstrut: the library ", inside, what}) {
+    if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+  }
+}
+
+void on_crash(int signal) {
+  if (inside) tell(" of a User Library material crashed: a fault of that library\n");
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+void on_exit() {
+  if (inside) tell(" of a User Library material ended the program\n");
+}
+
+void watch_for_crashes() {
+  static const bool once = [] {
+    for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(signal, on_crash);
+    return std::atexit(on_exit) == 0;
+  }();
+  static_cast<void>(once);
+}
+
+struct Inside {
+  explicit Inside(const std::string& file) { inside = file.c_str(); }
+  ~Inside() { inside = nullptr; }
+};
+
+// ---- The interfaces -------------------------------------------------------------------------------------------------
+
+using StrutLaw = void (*)(const strut_step*);
+using Umat = void (*)(double* stress, double* statev, double* ddsdde, double* sse, double* spd, double* scd,
+                      double* rpl, double* ddsddt, double* drplde, double* drpldt, double* stran, double* dstran,
+                      double* time, double* dtime, double* temp, double* dtemp, double* predef, double* dpred,
+                      char* cmname, int* ndi, int* nshr, int* ntens, int* nstatv, double* props, int* nprops,
+                      double* coords, double* drot, double* pnewdt, double* celent, double* dfgrd0, double* dfgrd1,
+                      int* noel, int* npt, int* layer, int* kspt, int* jstep, int* kinc, std::size_t cmname_length);
+using Vumat = void (*)(int* nblock, int* ndir, int* nshr, int* nstatev, int* nfieldv, int* nprops, int* lanneal,
+                       double* step_time, double* total_time, double* dt, char* cmname, double* coord,
+                       double* char_length, double* props, double* density, double* strain_inc, double* rel_spin_inc,
+                       double* temp_old, double* stretch_old, double* defgrad_old, double* field_old,
+                       double* stress_old, double* state_old, double* ener_intern_old, double* ener_inelas_old,
+                       double* temp_new, double* stretch_new, double* defgrad_new, double* field_new,
+                       double* stress_new, double* state_new, double* ener_intern_new, double* ener_inelas_new,
+                       std::size_t cmname_length);
+
+constexpr std::size_t name_length = 80;
+
+// A Fortran text: upper case, padded by blanks.
+std::array<char, name_length> fortran_text(const std::string& name) {
+  std::array<char, name_length> text;
+  text.fill(' ');
+  for (std::size_t k = 0; k < std::min(name.size(), name_length); ++k) {
+    text[k] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[k])));
+  }
+  return text;
+}
+
+void call_umat(const UserLaw& law, const strut_step& s) {
+  // UMAT's shear components are xy xz yz, and shear strains are doubled.
+  constexpr int place[6] = {0, 1, 2, 3, 5, 4};
+  std::array<char, name_length> cmname = fortran_text(law.name);
+  std::vector<double>& props = const_cast<std::vector<double>&>(law.constants);
+  for (int p = 0; p < s.points; ++p) {
+    const auto at = [&](const double* values, int c) { return values[c * s.points + p]; };
+    double stress[6], strain[6], increment[6], statev[most + 1] = {}, before[9], after[9];
+    for (int c = 0; c < 6; ++c) {
+      const int from = place[c];
+      const double doubled = c < 3 ? 1 : 2;
+      stress[c] = at(s.stress, from);
+      strain[c] = doubled * at(s.strain, from);
+      increment[c] = doubled * at(s.rate, from) * s.dt[p];
+    }
+    constexpr int full[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+    for (int k = 0; k < 9; ++k) before[k] = at(s.old_stretch, full[k]), after[k] = at(s.stretch, full[k]);
+    for (int c = 0; c < law.states; ++c) statev[c] = at(s.state, c);
+    const double told = s.stored[p], lost = s.dissipated[p];
+    double ddsdde[36] = {}, sse = told / s.J[p], spd = lost / s.J[p], scd = 0, rpl = 0, ddsddt[6] = {}, drplde[6] = {};
+    double drpldt = 0, time[2] = {s.time[p], s.time[p]}, dtime = s.dt[p], temp = 0, dtemp = 0, predef = 0, dpred = 0;
+    double coords[3] = {}, drot[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, pnewdt = 1, celent = 0;
+    int ndi = 3, nshr = 3, ntens = 6, nstatv = law.states, nprops = static_cast<int>(props.size()), noel = 1, npt = 1;
+    int layer = 1, kspt = 1, jstep[4] = {1, 0, 0, 0}, kinc = 1;
+    reinterpret_cast<Umat>(law.function.address)(
+        stress, statev, ddsdde, &sse, &spd, &scd, &rpl, ddsddt, drplde, &drpldt, strain, increment, time, &dtime, &temp,
+        &dtemp, &predef, &dpred, cmname.data(), &ndi, &nshr, &ntens, &nstatv, props.data(), &nprops, coords, drot,
+        &pnewdt, &celent, before, after, &noel, &npt, &layer, &kspt, jstep, &kinc, name_length);
+    for (int c = 0; c < 6; ++c) s.stress[place[c] * s.points + p] = stress[c];
+    for (int c = 0; c < law.states; ++c) s.state[c * s.points + p] = statev[c];
+    s.stored[p] = s.J[p] * sse, s.dissipated[p] = s.J[p] * (spd + scd);
+    s.failed[p] = pnewdt < 1;
+  }
+}
+
+void call_vumat(const UserLaw& law, const strut_step& s) {
+  const int n = s.points;
+  std::array<char, name_length> cmname = fortran_text(law.name);
+  std::vector<double>& props = const_cast<std::vector<double>&>(law.constants);
+  double density[most_points], increment[6 * most_points], none[9 * most_points] = {}, old_stress[6 * most_points];
+  double old_state[most * most_points], before[9 * most_points], after[9 * most_points];
+  double intern[most_points], inelastic[most_points], new_intern[most_points], new_inelastic[most_points];
+  constexpr int full[9] = {0, 1, 2, 3, 4, 5, 3, 4, 5};  // 11 22 33 12 23 31 21 32 13
+  for (int k = 0; k < 9; ++k) {
+    for (int p = 0; p < n; ++p) {
+      before[k * n + p] = s.old_stretch[full[k] * n + p], after[k * n + p] = s.stretch[full[k] * n + p];
+    }
+  }
+  for (int c = 0; c < 6; ++c) {
+    for (int p = 0; p < n; ++p) increment[c * n + p] = s.rate[c * n + p] * s.dt[p];
+  }
+  std::copy_n(s.stress, 6 * n, old_stress);
+  std::copy_n(s.state, law.states * n, old_state);
+  for (int p = 0; p < n; ++p) {
+    density[p] = law.density / s.J[p];
+    intern[p] = (s.stored[p] + s.dissipated[p]) / law.density, inelastic[p] = s.dissipated[p] / law.density;
+    new_intern[p] = intern[p], new_inelastic[p] = inelastic[p];
+  }
+  double stretch_before[6 * most_points], stretch[6 * most_points];
+  std::copy_n(s.old_stretch, 6 * n, stretch_before);
+  std::copy_n(s.stretch, 6 * n, stretch);
+  int nblock = n, ndir = 3, nshr = 3, nstatev = law.states, nfieldv = 0, nprops = static_cast<int>(props.size());
+  int lanneal = 0;
+  double time = s.time[0] + s.dt[0], dt = s.dt[0];
+  reinterpret_cast<Vumat>(law.function.address)(
+      &nblock, &ndir, &nshr, &nstatev, &nfieldv, &nprops, &lanneal, &time, &time, &dt, cmname.data(), none, none,
+      props.data(), density, increment, none, none, stretch_before, before, none, old_stress, old_state, intern,
+      inelastic, none, stretch, after, none, s.stress, s.state, new_intern, new_inelastic, name_length);
+  for (int p = 0; p < n; ++p) {
+    s.dissipated[p] = law.density * new_inelastic[p];
+    s.stored[p] = law.density * (new_intern[p] - new_inelastic[p]);
+  }
+}
+
+void call(const UserLaw& law, const strut_step& s) {
+  const Inside here(law.function.file);
+  switch (law.function.interface) {
+    case LibraryInterface::strut:
+      return reinterpret_cast<StrutLaw>(law.function.address)(&s);
+    case LibraryInterface::umat:
+      return call_umat(law, s);
+    case LibraryInterface::vumat:
+      return call_vumat(law, s);
+  }
+}
+
+}  // namespace
+
+LibraryFunction loaded(const std::string& file, const std::string& name, LibraryInterface interface) {
+  watch_for_crashes();
+  const auto reason = [] {
+    const char* text = dlerror();
+    return std::string(text ? text : "unknown error");
+  };
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) throw Error("cannot be loaded: " + reason());
+  std::shared_ptr<void> library(handle, dlclose);
+  void* address = dlsym(handle, name.c_str());
+  if (!address) throw Error("has no function '" + name + "': " + reason());
+  return {file, name, interface, std::move(library), address};
+}
+
+void UserLaw::advance(int points, const double* dt, const double* rate, const double* J, const double* stretch,
+                      double* state, double* stress, double* converged) const {
+  static_assert(sizeof(RawLanes) / sizeof(double) <= most_points);
+  double* const stored = state + most * points;
+  double* const dissipated = stored + points;
+  double* const strain = dissipated + points;
+  double* const displacement = strain + 6 * points;
+  double* const time = displacement + 6 * points;
+  double d[6 * most_points], U[6 * most_points], old[6 * most_points], det[most_points], before[6 * most_points];
+  double kept[(most + 2) * most_points];
+  int failed[most_points] = {};
+  std::copy_n(state, (most + 2) * points, kept);
+  std::copy_n(stress, 6 * points, before);
+  for (int p = 0; p < points; ++p) det[p] = J[p] > 0 ? J[p] : 1;
+  for (int c = 0; c < 6; ++c) {
+    for (int p = 0; p < points; ++p) {
+      const int k = c * points + p;
+      old[k] = displacement[k] + (c < 3);
+      d[k] = J[p] > 0 ? rate[k] : 0;  // a caller discards points with J <= 0, which no library should see
+      U[k] = J[p] > 0 ? stretch[k] : c < 3;
+    }
+  }
+  const strut_step step{points,     static_cast<int>(constants.size()),
+                        states,     constants.data(),
+                        time,       dt,
+                        d,          strain,
+                        old,        U,
+                        det,        stress,
+                        state,      stored,
+                        dissipated, failed};
+  call(*this, step);
+  for (int p = 0; p < points; ++p) {
+    double sum = stored[p] + dissipated[p];
+    for (int c = 0; c < 6; ++c) sum += stress[c * points + p];
+    for (int c = 0; c < states; ++c) sum += state[c * points + p];
+    const bool good = failed[p] == 0 && is_finite(sum);
+    converged[p] = good;
+    if (!good) {
+      for (int c = 0; c < most + 2; ++c) state[c * points + p] = kept[c * points + p];
+      continue;
+    }
+    if (!tells_energy) {
+      PointStep one{.dt = dt[p], .J = det[p]};
+      Symmetric from, to;
+      for (int c = 0; c < 6; ++c) {
+        one.rate[c] = d[c * points + p], from[c] = before[c * points + p], to[c] = stress[c * points + p];
+      }
+      stored[p] = det[p] * Elastic{bulk, shear}.elastic_energy(to);
+      const double work = step_work(one, old_determinant(one), from, to);
+      dissipated[p] = kept[(most + 1) * points + p] + work - (stored[p] - kept[most * points + p]);
+    }
+    for (int c = 0; c < 6; ++c) {
+      strain[c * points + p] += d[c * points + p] * dt[p];
+      displacement[c * points + p] = U[c * points + p] - (c < 3);
+    }
+    time[p] += dt[p];
+  }
+}
+
+LibraryTrial tried(const UserLaw& given) {
+  constexpr double strain = 1e-7, dt = 1e-6;
+  LibraryTrial found;
+  UserLaw law = given;
+  law.tells_energy = true;
+  const auto wrong = [&](const std::string& what) { found.problem = found.problem.empty() ? what : found.problem; };
+  std::ostringstream text;
+  text.precision(4);
+  const Moduli moduli = law.moduli();
+  Symmetric unit = Symmetric::Zero();
+  unit.head<3>().setOnes();
+
+  UserLaw::State rest;
+  constexpr double mark = 12345.678;
+  for (int k = law.states; k < most; ++k) rest.user[k] = mark;
+  const PointStress still = law.step(PointStep{Symmetric::Zero(), dt, 1, unit}, Symmetric::Zero(), rest);
+  if (!still.converged) wrong("finds no stress in a step without strain, or one that is no number");
+  for (int k = law.states; k < most; ++k) {
+    if (rest.user[k] == mark) continue;
+    wrong("changes state variable " + std::to_string(k + 1) + " of " + std::to_string(law.states) +
+          " (State Variables)");
+  }
+  const double large = still.stress.cwiseAbs().maxCoeff();
+  if (large > 1e-9 * moduli.bulk) {
+    text << "gives a stress of " << large << " Pa in a step of the undeformed state without strain; expected none";
+    wrong(text.str());
+  }
+  if (!found.problem.empty()) return found;
+
+  StretchTangent stiffness;
+  for (int c = 0; c < 6; ++c) {
+    Symmetric d = Symmetric::Zero();
+    d[c] = c < 3 ? strain : 0.5 * strain;  // an engineering shear strain
+    UserLaw::State state;
+    const Symmetric stretch = unit + d;
+    const PointStress next =
+        law.step(PointStep{d / dt, dt, to_tensor(stretch).determinant(), stretch}, Symmetric::Zero(), state);
+    if (!next.converged) {
+      wrong("finds no stress for a strain of 1e-7, or one that is no number");
+      return found;
+    }
+    if (state.stored > 0) found.tells_energy = true;
+    stiffness.col(c) = next.stress / strain;
+  }
+  const double size = stiffness.cwiseAbs().maxCoeff();
+  const StretchTangent even = 0.5 * (stiffness + stiffness.transpose());
+  const double stiffest = Eigen::SelfAdjointEigenSolver<StretchTangent>(even).eigenvalues().maxCoeff();
+  const double expected = std::max(3 * moduli.bulk, 2 * moduli.shear);
+  const double tolerance = 0.01;  // of elastic constants that are given to two or three digits
+  if (stiffest > (1 + tolerance) * expected) {
+    text << "is stiffer, " << stiffest << " Pa, than its elastic constants say, " << expected
+         << " Pa (the larger of 3 K and 2 G): the time step would be too long for it; expected elastic constants that "
+            "are not smaller than the law's";
+    wrong(text.str());
+  } else if (stiffest < (1 - 10 * tolerance) * expected) {
+    text << "is softer, " << stiffest << " Pa, than its elastic constants say, " << expected
+         << " Pa (the larger of 3 K and 2 G): time steps will be shorter than necessary, contact and stabilization "
+            "stiffer; are its constants in Pa?";
+    found.warning = text.str();
+  }
+  if ((stiffness - stiffness.transpose()).cwiseAbs().maxCoeff() > 1e-3 * size) {
+    found.warning += std::string(found.warning.empty() ? "" : "; it ") +
+                     "has an unsymmetric elastic stiffness, so that it has no elastic energy; are its components in "
+                     "the order of its interface?";
+  }
+  return found;
+}
+
+}  // namespace strut::materials

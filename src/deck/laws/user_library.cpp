@@ -1,0 +1,84 @@
+#include "deck/laws/user_library.hpp"
+
+#include "base/errors.hpp"
+#include "deck/laws/constants.hpp"
+
+namespace strut::deck {
+
+namespace {
+
+using materials::LibraryInterface;
+using materials::UserLaw;
+
+const TextKey library({.name = "Library", .meaning = "The shared object, by its path from the deck's folder."});
+const ChoiceKey<LibraryInterface> interface(
+    {.name = "Interface",
+     .fallback = "strut",
+     .meaning = "Of the function: that of materials/strut_law.h, or a user subroutine of Abaqus, compiled with 8-byte "
+                "reals. It is called in the unrotated frame: DROT is 1, DFGRD0 and DFGRD1 are stretches."},
+    {{"strut", LibraryInterface::strut}, {"UMAT", LibraryInterface::umat}, {"VUMAT", LibraryInterface::vumat}});
+const OptionalKey<std::string> function_name(
+    {.name = "Function", .meaning = "Its name in the library; without it strut_law, umat_ or vumat_."});
+const OptionalKey<std::vector<double>> constants({.name = "Constants", .meaning = "PROPS, in the law's own order."});
+const IntegerKey states({.name = "State Variables",
+                         .range = {.low = 0, .high = UserLaw::most_states},
+                         .fallback = "0",
+                         .meaning = "Their number, STATEV; all are 0 at the start. Output: User_State_1 and so on."});
+
+std::string usual_name(LibraryInterface interface) {
+  switch (interface) {
+    case LibraryInterface::strut:
+      return "strut_law";
+    case LibraryInterface::umat:
+      return "umat_";
+    case LibraryInterface::vumat:
+      return "vumat_";
+  }
+  return "";
+}
+
+void load(const Material& material, UserLaw& law, const std::filesystem::path& folder, Problems& problems) {
+  const std::filesystem::path file = std::filesystem::absolute(folder / law.function.file);
+  const std::string where = "Materials > " + material.name + " > Library";
+  const auto wrong = [&](const std::string& what) { problems.add(where, "'" + file.string() + "' " + what); };
+  if (!std::filesystem::exists(file)) return wrong("does not exist");
+  try {
+    law.function = materials::loaded(file.string(), law.function.name, law.function.interface);
+  } catch (const Error& error) {
+    return wrong(error.what());
+  }
+  const materials::LibraryTrial trial = materials::tried(law);
+  law.tells_energy = trial.tells_energy;
+  if (!trial.problem.empty()) return wrong(trial.problem);
+  if (!trial.warning.empty()) problems.note(where, "'" + file.string() + "' " + trial.warning);
+}
+
+}  // namespace
+
+Section user_library_section() {
+  return {.name = "User Library",
+          .meaning =
+              "A law from a shared object. The elastic constants are those of its undeformed state: they bound "
+              "the time step. A law that counts its energies (SSE, SPD) shares the change of volume in quadratic "
+              "cells where it has flowed.",
+          .keys = {library, interface, function_name, constants, states}};
+}
+
+materials::AnyLaw make_user_library(const Values& material, Problems& problems) {
+  const materials::Moduli moduli = checked_moduli(material, problems);
+  UserLaw law{.bulk = moduli.bulk, .shear = moduli.shear, .density = read_density(material), .name = material.name()};
+  law.constants = material[constants].value_or(std::vector<double>());
+  law.states = material[states];
+  law.function.interface = material[interface];
+  law.function.file = material[library];
+  law.function.name = material[function_name].value_or(usual_name(law.function.interface));
+  return law;
+}
+
+void load_user_libraries(std::vector<Material>& materials, const std::filesystem::path& folder, Problems& problems) {
+  for (Material& material : materials) {
+    if (auto* law = std::get_if<UserLaw>(&material.law)) load(material, *law, folder, problems);
+  }
+}
+
+}  // namespace strut::deck

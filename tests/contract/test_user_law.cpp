@@ -1,0 +1,151 @@
+// Laws from shared objects: user_j2.c has J2 with linear hardening by each interface, which must be the built-in law.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "materials/laws.hpp"
+#include "materials/step_work.hpp"
+
+namespace strut::testing {
+namespace {
+
+using namespace materials;
+
+constexpr double bulk = 89.87e9, shear = 42.44e9, yield = 50e6, hardening = 1e9;  // Pa, of copper's size
+
+J2 built_in() { return {bulk, shear, {yield, LinearHardening{hardening}, NoRate{}}}; }
+
+UserLaw law_of(const std::string& function, LibraryInterface interface = LibraryInterface::strut) {
+  UserLaw law{.bulk = bulk, .shear = shear, .density = 8960, .name = "copper"};
+  law.constants = {bulk, shear, yield, hardening};
+  law.states = 1;
+  law.function = loaded(STRUT_USER_J2, function, interface);
+  law.tells_energy = true;
+  return law;
+}
+
+const std::vector<std::pair<std::string, LibraryInterface>> interfaces{
+    {"strut_law", LibraryInterface::strut}, {"umat_", LibraryInterface::umat}, {"vumat_", LibraryInterface::vumat}};
+
+// Steps of a tenth of the yield strain to some of it, in any direction.
+PointStep random_step(std::mt19937& random) {
+  std::uniform_real_distribution<double> in(-1, 1);
+  PointStep step{.dt = 1e-7, .J = 1 + 1e-3 * in(random)};
+  for (int c = 0; c < 6; ++c) step.rate[c] = 3e-4 * in(random) / step.dt, step.stretch[c] = c < 3;
+  return step;
+}
+
+// Both have the same closed form but for the order of operations: 1e-12 of the yield stress and strain after 200 steps.
+TEST(UserLibrary, IsTheBuiltInLawByEachInterface) {
+  constexpr double tolerance = 1e-12;
+  for (const auto& [function, interface] : interfaces) {
+    const UserLaw law = law_of(function, interface);
+    std::mt19937 random(7);
+    Symmetric stress = Symmetric::Zero(), expected = stress;
+    UserLaw::State state;
+    J2::State of_built_in;
+    for (int n = 0; n < 200; ++n) {
+      const PointStep step = random_step(random);
+      const PointStress next = law.step(step, stress, state), right = built_in().step(step, expected, of_built_in);
+      ASSERT_TRUE(next.converged && right.converged) << function << " " << n;
+      stress = next.stress, expected = right.stress;
+    }
+    EXPECT_LT((stress - expected).cwiseAbs().maxCoeff(), 200 * tolerance * yield) << function;
+    EXPECT_GT(of_built_in.equivalent_plastic_strain, 0.01);
+    EXPECT_NEAR(state.user[0], of_built_in.equivalent_plastic_strain, tolerance) << function;
+    // With strains of 3e-4 a step the elastic energy differs from the built-in law's by nothing, the work by J.
+    EXPECT_NEAR(law.dissipation(state), of_built_in.plastic_work, 2e-3 * of_built_in.plastic_work) << function;
+    EXPECT_NEAR(state.stored, (Elastic{bulk, shear}.elastic_energy(expected)), 2e-3 * state.stored) << function;
+    EXPECT_TRUE(law.has_flowed(state));
+  }
+}
+
+// Lanes are the points one by one, and a lane whose J is not positive leaves the others alone.
+TEST(UserLibrary, TakesPointsSideBySide) {
+  constexpr int lanes = small::lane_count;
+  for (const auto& [function, interface] : interfaces) {
+    const UserLaw law = law_of(function, interface);
+    std::mt19937 random(8);
+    SymmetricOf<RawLanes> stress{};
+    UserLaw::StateOf<RawLanes> state{};
+    std::vector<Symmetric> stresses(lanes, Symmetric::Zero());
+    std::vector<UserLaw::State> states(lanes);
+    for (int n = 0; n < 20; ++n) {
+      StepOf<RawLanes> together{};
+      for (int l = 0; l < lanes; ++l) {
+        PointStep step = random_step(random);
+        if (l == 1) step.J = -1;
+        together.dt[l] = step.dt, together.J[l] = step.J;
+        for (int c = 0; c < 6; ++c) together.rate[c][l] = step.rate[c], together.stretch[c][l] = step.stretch[c];
+        if (l == 1) continue;
+        const PointStress next = law.step(step, stresses[l], states[l]);
+        ASSERT_TRUE(next.converged);
+        stresses[l] = next.stress;
+      }
+      stress = law.step(together, stress, state).stress;
+    }
+    for (int l = 0; l < lanes; ++l) {
+      if (l == 1) continue;
+      for (int c = 0; c < 6; ++c) EXPECT_EQ(stress[c][l], stresses[l][c]) << function << " " << l;
+      EXPECT_EQ(state.user[0][l], states[l].user[0]) << function << " " << l;
+    }
+  }
+}
+
+// Without energies of its own: those of Hooke's law, and what is left of the work.
+TEST(UserLibrary, ThatCountsNoEnergyHasThatOfItsElasticConstants) {
+  UserLaw law = law_of("strut_law");
+  law.tells_energy = false;
+  std::mt19937 random(9);
+  Symmetric stress = Symmetric::Zero();
+  UserLaw::State state;
+  double work = 0;
+  for (int n = 0; n < 100; ++n) {
+    const PointStep step = random_step(random);
+    const Symmetric before = stress;
+    stress = law.step(step, stress, state).stress;
+    work += step_work(step, old_determinant(step), before, stress);
+  }
+  EXPECT_NEAR(state.stored + state.dissipated, work, 1e-9 * work);
+  EXPECT_GT(state.dissipated, 0.5 * work);
+  EXPECT_FALSE(law.has_flowed(state));
+}
+
+TEST(UserLibrary, IsTriedAtTheStart) {
+  for (const auto& [function, interface] : interfaces) {
+    const LibraryTrial trial = tried(law_of(function, interface));
+    EXPECT_EQ(trial.problem + trial.warning, "") << function;
+    EXPECT_TRUE(trial.tells_energy) << function;
+  }
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"prestressed", "gives a stress of 1e+06 Pa in a step of the undeformed state without strain"},
+      {"beyond_its_states", "changes state variable 2 of 1 (State Variables)"},
+      {"far_too_stiff", "is stiffer, 1e+15 Pa, than its elastic constants say"},
+      {"not_a_number", "finds no stress in a step without strain, or one that is no number"},
+      {"unable", "finds no stress in a step without strain"}};
+  for (const auto& [function, words] : wrong) {
+    const std::string problem = tried(law_of(function)).problem;
+    EXPECT_NE(problem.find(words), std::string::npos) << function << ": " << problem;
+  }
+  const std::string warning = tried(law_of("in_megapascals")).warning;
+  EXPECT_NE(warning.find("is softer, 1e+05 Pa, than its elastic constants say"), std::string::npos) << warning;
+}
+
+TEST(UserLibrary, ThatIsNoneIsAnError) {
+  EXPECT_THROW(loaded("/no/such/library.so", "strut_law", LibraryInterface::strut), Error);
+  EXPECT_THROW(loaded(STRUT_USER_J2, "no_such_function", LibraryInterface::strut), Error);
+}
+
+TEST(UserLibraryDeathTest, CrashIsToldAsItsOwn) {
+  UserLaw::State state;
+  const UserLaw law = law_of("crashes");
+  EXPECT_DEATH(law.step(PointStep{Symmetric::Zero(), 1e-7, 1, Symmetric::Zero()}, Symmetric::Zero(), state),
+               "user_j2.* crashed: a fault of that library");
+}
+
+}  // namespace
+}  // namespace strut::testing
