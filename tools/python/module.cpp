@@ -15,8 +15,8 @@
 #include "base/build_facts.hpp"
 #include "base/errors.hpp"
 #include "base/parallel/communicator.hpp"
-#include "base/parallel/launch.hpp"
 #include "base/parallel/gather_scatter.hpp"
+#include "base/parallel/launch.hpp"
 #include "base/parallel/threads.hpp"
 #include "deck/deck.hpp"
 #include "deck/numbers.hpp"
@@ -80,7 +80,8 @@ py::dict parsed(const std::string& text, const std::string& name) {
   return dictionary_of(list.value());
 }
 
-io::Mesh mesh_of_arrays(const std::string& stream) {
+// Gathered voxels, as strut-mesh --arrays reads them.
+io::Mesh mesh_of_voxels(const std::string& stream) {
   std::istringstream in(stream);
   std::string summary;
   io::Mesh mesh = mesh::read_arrays(in, "the mesh", &summary);
@@ -248,7 +249,11 @@ PYBIND11_MODULE(_core, module) {
   });
 
   py::class_<io::Mesh>(module, "Mesh")
-      .def_static("of_arrays", [](const py::bytes& stream) { return mesh_of_arrays(stream); })
+      .def(py::init<>())
+      .def("set_nodes", &python::set_nodes)
+      .def("add_block", &python::add_block)
+      .def("add_set", &python::add_set)
+      .def_static("of_voxels", [](const py::bytes& stream) { return mesh_of_voxels(stream); })
       .def_static("of_recipe", &mesh_of_recipe)
       .def_static("of_file", [](const std::string& file) { return io::read_mesh(file); })
       .def("write", [](const io::Mesh& mesh, const std::string& file) { io::write_mesh(file, mesh); })

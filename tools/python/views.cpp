@@ -58,6 +58,20 @@ py::array places(const Body& body, const py::object& owner) {
   return view(body.domain.sites.data()->current.data(), body.owned(), 3, sizeof(Site), body, owner);
 }
 
+void set_nodes(io::Mesh& mesh, const Reals& places) {
+  for (py::ssize_t n = 0; n + 2 < places.size(); n += 3) mesh.nodes.emplace_back(places.data() + n);
+}
+
+void add_block(io::Mesh& mesh, const std::string& name, const std::string& type, const Integers& nodes,
+               const Reals& volumes) {
+  mesh.blocks.push_back(
+      {name, type, {nodes.data(), nodes.data() + nodes.size()}, {volumes.data(), volumes.data() + volumes.size()}, {}});
+}
+
+void add_set(io::Mesh& mesh, const std::string& name, const Integers& nodes) {
+  mesh.node_sets.push_back({name, {nodes.data(), nodes.data() + nodes.size()}});
+}
+
 py::array nodes_of(const io::Mesh& mesh) {
   return py::array_t<double>({std::ssize(mesh.nodes), py::ssize_t{3}}, {py::ssize_t{sizeof(Vector)}, number},
                              mesh.nodes.empty() ? nullptr : mesh.nodes.front().data());
