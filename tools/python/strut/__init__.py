@@ -24,6 +24,7 @@ __all__ = ["Deck", "Error", "Run", "check", "convergence", "curve", "mesh", "pic
 version = _core.version
 set_threads = _core.set_threads  # of each rank, as strut --threads
 
+Error.__module__ = "strut"
 Error.problems = property(lambda error: [line.strip() for line in str(error).split("\n")[1:] if line.startswith("  ")],
                           doc="of a deck, all of them: path, value, what was expected")
 

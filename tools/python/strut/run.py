@@ -29,7 +29,7 @@ class Told:
         lines, self.warned = self.text[self.warned:end].split("\n"), end
         for line in lines:
             if line.startswith("WARNING") and not self.progress:
-                warnings.warn(line, stacklevel=4)
+                warnings.warn(line.removeprefix("WARNING: "), stacklevel=4)
 
     def flush(self):
         if self.progress:
