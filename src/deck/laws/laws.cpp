@@ -1,6 +1,7 @@
 #include "deck/laws/laws.hpp"
 
 #include "deck/laws/constants.hpp"
+#include "deck/laws/hyperelastic.hpp"
 #include "deck/laws/metal.hpp"
 #include "deck/laws/metal_foam.hpp"
 #include "deck/laws/polymer_foam.hpp"
@@ -35,6 +36,7 @@ const std::vector<LawEntry>& laws() {
       {metal_section(), make_metal},
       {metal_foam_section(), make_metal_foam},
       {polymer_foam_section(), make_polymer_foam},
+      {hyperelastic_section(), make_hyperelastic},
       {user_library_section(), make_user_library},
   };
   return entries;
