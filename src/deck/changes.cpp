@@ -48,8 +48,7 @@ constexpr std::array free_to_change = {"Solver > Final Time",
                                        "History > Frequency",
                                        "History > Interval",
                                        "Restart",
-                                       "Watch",
-                                       "Discretization > Trial Reads"};
+                                       "Watch"};
 
 bool is_accepted(const std::string& path, const Texts& before, const Texts& now) {
   if (path == "Solver > Verlet > Mass Scaling dt") return false;  // moved points had another mass

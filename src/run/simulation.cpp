@@ -5,7 +5,6 @@
 
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
 #include "run/input.hpp"
@@ -154,7 +153,6 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   catch_signals({SIGUSR1, SIGUSR2, SIGXCPU});
   deck::Problems problems;
   const deck::Deck deck = deck::read(deck_file, communicator, problems);
-  io::set_trial_reads(deck.discretization.trial_reads);
   const EarlyEnd early_end(began, deck.solver.wall_time);
   if (start == Start::continued && problems.empty() && !checkpoint_exists(deck, communicator) &&
       is_over(deck, communicator)) {

@@ -1,6 +1,4 @@
 """The options of tools/curve, which a study may also set in a line."""
-import math
-
 from strut_tools import Parser
 
 
@@ -16,17 +14,8 @@ def parser_of(about, kind=Parser):
     add("--axis", choices=("x", "y", "z"), help="of compression (default: that of the force)")
     add("--block", metavar="NAME", help="that is crushed")
     add("--layers", metavar="NAME", help="profile of the history, for the front (default: the first one)")
-    parser.add_numbers("--area", 1, metavar="A", help="m2, of the section (default: from the recipe or the result)")
-    parser.add_numbers("--height", 1, metavar="H", help="m (default: likewise)")
-    parser.add_numbers("--density", 1, metavar="RHO", help="kg/m3, of the foam (default: likewise)")
-    parser.add_numbers("--smooth", 1, kind=int, metavar="N", default=1, help="mean over N rows of stress (default 1: none)")
+    parser.add_numbers("--area", 1, above=0, metavar="A", help="m2, of the section (default: from the recipe or the result)")
+    parser.add_numbers("--height", 1, above=0, metavar="H", help="m (default: likewise)")
+    parser.add_numbers("--density", 1, above=0, metavar="RHO", help="kg/m3, of the foam (default: likewise)")
+    parser.add_numbers("--smooth", 1, kind=int, above=0, metavar="N", default=1, help="mean over N rows of stress (default 1: none)")
     return parser
-
-
-def parsed(parser, words=None):
-    words = parser.parse_args(words)
-    for option in ("area", "height", "density", "smooth"):
-        value = getattr(words, option)
-        if value is not None and not 0 < value < math.inf:
-            parser.error(f"--{option}: expected a number > 0")
-    return words

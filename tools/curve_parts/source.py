@@ -1,10 +1,10 @@
 """Nominal stress and strain from a deck and its history: the columns of force and shortening, area and height."""
-import csv
 import os
 import re
 from dataclasses import dataclass, field
 
 import numpy as np
+import strut_tools
 from decks import Recipe, value_at, value_in
 from strut_tools import fail, nearest
 
@@ -18,27 +18,14 @@ def history(path):
     """Columns by name, in their order. An incomplete last line, which a run may be writing, is ignored."""
     if not os.path.isfile(path):
         fail(f"{path} does not exist: --results names the folder that the run was started from")
-    try:
-        with open(path, newline="") as file:
-            text = file.read()
-        lines = text[:text.rfind("\n") + 1].splitlines()
-        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-        odd = next((row for row in rows[1:] if len(row) != len(rows[0])), None)
-        if odd is not None:
-            fail(f"{path} is damaged: the row of t = {(odd or ['?'])[0]} has {len(odd)} values, expected {len(rows[0])} as in its head")
-        table = np.array([[float(x) for x in row] for row in rows[1:]])
-    except (UnicodeDecodeError, ValueError, IndexError) as error:
-        fail(f"{path} is not a history: {error}")
-    if not rows or "Time" not in rows[0] or len(table) < 2:
-        fail(f"{path} is not a history, or has not yet two rows")
-    twice = next((name for name in rows[0] if rows[0].count(name) > 1), None)
-    if twice:
-        fail(f"{path} has two columns '{twice}', expected each once")
-    times = table[:, rows[0].index("Time")]
+    table = strut_tools.history(path, growing=True)
+    times = table["Time"]
+    if len(times) < 2:
+        fail(f"{path} has not yet two rows")
     back = np.flatnonzero(~(np.diff(times) > 0))
     if len(back):
         fail(f"{path}: its times do not rise from row to row, from {times[back[0]]:g} to {times[back[0] + 1]:g} s (two runs in one file?)")
-    return {name: table[:, i] for i, name in enumerate(rows[0])}
+    return table
 
 
 @dataclass

@@ -7,7 +7,6 @@
 #include "base/errors.hpp"
 #include "mechanics/expected_error.hpp"
 #include "mesh/cells.hpp"
-#include "mesh/resolution.hpp"
 #include "mesh/voxels.hpp"
 
 namespace strut::mesh {
@@ -98,7 +97,14 @@ io::Mesh foam_mesh(const Body& body, std::string& summary) {
   check(fine, struts, wanted);
   summary = summary_of(fine, grid, skeleton, struts);
   if (body.cells > 0) return gathered_mesh(body, struts, grid, summary);
-  return voxel_mesh(struts.voxels, grid, body.elements);
+  return voxel_mesh(struts.voxels, grid);
+}
+
+std::string resolution_of(const std::string& members, double cells) {
+  char text[100];
+  std::snprintf(text, sizeof text, "  %s %.4g cells thick: by quadratic correspondence expect ", members.c_str(),
+                cells);
+  return text + expected_error_text(cells, "in the plateau, where metal flows") + " (docs/resolution.md)\n";
 }
 
 }  // namespace strut::mesh

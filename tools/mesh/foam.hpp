@@ -12,4 +12,7 @@ namespace strut::mesh {
 // too coarse for connected struts of the wanted density, or if the box does not contain a foam cell.
 io::Mesh foam_mesh(const Body& body, std::string& summary);
 
+// An indented line about `members` (struts) this many cells thick: the errors to expect in a run.
+std::string resolution_of(const std::string& members, double cells);
+
 }  // namespace strut::mesh

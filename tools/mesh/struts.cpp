@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/errors.hpp"
+#include "base/union_find.hpp"
 #include "mesh/voxels.hpp"
 
 namespace strut::mesh {
@@ -66,13 +67,11 @@ std::vector<Candidate> candidates_within(double reach, const std::vector<Edge>& 
 // Adds voxels one by one, and tracks the pieces connected by faces and the size of the largest one.
 class Pieces {
  public:
-  explicit Pieces(const VoxelGrid& grid) : grid_(grid), place_(grid.count(), -1) {}
+  Pieces(const VoxelGrid& grid, std::size_t most)
+      : grid_(grid), place_(grid.count(), -1), sets_(most), size_(most, 1) {}
 
   void add(int voxel) {
-    const int place = static_cast<int>(parent_.size());
-    place_[voxel] = place;
-    parent_.push_back(place);
-    size_.push_back(1);
+    const int place = place_[voxel] = added_++;
     ++pieces_;
     const Eigen::Array3i cell = grid_.cell(voxel);
     const std::array<int, 3> stride = {1, grid_.cells[0], grid_.cells[0] * grid_.cells[1]};
@@ -83,36 +82,30 @@ class Pieces {
   }
 
   std::size_t pieces() const { return pieces_; }
-  std::size_t largest() const { return parent_.empty() ? 0 : size_[largest_]; }
-  bool in_largest(int voxel) { return root(place_[voxel]) == root(largest_); }
+  std::size_t largest() const { return added_ == 0 ? 0 : size_[largest_]; }
+  bool in_largest(int voxel) { return sets_.first(place_[voxel]) == sets_.first(largest_); }
 
  private:
-  int root(int place) {
-    while (parent_[place] != place) place = parent_[place] = parent_[parent_[place]];
-    return place;
-  }
-
   void join(int place, int other) {
-    if (other < 0) return;
-    int a = root(place), b = root(other);
-    if (a == b) return;
-    if (size_[a] < size_[b]) std::swap(a, b);
-    parent_[b] = a;
-    size_[a] += size_[b];
+    if (other < 0 || sets_.first(place) == sets_.first(other)) return;
+    const int both = size_[sets_.first(place)] + size_[sets_.first(other)];
+    sets_.join(place, other);
+    size_[sets_.first(place)] = both;
     --pieces_;
-    if (size_[a] > size_[largest_]) largest_ = a;
+    if (both > size_[largest_]) largest_ = sets_.first(place);
   }
 
   const VoxelGrid& grid_;
-  std::vector<int> place_;          // index of a voxel in the order of adding; -1: not yet
-  std::vector<int> parent_, size_;  // by index; the size is valid for roots
-  int largest_ = 0;
+  std::vector<int> place_;  // index of a voxel in the order of adding; -1: not yet
+  UnionFind sets_;
+  std::vector<int> size_;  // by index; valid for the first of a set
+  int added_ = 0, largest_ = 0;
   std::size_t pieces_ = 0;
 };
 
 // Returns false if there are not enough candidates.
 bool grow(const std::vector<Candidate>& candidates, const VoxelGrid& grid, std::size_t wanted, Struts& struts) {
-  Pieces pieces(grid);
+  Pieces pieces(grid, candidates.size());
   const double tolerance = same * grid.spacing().minCoeff();
   std::size_t n = 0;
   while (n < candidates.size() && pieces.largest() < wanted) pieces.add(candidates[n++].voxel);

@@ -38,8 +38,8 @@ struct Struts {
 // `wanted` voxels. Voxels at equal distances are kept or left out together, which preserves symmetry.
 Struts struts_around(const std::vector<Edge>& edges, const VoxelGrid& grid, std::size_t wanted);
 
-// One empty block of this type, and empty node sets zmin, zmax, xmin, xmax, ymin, ymax, all without names.
-io::Mesh empty_mesh(const std::string& type);
+// One empty block of hexahedra, and empty node sets zmin, zmax, xmin, xmax, ymin, ymax, all without names.
+io::Mesh empty_mesh();
 
 // Adds node `number` at the position `at` (0 to `last` along each axis) to the sets of the faces that it is on.
 void add_to_sets(io::Mesh& mesh, int number, const Eigen::Array3i& at, const Eigen::Array3i& last);
@@ -48,7 +48,7 @@ void add_to_sets(io::Mesh& mesh, int number, const Eigen::Array3i& at, const Eig
 inline const std::array<Eigen::Array3i, 8> hexahedron_corners = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-// Hexahedra or spheres; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all without names.
-io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid, Body::Elements elements);
+// Hexahedra; node sets zmin, zmax, xmin, xmax, ymin, ymax on the faces of the box, all without names.
+io::Mesh voxel_mesh(const std::vector<int>& voxels, const VoxelGrid& grid);
 
 }  // namespace strut::mesh

@@ -11,8 +11,7 @@ import subprocess
 import tempfile
 import time
 
-from launcher import is_open_mpi, mpirun
-from strut_tools import fail, own_file, programs
+from strut_tools import fail, is_open_mpi, mpirun, own_file, programs
 
 from . import inputs
 

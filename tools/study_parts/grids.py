@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from curve_parts import source
 from decks import Deck
-from strut_tools import fail, nearest
+from strut_tools import fail, nearest, number
 
 from . import collect, names, plan
 from .cases import duration
@@ -102,7 +102,7 @@ def sizes_of(study, name, cases):
     recipes = [plan.files_of(study, case.values)[1] for case in cases]
     sizes = [spacing_of(recipe) for recipe in recipes]
     if len(set(map(asked_of, recipes))) == 1 or None in sizes:
-        sizes = [collect.number(case.values[name]) for case in cases]
+        sizes = [number(case.values[name]) for case in cases]
     for size, case in zip(sizes, cases):
         if size is None or not 0 < size < math.inf:
             fail(f"{study.path}: {name} = {case.values[name]}: expected a length > 0")

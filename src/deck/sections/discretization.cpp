@@ -84,12 +84,6 @@ const ChoiceKey<DegeneratePoints> degenerate(
                 "points at most; `Drop Any` goes on with whatever is left."},
     {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
 
-const BooleanKey trial_reads(
-    {.name = "Trial Reads",
-     .fallback = "true",
-     .meaning = "A mesh in HDF5 is read by a copy of the process first, which a damaged file may "
-                "crash. `false`: no process is forked, which some networks under MPI forbid."});
-
 // Checks the keys that each type of discretization needs, and those that it cannot have.
 void check_source(const Values& values, Problems& problems) {
   if (!values.has(type)) return;
@@ -118,9 +112,10 @@ Section discretization_section() {
           .keys = {type, mesh_file, neighborhood, verbose_without_effect(),
                    without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
                                   "the mesh is not kept"),
-                   points, influence, degenerate, trial_reads},
+                   points, influence, degenerate},
           .sections = {grid_section(), bond_filters_section()},
-          .hints = {{"Horizon", "unknown key; it belongs to the sections of Blocks"}}};
+          .hints = {{"Horizon", "unknown key; it belongs to the sections of Blocks"},
+                    {"Trial Reads", "unknown key; leave it out: no file is read by a forked process any more"}}};
 }
 
 Discretization read_discretization(const Values& deck, const fs::path& deck_file, Problems& problems) {
@@ -138,7 +133,6 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
           .points = values[points],
           .influence = values[influence],
           .degenerate = values[degenerate],
-          .trial_reads = values[trial_reads],
           .cracks = read_bond_filters(values, problems)};
 }
 

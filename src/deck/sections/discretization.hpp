@@ -29,7 +29,6 @@ struct Discretization {
   Points points{};             // position of the points; nodes: of Exodus meshes only
   Influence influence{};
   DegeneratePoints degenerate{};
-  bool trial_reads{};         // of a mesh in HDF5, by a child process
   std::vector<Crack> cracks;  // no bond crosses these
 };
 

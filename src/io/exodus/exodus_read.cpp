@@ -4,7 +4,6 @@
 
 #include "base/errors.hpp"
 #include "io/exodus/mesh_points.hpp"
-#include "io/netcdf/trial_read.hpp"
 #include "io/on_root.hpp"
 #include "io/slices.hpp"
 #include "topology/coincident.hpp"
@@ -16,7 +15,6 @@ namespace {
 constexpr std::size_t most_sets = 64;  // one bit each
 
 MeshFile opened(const std::filesystem::path& path) {
-  try_in_child_process(path, [&path] { read_through(MeshFile(ExodusFile::open(path))); });
   ExodusFile file = ExodusFile::open(path);
   const std::size_t sets = file.node_sets().size();
   if (sets > most_sets) {

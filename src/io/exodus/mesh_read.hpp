@@ -62,9 +62,6 @@ class MeshFile {
   std::vector<std::vector<int>> cell_columns_;  // of each block: columns of its attributes in the file
 };
 
-// Reads everything that the functions above can read, in portions that are discarded.
-void read_through(const MeshFile& mesh);
-
 // The member that partial_cell_attributes[attribute] names.
 double& member(PartialCell& cell, std::size_t attribute);
 

@@ -119,6 +119,9 @@ const std::vector<Case> names = {
      R"("Block Names" type="string" value="block_2"/> <Parameter name="Colour" type="string" value="red"/>)",
      "Blocks > plate > Colour: unknown key; expected one of Block Names, Material, Horizon, Horizon Factor, "
      "Separate Body, Bonds Across Voids, Damage Model, Initial Temperature"},
+    {"KeyThatIsGone", R"("Type" type="string" value="Text File"/>)",
+     R"("Type" type="string" value="Text File"/> <Parameter name="Trial Reads" type="bool" value="false"/>)",
+     "Discretization > Trial Reads: unknown key; leave it out: no file is read by a forked process any more"},
     {"UnknownSection", R"(<ParameterList name="Solver">)",
      R"(<ParameterList name="Node Sts"/><ParameterList name="Solver">)",
      "Node Sts: unknown section (did you mean 'Node Sets'?)"},

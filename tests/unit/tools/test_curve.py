@@ -334,7 +334,7 @@ class Runs(InFolder):
         (self.folder / "block.xml").write_text(DECK.replace("-1e-2*t", "0"))  # a rim that is held is no motion of the sample
         self.assertIn("of a body that flies onto another one layers", self.error("block.xml"))
         (self.folder / "block.xml").write_text(DECK)
-        self.assertIn("--area: expected a number > 0", self.error("block.xml", "--area", 0))
+        self.assertIn("--area: expected 1 number > 0, found '0'", self.error("block.xml", "--area", 0))
         self.assertIn("unknown option '--heigt' (did you mean '--height'?)", self.error("block.xml", "--heigt", 1))
         whole = ("block.csv", "--area", 1, "--height", 1, "--shortening")
         self.assertIn("is shortened by 2.4 times its height of 1 m", self.error(*whole, "4*t"))
@@ -343,7 +343,7 @@ class Runs(InFolder):
         self.assertIn("the column 'Reaction_Z(top)' of the history is no number at t = 0.3001 s", self.error(*whole, "t"))
         self.history({"Time": np.minimum(STRAIN, 0.2), "Reaction_Z(top)": STRAIN})
         self.assertIn("its times do not rise from row to row, from 0.2 to 0.2 s", self.error(*whole, "t"))
-        for text, words in (("Time,A,A\n0,1,2\n1,2,3\n", "has two columns 'A'"), ("Time,A\n0,1\n1,2,3\n2,3\n", "the row of t = 1 has 3 values, expected 2")):
+        for text, words in (("Time,A,A\n0,1,2\n1,2,3\n", "has two columns 'A'"), ("Time,A\n0,1\n1,2,3\n2,3\n", "line 3 has 3 values, expected 2")):
             (self.folder / "block.csv").write_text(text)
             self.assertIn(words, self.error(*whole, "t"))
         (self.folder / "block.xml").write_text(DECK.replace("History", "Histry"))
