@@ -14,10 +14,9 @@ namespace {
 Section elastic_ordinary() {
   return {.name = "Elastic",
           .meaning =
-              "The ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`: "
-              "forces along the bonds, no deformation gradient, no stabilization, for bodies that stay elastic. "
-              "On a lattice its shear moduli depend on direction, more or less with Influence Function and "
-              "Horizon (table in docs/theory.md, Ordinary solid). No further keys."};
+              "Ordinary state-based linear elastic solid (Silling et al. 2007), as Peridigm's `Elastic`, without "
+              "stabilization. On a lattice its shear moduli depend on direction (table in docs/theory.md, Ordinary "
+              "solid)."};
 }
 
 Section elastic() { return {.name = "Elastic Correspondence", .meaning = "Isotropic and elastic (hypoelastic)."}; }

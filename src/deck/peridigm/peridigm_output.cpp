@@ -14,7 +14,7 @@ namespace {
 
 // Fields that do not exist here, and their substitutes.
 const std::map<std::string, std::string> missing_fields = {
-    {"Bond_Damage", "there is Damage, the share of broken bonds of a point"},
+    {"Bond_Damage", "there is Damage, the fraction of broken bonds of a point"},
     {"Coordinates", "there are Coordinate_X, Coordinate_Y and Coordinate_Z"},
     {"Model_Coordinates", "they are the coordinates of the nodes in the file"},
     {"Block_Id", "elements are in the blocks of the file"},

@@ -13,10 +13,10 @@ const TextKey node_set({.name = "Node Set",
                         .fallback = "all",
                         .meaning = "A node set of the mesh or of Node Sets, a block's name, or `all`."});
 
-const AxesKey components({.name = "Coordinate",
-                          .meaning = "The axes it acts along, in any order: each with the same value."});
+const AxesKey components({.name = "Coordinate", .meaning = "Axes, in any order, each with the same value."});
 // Each case sets its unit.
-const ExpressionKey value({.name = "Value", .meaning = "At the reference position x, y, z (m) and the time t (s)."});
+const ExpressionKey value({.name = "Value",
+                           .meaning = "Function of the reference position x, y, z (m) and the time t (s)."});
 
 Section along_axes(const std::string& type, const std::string& unit, const std::string& meaning) {
   Key of_unit = value;
@@ -37,16 +37,14 @@ ConditionPrototype read_body_force(const Values& values, Problems&) {
   return BodyForce{.components = values[components], .value = values[value]};
 }
 
-const VectorKey end_normal({.name = "Normal", .meaning = "Of the end's surface, of any length but zero."});
+const VectorKey end_normal({.name = "Normal", .meaning = "Normal of the surface, of any length."});
 
 Section non_reflecting_end() {
-  return {
-      .name = "Non-Reflecting End",
-      .meaning =
-          "Waves leave through the set, one layer of points, as if the body went on behind it: viscous traction "
-          "ρ c v with the speeds of longitudinal and shear waves in the undeformed material. Ends may meet at edges "
-          "and corners.",
-      .keys = {end_normal}};
+  return {.name = "Non-Reflecting End",
+          .meaning =
+              "Waves leave through the node set, one layer of points, as if the body continued: traction ρ c v with "
+              "the initial speeds of longitudinal and shear waves. Ends may meet at edges and corners.",
+          .keys = {end_normal}};
 }
 
 ConditionPrototype read_non_reflecting_end(const Values& values, Problems& problems) {
@@ -60,11 +58,11 @@ struct ConditionEntry {
 
 const std::vector<ConditionEntry>& entries() {
   static const std::vector<ConditionEntry> all = {
-      {along_axes("Initial Velocity", "m/s", "The velocity at the initial time."), read_initial_velocity},
-      {along_axes("Prescribed Displacement", "m", "The displacement at every time; with Verlet 0 at the initial one."),
+      {along_axes("Initial Velocity", "m/s", "Velocity at the initial time."), read_initial_velocity},
+      {along_axes("Prescribed Displacement", "m", "Displacement at every time; 0 at the initial time with Verlet."),
        read_prescribed_motion<false>},
-      {along_axes("Prescribed Velocity", "m/s", "The velocity at every time."), read_prescribed_motion<true>},
-      {along_axes("Body Force", "N/m³", "A force per reference volume. Several at a point add up."), read_body_force},
+      {along_axes("Prescribed Velocity", "m/s", "Velocity at every time."), read_prescribed_motion<true>},
+      {along_axes("Body Force", "N/m³", "Force per reference volume. Several at a point add up."), read_body_force},
       {symmetry_plane_section(), read_symmetry_plane},
       {rigid_plane_section(), read_rigid_plane},
       {rigid_cylinder_section(), read_rigid_cylinder},
@@ -87,7 +85,7 @@ Condition read_condition(const Values& values, Problems& problems) {
 Section conditions_section() {
   const std::string no_temperature = "no heat flows here";
   Key type = {.name = "Type",
-              .meaning = "It decides on further keys.",
+              .meaning = "Kind.",
               .hints = {{"Initial Displacement", "bodies start undeformed"},
                         {"Prescribed Temperature", no_temperature},
                         {"Initial Temperature", "write it as Blocks > Initial Temperature"},
@@ -95,8 +93,8 @@ Section conditions_section() {
   Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};
   return {.name = boundary_conditions,
           .meaning =
-              "What is imposed on points, initial conditions included. Two that prescribe a point along the same axis, "
-              "or along axes that are not across each other, must agree.",
+              "Conditions on points, initial conditions included. Two that prescribe the motion of a point along axes "
+              "that are not perpendicular must agree.",
           .any_key = numbered_set(),
           .sections = {with_cases(std::move(one), std::move(type), schemas_of(entries()))}};
 }

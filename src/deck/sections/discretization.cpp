@@ -23,18 +23,18 @@ struct AxisKeys {
   IntegerKey points;
 
   explicit AxisKeys(const std::string& axis)
-      : origin({.name = axis + " Origin", .unit = "m", .meaning = "Where the block begins."}),
-        length({.name = axis + " Length", .unit = "m", .range = positive, .meaning = "Its edge."}),
-        points({.name = "Number Points " + axis, .range = {.low = 1}, .meaning = "Cells along it."}) {}
+      : origin({.name = axis + " Origin", .unit = "m", .meaning = "Lower end of the grid."}),
+        length({.name = axis + " Length", .unit = "m", .range = positive, .meaning = "Length of the grid."}),
+        points({.name = "Number Points " + axis, .range = {.low = 1}, .meaning = "Number of cells."}) {}
 };
 const std::array<AxisKeys, 3> axes = {AxisKeys("X"), AxisKeys("Y"), AxisKeys("Z")};
 
 Section grid_section() {
   std::vector<Key> keys = {
-      {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only one."}};
+      {.name = "Type", .kind = Kind::choice, .choices = {"PdQuickGrid"}, .meaning = "The only choice."}};
   for (const AxisKeys& axis : axes) keys.insert(keys.end(), {axis.origin, axis.length, axis.points});
   return {.name = generator,
-          .meaning = "A block of equal cells, one point at the center of each, x fastest: the block block_1.",
+          .meaning = "Grid of equal cells with a point in the center of each, x fastest; the block block_1.",
           .keys = std::move(keys)};
 }
 
@@ -50,24 +50,21 @@ Grid read_grid(const Values& values) {
 
 const ChoiceKey<MeshType> type(
     {.name = "Type",
-     .meaning = "The mesh file's format: elements or nodes become points, or a list of points. Or Peridigm's "
-                "built-in grid, without a file."},
+     .meaning =
+         "Format of the mesh file (`Text File`: a list of points), or Peridigm's built-in grid, without a file."},
     {{"Exodus", MeshType::exodus}, {"Text File", MeshType::text}, {"PdQuickGrid", MeshType::grid}});
 
 const OptionalKey<std::string> mesh_file(
-    {.name = "Input Mesh File", .meaning = "Its path, relative to the deck's folder. Required but for PdQuickGrid."});
+    {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required except for PdQuickGrid."});
 
-const Key neighborhood = {.name = "NeighborhoodType",
-                          .kind = Kind::choice,
-                          .choices = {"Spherical"},
-                          .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighborhoods."};
+const Key neighborhood = {
+    .name = "NeighborhoodType", .kind = Kind::choice, .choices = {"Spherical"}, .meaning = "Required for PdQuickGrid."};
 
 const ChoiceKey<Points> points(
     {.name = "Points",
      .fallback = "Elements",
-     .meaning = "Where the points of an Exodus mesh are: at the centroids of its elements, or, for hexahedra "
-                "and tetrahedra, at its nodes, each with its part of the elements around it. With nodes, "
-                "faces and rims of the body are where the mesh has them."},
+     .meaning = "Position of the points: centroids of the elements, or nodes (hexahedra and tetrahedra), each with its "
+                "part of the elements around it. Nodes represent faces and edges of the body exactly."},
     {{"Elements", Points::elements}, {"Nodes", Points::nodes}});
 
 const ChoiceKey<Influence> influence(
@@ -79,9 +76,8 @@ const ChoiceKey<Influence> influence(
 const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
-     .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
-                "gradient. `Drop` leaves them out if they, and what is cut off without them, are 1 % of all "
-                "points at most; `Drop Any` goes on with whatever is left."},
+     .meaning = "Treatment of points whose neighbors are too few, or coplanar, for a deformation gradient. `Drop` "
+                "removes them, and pieces that they alone connect, up to 1 % of all points; `Drop Any` has no limit."},
     {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
 
 // Checks the keys that each type of discretization needs, and those that it cannot have.
@@ -108,7 +104,7 @@ void check_source(const Values& values, Problems& problems) {
 Section discretization_section() {
   return {.name = name,
           .required = true,
-          .meaning = "The points: where they are, and how much each sees of the others.",
+          .meaning = "The material points and their neighborhoods.",
           .keys = {type, mesh_file, neighborhood, verbose_without_effect(),
                    without_effect({.name = "Store Exodus Mesh", .kind = Kind::boolean, .fallback = "false"},
                                   "the mesh is not kept"),

@@ -14,9 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const AnyKey<std::string> numbers_or_file(
-    "A set of points as Peridigm writes it: the name holds `Node Set`, the value is the "
-    "numbers of elements (of points of a text file or grid) from 1, `1 4 7`, or the "
-    "name of a file of them, relative to the deck's folder.");
+    "A set of points in Peridigm's form: the name holds `Node Set`, the value is the numbers of elements (of points of "
+    "a text file or grid) from 1, `1 4 7`, or a file of them, relative to the deck's folder.");
 
 std::optional<std::vector<int>> numbers_in(const std::string& text) {
   std::vector<int> numbers;
