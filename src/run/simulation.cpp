@@ -73,7 +73,7 @@ Ledger load_through(const RunServices& services, QuasiStatic& solver) {
     const auto ledger = record(last);
     monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
     monitor.check_failed(solver.time());
-    monitor.check_passing(solver.time(), solver.contact());
+    monitor.check_interpenetration(solver.time(), solver.contact());
     monitor.check_undeclared(solver.time(), solver.contact());
     monitor.check_tools(solver.time(), solver.conditions(), scene.tools);
     if (last) return solver.ledger();

@@ -39,7 +39,7 @@ const RealKey penetration(
      .fallback = "0.95",
      .meaning = "Limit of the overlap of two points over their touching distance (explicit steps)."});
 
-const RealKey passing(
+const RealKey interpenetration(
     {.name = "Passing",
      .range = {.low = 0, .high = 1},
      .fallback = "0.01",
@@ -53,7 +53,7 @@ Section watch_section() {
           .meaning =
               "Limits that end a run which has gone wrong, with the point, the likely cause and a last frame. A number "
               "that is not finite always ends it.",
-          .keys = {stops, stops_inverted, balance_error, smallest_step, penetration, passing}};
+          .keys = {stops, stops_inverted, balance_error, smallest_step, penetration, interpenetration}};
 }
 
 Watch read_watch(const Values& deck) {
@@ -63,7 +63,7 @@ Watch read_watch(const Values& deck) {
           .balance_error = values[balance_error],
           .smallest_step = values[smallest_step],
           .penetration = values[penetration],
-          .passing = values[passing]};
+          .interpenetration = values[interpenetration]};
 }
 
 }  // namespace strut::deck

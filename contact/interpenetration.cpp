@@ -1,4 +1,4 @@
-#include "contact/passing.hpp"
+#include "contact/interpenetration.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -160,8 +160,8 @@ std::int64_t number_inside(const Domain& domain, int first, int second, const Ei
   return domain.communicator.sum(static_cast<std::int64_t>(inside.size()));
 }
 
-std::optional<Passing> passing(const Domain& domain, const std::vector<Extent>& extents, int first, int second,
-                               double limit) {
+std::optional<Interpenetration> interpenetration(const Domain& domain, const std::vector<Extent>& extents, int first,
+                                                 int second, double limit) {
   const Eigen::AlignedBox3d overlap = extents[first].box.intersection(extents[second].box);
   const auto smaller = static_cast<double>(std::min(extents[first].points, extents[second].points));
   if (overlap.isEmpty()) return std::nullopt;
@@ -173,18 +173,18 @@ std::optional<Passing> passing(const Domain& domain, const std::vector<Extent>& 
       number_inside(domain, first, second, before[first].box.intersection(before[second].box), &Domain::reference);
   const double part = static_cast<double>(points) / smaller;
   if (!(part > limit)) return std::nullopt;
-  return Passing{first, second, points, part, one_of(inside, domain)};
+  return Interpenetration{first, second, points, part, one_of(inside, domain)};
 }
 
 }  // namespace
 
-std::optional<Passing> find_passing(const Domain& domain, const Contact& contact, double limit) {
+std::optional<Interpenetration> find_interpenetration(const Domain& domain, const Contact& contact, double limit) {
   const int blocks = static_cast<int>(domain.blocks.size());
   const std::vector<Extent> extents = extents_of_blocks(domain, &Domain::current);
   for (int a = 0; a < blocks; ++a) {
     for (int b = a + 1; b < blocks; ++b) {
       if (domain.blocks[a].body == domain.blocks[b].body || !contact.between(a, b)) continue;
-      if (const auto found = passing(domain, extents, a, b, limit)) return found;
+      if (const auto found = interpenetration(domain, extents, a, b, limit)) return found;
     }
   }
   return std::nullopt;

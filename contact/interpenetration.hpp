@@ -10,7 +10,7 @@
 
 namespace strut::contact {
 
-struct Passing {
+struct Interpenetration {
   int first = 0, second = 0;  // blocks
   std::int64_t points = 0;    // of either block: inside the other now, but not in the reference state
   double part = 0;            // these points, as a fraction of the points of the smaller block
@@ -20,7 +20,7 @@ struct Passing {
 // Collective. The first two blocks of different bodies with an interaction that have more than `limit` (a fraction of
 // the smaller one's points) inside each other. A point is inside if it is as deep in the material of the other body as
 // the nearest points of that body (docs/theory.md). Blocks whose bounding boxes are disjoint cost only a reduction.
-std::optional<Passing> find_passing(const Domain& domain, const Contact& contact, double limit);
+std::optional<Interpenetration> find_interpenetration(const Domain& domain, const Contact& contact, double limit);
 
 // Two blocks of different bodies, and this rank's points of them that are inside the other block in the reference
 // state.
