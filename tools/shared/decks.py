@@ -1,4 +1,4 @@
-"""A deck (XML) and a mesh's recipe, read and changed key by key as text: comments and form stay as they are."""
+"""A deck (XML) and a mesh's recipe, read and changed key by key."""
 import functools
 import math
 import os
@@ -6,7 +6,7 @@ import re
 import subprocess
 import xml.etree.ElementTree as tree
 
-from strut_tools import fail, nearest, programs
+from strut_tools import fail, nearest, program
 
 NUMBER = r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,2})?\s*"
 
@@ -54,19 +54,6 @@ class Deck:
         recipe = mesh and os.path.splitext(mesh)[0] + ".recipe"
         return recipe if recipe and os.path.isfile(recipe) else None
 
-    def changed(self, path, value):
-        """The text of the deck with another value of the key "Section > … > Key"."""
-        element = self.key(path)
-        marked = f"\0{value}\0"
-        before, number = element.get("value"), self.number_of(element)
-        pattern = re.compile(r"<Parameter\b[^>]*?>", re.S)
-        found = [m for m in pattern.finditer(without_comments(self.text))][number]
-        old = self.text[found.start():found.end()]
-        new = re.sub(r'value\s*=\s*("[^"]*"|\'[^\']*\')', lambda m: f'value="{marked}"', old)
-        if marked not in new or before is None:
-            fail(f"{self.path}: {path} has no value to change")
-        return self.text[:found.start()] + new.replace("\0", "") + self.text[found.end():]
-
     @classmethod
     def of(cls, path, text):
         """Of a text, as if it stood there."""
@@ -75,11 +62,11 @@ class Deck:
         return deck
 
     def with_value(self, path, value):
-        """The same, as a deck."""
-        return Deck.of(self.path, self.changed(path, value))
-
-    def number_of(self, element):
-        return [e for e in self.root.iter("Parameter")].index(element)
+        """The same, with another value of the key "Section > … > Key"."""
+        deck = Deck.of(self.path, self.text)
+        deck.key(path).set("value", value)
+        deck.text = tree.tostring(deck.root, "unicode")
+        return deck
 
     def key(self, path):
         """The element of "Section > … > Key"; ends the tool with the nearest name where it is not there."""
@@ -97,6 +84,17 @@ class Deck:
         return place
 
 
+def section(name, content):
+    """An element: {key: value, or the content of a section}."""
+    found = tree.Element("ParameterList", name=name)
+    for key, value in content.items():
+        if isinstance(value, dict):
+            found.append(section(key, value))
+        else:
+            tree.SubElement(found, "Parameter", name=key, type="string", value=str(value))
+    return found
+
+
 def value_in(element, key):
     return next((e.get("value") for e in element.findall("Parameter") if e.get("name") == key), None)
 
@@ -104,11 +102,6 @@ def value_in(element, key):
 def is_true(value):
     """As the program reads it (src/deck/numbers.cpp)."""
     return value is not None and value.strip().lower() in ("true", "yes", "1")
-
-
-def without_comments(text):
-    """Blanks in their place, so that all stays where it is."""
-    return re.sub(r"<!--.*?-->", lambda m: " " * len(m.group()), text, flags=re.S)
 
 
 # Recipes
@@ -181,7 +174,7 @@ class NoExpression(Exception):
 @functools.cache
 def asked():
     """STRUT_EVALUATE, or the program that belongs to this tool; it runs until the tool ends."""
-    name = os.environ.get("STRUT_EVALUATE") or programs("strut-evaluate")[0]
+    name = program("strut-evaluate")
     try:
         return subprocess.Popen([name], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     except OSError as error:

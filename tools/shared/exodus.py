@@ -4,7 +4,7 @@ import re
 import subprocess
 
 import classic_netcdf
-from strut_tools import fail, programs
+from strut_tools import fail, program
 
 CORNERS = {"HEX8": 8, "TET4": 4, "SPHERE": 1}
 TITLE = "strut mesh"  # by which strut-mesh knows its files
@@ -134,11 +134,10 @@ def gather_voxels(path, name, places, shape, cell, origin, factor, smallest, fil
     kind = ("solid" if fills is None else "grey") + ("" if thickness is None else f" {thickness:.6g}")
     header = f"strut-mesh arrays 1\nnodes 0\nvoxels {name} {len(places)} {' '.join(map(str, shape))} {factor} {smallest} {kind}\n"
     parts = [(np.array([*cell, *origin]), "<f8"), (places, "<i4"), *([] if fills is None else [(fills, "<f8")])]
-    program = os.environ.get("STRUT_MESH") or programs("strut-mesh")[0]
     try:
-        run = subprocess.Popen([program, "--arrays", path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        run = subprocess.Popen([program("strut-mesh"), "--arrays", path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     except OSError as error:
-        fail(f"{program} cannot be started: {error.strerror}")
+        fail(f"{program('strut-mesh')} cannot be started: {error.strerror}")
     try:
         run.stdin.write(header.encode())
         for array, form in parts:

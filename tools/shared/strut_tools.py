@@ -239,15 +239,18 @@ def captured():
 # Programs, and what they write
 
 
-def programs(*names):
-    """Paths of programs such as strut: of this source tree, built if they are stale, or of an installed tree."""
+@functools.cache
+def program(name):
+    """The path of strut, strut-mesh, …: what STRUT, STRUT_MESH, … names, or that of this source tree, built if it is stale, or of
+    an installed tree."""
+    if path := os.environ.get(name.upper().replace("-", "_")):
+        return path
     prepare = os.path.join(ROOT, "tools", "prepare")
     if not os.path.exists(prepare):
-        return [os.path.join(ROOT, "..", "..", "bin", name) for name in names]
-    if subprocess.run([prepare, "release", "--target", *names]).returncode != 0:
-        fail(f"{' and '.join(names)} could not be built")
-    folders = {"strut": "."}
-    return [os.path.join(ROOT, "build", "release", folders.get(name, "tools"), name) for name in names]
+        return os.path.join(ROOT, "..", "..", "bin", name)
+    if subprocess.run([prepare, "release", "--target", name]).returncode != 0:
+        fail(f"{name} could not be built")
+    return os.path.join(ROOT, "build", "release", "." if name == "strut" else "tools", name)
 
 
 @functools.cache

@@ -472,7 +472,7 @@ TEST(DeckErrors, AnEmptyDeckLacksTheRequiredSections) {
 TEST(DeckErrors, MalformedXmlNamesTheLine) {
   const DeckFolder folder;
   EXPECT_EQ(folder.error(changed(full_deck, "z &lt; 1e-3", "z < 1e-3")),
-            "deck.xml: 1 problem\n  line 12: malformed XML: invalid character in attribute value (inside a value write "
+            "deck.xml: 1 problem\n  line 11: malformed XML: invalid character in attribute value (inside a value write "
             "&lt; for < and &amp; for &, and close its quotes)");
   EXPECT_EQ(folder.error("<ParameterList>\n<ParameterList name=\"Solver\">\n</ParameterList>\n"),
             "deck.xml: 1 problem\n  line 4: malformed XML: file ended before closing element 'ParameterList' from line "

@@ -78,7 +78,7 @@ TEST_F(BrokenFile, HDF5TruncatedAnywhere) {
     float version = 0;
     const int in = ex_open(file.c_str(), EX_READ, &word, &stored, &version);
     const int out = ex_create(copy.c_str(), EX_CLOBBER | EX_NETCDF4 | EX_NOCLASSIC, &word, &stored);
-    ASSERT_EQ(ex_copy(in, out), EX_NOERR);
+    ASSERT_GE(ex_copy(in, out), 0);
     ex_close(in), ex_close(out);
   });
   EXPECT_EQ(error_of([&] { read_exodus(copy, world); }), "");
