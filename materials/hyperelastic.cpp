@@ -33,29 +33,26 @@ Instant instant(const Hyperelastic& law, const Vector& stretches, double J) {
 
 Symmetric congruent(const Tensor& A, const Symmetric& s) { return symmetric_part(A * to_tensor(s) * A); }
 
-// Σ γ_k of the branches, moved on by dt; the deviator that they carry, Kirchhoff, Pa.
-Symmetric relax(const Hyperelastic& law, const PointStep& step, const Symmetric& change, Hyperelastic::State& state) {
-  Symmetric sum = Symmetric::Zero();
+// The branches moved on by a step: the deviator that they carry, Kirchhoff, Pa, and what their dampers take, J/m³, as
+// of springs of the modulus γ_k G.
+struct Branches {
+  Symmetric carried = Symmetric::Zero();
+  double damped = 0;
+};
+
+Branches moved_on(const Hyperelastic& law, const PointStep& step, const Symmetric& change, Hyperelastic::State& state) {
+  const Tensor U = to_tensor(step.stretch);
+  const double scale = 1 / std::cbrt(step.J * step.J);
+  Branches sum;
   for (int k = 0; k < Hyperelastic::most_times; ++k) {
     const auto& [fraction, time] = law.times[k];
     if (fraction == 0) continue;
     Eigen::Map<Symmetric> branch(state.branches.data() + 6 * k);
+    const Symmetric before = deviator(Symmetric(scale * congruent(U, branch)));
     branch = std::exp(-step.dt / time) * branch + std::exp(-0.5 * step.dt / time) * change;
-    sum += fraction * branch;
-  }
-  return deviator(Symmetric(congruent(to_tensor(step.stretch), sum) / std::cbrt(step.J * step.J)));
-}
-
-// What the dampers of the branches take in a step, of springs of the modulus γ_k G: exact for small strains; what large
-// ones take differently counts as stored.
-double damped(const Hyperelastic& law, double dt, const Hyperelastic::State& before, const Hyperelastic::State& after) {
-  double sum = 0;
-  for (int k = 0; k < Hyperelastic::most_times; ++k) {
-    const auto at = [k](const Hyperelastic::State& state) {
-      return Eigen::Map<const Symmetric>(state.branches.data() + 6 * k);
-    };
-    const Symmetric middle = 0.5 * (at(before) + at(after));
-    sum += law.times[k].fraction * double_dot(middle, middle) / (2 * law.shear()) * dt / law.times[k].time;
+    const Symmetric after = deviator(Symmetric(scale * congruent(U, branch))), middle = 0.5 * (before + after);
+    sum.carried += fraction * after;
+    sum.damped += fraction * double_dot(middle, middle) / (2 * law.shear()) * step.dt / time;
   }
   return sum;
 }
@@ -72,19 +69,20 @@ PointStress Hyperelastic::step(const PointStep& step, const Symmetric& stress, S
   State next = state;
   next.stored = now.energy + 0.5 * bulk * (step.J - 1) * (step.J - 1);
   const bool relaxes = kept() < 1;
+  Branches branches;
   if (relaxes) {
     const Tensor inverse = to_tensor(step.stretch).inverse();
     const Symmetric reference = std::cbrt(step.J * step.J) * congruent(inverse, fast);
     const Symmetric change = reference - Eigen::Map<const Symmetric>(state.last.data());
     Eigen::Map<Symmetric>(next.last.data()) = reference;
-    kirchhoff = kept() * fast + relax(*this, step, change, next);
+    branches = moved_on(*this, step, change, next);
+    kirchhoff = kept() * fast + branches.carried;
   }
   Symmetric cauchy = kirchhoff / step.J;
   cauchy.head<3>().array() += pressure;
   if (relaxes) {
-    const double lost = damped(*this, step.dt, state, next);
-    next.dissipated = state.dissipated + lost;
-    next.stored = state.stored + step_work(step, old_determinant(step), stress, cauchy) - lost;
+    next.dissipated = state.dissipated + branches.damped;
+    next.stored = state.stored + step_work(step, old_determinant(step), stress, cauchy) - branches.damped;
   }
   // ∂σ_i/∂ln λ_i: that of the deviator, less the stress itself, which J divides, and that of the pressure.
   const Vector along = (now.stiffness - now.deviator) / step.J + Vector::Constant(bulk * step.J);

@@ -190,7 +190,7 @@ void set_viscous(const Domain& domain, MaterialBlock& block) {
   for (std::size_t k = 0; k < block.points.size(); ++k) {
     const int i = block.points[k];
     const double edge = part_of_edge(domain, block, i) * std::cbrt(coincident_images(domain, i) * domain.volume(i));
-    for (int q = 0; q < block.places_a_point(); ++q) block.viscous[block.place(k, q)].edge = edge;
+    for (int q = 0; q < block.points_per_cell(); ++q) block.viscous[block.place(k, q)].edge = edge;
   }
 }
 

@@ -180,7 +180,7 @@ Observable declared(const FieldPart& part) {
     });
     for (const MaterialBlock& block : body.blocks) {
       with_part(block.fields, variable, [&](const AnyField& field, int first) {
-        const int places = field.at == At::point ? 1 : block.places_a_point();
+        const int places = field.at == At::point ? 1 : block.points_per_cell();
         for (std::size_t k = 0; k < block.points.size(); ++k) {
           for (int c = 0; c < width; ++c) {
             double sum = 0;

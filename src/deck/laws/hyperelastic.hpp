@@ -1,7 +1,10 @@
 // The keys of elastomers.
 #pragma once
 
-#include "deck/laws/laws.hpp"
+#include "deck/problems.hpp"
+#include "deck/schema.hpp"
+#include "deck/values.hpp"
+#include "materials/laws.hpp"
 
 namespace strut::deck {
 

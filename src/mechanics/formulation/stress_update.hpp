@@ -316,7 +316,7 @@ inline void add_damping(const MaterialBlock& block, const StressPass& pass, cons
     const LaneGroup group = groups[g];
     double most = 0;
     for (const int k : group.k) {
-      for (int q = 0; q < block.places_a_point(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
+      for (int q = 0; q < block.points_per_cell(); ++q) most = std::max(most, block.viscous[block.place(k, q)].damping);
     }
     return most;
   };

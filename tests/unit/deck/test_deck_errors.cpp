@@ -212,12 +212,13 @@ const std::vector<Case> names = {
      "zero-energy modes and takes none; expected no such key"},
     {"StabilizationOfOrdinaryBonds", R"(value="Elastic Correspondence")", R"(value="Elastic")",
      "Materials > steel > Stabilization: unknown key for Material Model 'Elastic'; it belongs to 'Elastic "
-     "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence'"},
+     "Correspondence', 'Elastic Plastic Correspondence', 'Metal Foam Correspondence', 'Polymer Foam Correspondence', "
+     "'Hyperelastic', 'User Library'"},
     {"PeridigmsNeedleman", "Elastic Plastic Correspondence", "Viscoplastic Needleman Correspondence",
      "Materials > copper > Material Model: 'Viscoplastic Needleman Correspondence' (did you mean 'Elastic Plastic "
      "Correspondence'? its power laws are those of 'Elastic Plastic Correspondence', Hardening and Rate); expected one "
      "of Elastic, Elastic Correspondence, Elastic Plastic Correspondence, Metal Foam Correspondence, Polymer Foam "
-     "Correspondence"},
+     "Correspondence, Hyperelastic, User Library"},
 };
 INSTANTIATE_TEST_SUITE_P(Names, OneProblem, testing::ValuesIn(names), name_of);
 
