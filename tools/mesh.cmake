@@ -1,5 +1,5 @@
 # The parts that a test of their own can link.
-add_library(strut_foam STATIC mesh/tessellation.cpp mesh/struts.cpp mesh/voxels.cpp mesh/pieces.cpp mesh/merging.cpp
+add_library(strut_foam STATIC mesh/tessellation.cpp mesh/levels.cpp mesh/lattices.cpp mesh/struts.cpp mesh/voxels.cpp mesh/pieces.cpp mesh/merging.cpp
             mesh/flat_cells.cpp mesh/cells.cpp mesh/cell_mesh.cpp)
 target_include_directories(strut_foam PUBLIC ${CMAKE_CURRENT_LIST_DIR})
 target_include_directories(strut_foam SYSTEM PRIVATE ${VORO_INCLUDE_DIR})

@@ -11,17 +11,26 @@
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "mesh/lattices.hpp"
 
 namespace strut::mesh {
 
 namespace {
 
 const std::vector<std::string> keys = {
-    "name", "shape",   "method",  "centred",  "elements",         "length",       "radius",
-    "size", "spacing", "origin",  "cell",     "relative_density", "irregularity", "seed",
-    "file", "grading", "uniform", "coarsest", "top_radius",       "cells",        "smallest_cell"};
+    "name",         "shape", "method",        "centred", "elements",       "length",
+    "radius",       "size",  "spacing",       "origin",  "cell",           "relative_density",
+    "irregularity", "seed",  "file",          "grading", "uniform",        "coarsest",
+    "top_radius",   "cells", "smallest_cell", "lattice", "count",          "thickness",
+    "periodic",     "sizes", "relax",         "stretch", "node_thickness", "section"};
 
-const std::vector<std::string> foam_keys = {"cell", "relative_density", "irregularity", "seed"};
+const std::vector<std::string> only_foam_keys = {"irregularity", "seed", "sizes", "relax", "stretch", "section"};
+const std::vector<std::string> only_lattice_keys = {"lattice", "count", "thickness"};
+const std::vector<std::string> foam_keys = [] {
+  std::vector<std::string> keys = {"cell", "relative_density", "periodic", "node_thickness"};
+  for (const auto& more : {only_foam_keys, only_lattice_keys}) keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}();
 const std::vector<std::string> gathering_keys = {"cells", "smallest_cell"};
 const std::vector<std::string> grading_keys = {"grading", "uniform", "coarsest"};
 
@@ -135,7 +144,7 @@ class Converter {
 
   Body convert() {
     Body body;
-    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "file"}, std::nullopt);
+    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "lattice", "file"}, std::nullopt);
     if (const Entry* entry = entries_.find("origin")) body.origin = vector(*entry);
     if (body.shape == Body::Shape::file) {
       convert_file(body);
@@ -169,6 +178,7 @@ class Converter {
     convert_gathering(body);
     if (cone) return convert_cone(body);
     if (body.shape == Body::Shape::cylinder) return convert_cylinder(body);
+    if (body.shape == Body::Shape::lattice) return convert_lattice(body);
     convert_box(body, body.shape == Body::Shape::foam ? "foam" : "box");
     if (body.shape == Body::Shape::foam) convert_foam(body);
   }
@@ -207,6 +217,7 @@ class Converter {
     }
     if (body.method == Body::Method::fitted)
       fail(*entries_.find("method"), "a " + shape + " has only the method lattice");
+    if (shape == "lattice" && entries_.find("count")) return;
     const Entry* entry = required("size");
     if (entry == nullptr) return;
     body.size = vector(*entry);
@@ -214,20 +225,85 @@ class Converter {
   }
 
   void convert_foam(Body& body) {
+    refuse(only_lattice_keys, "foam");
     body.cell = length("cell");
-    if (const Entry* entry = required("relative_density")) {
-      body.relative_density = number(entry->value).value_or(NAN);
-      if (!(body.relative_density > 0 && body.relative_density < 1)) {
-        fail(*entry, "relative_density is '" + entry->value + "', expected a number between 0 and 1");
-      }
-    }
-    if (const Entry* entry = entries_.find("irregularity")) {
-      body.irregularity = number(entry->value).value_or(NAN);
-      if (!(body.irregularity >= 0 && body.irregularity <= 1)) {
-        fail(*entry, "irregularity is '" + entry->value + "', expected a number from 0 to 1");
-      }
-    }
+    if (required("relative_density")) convert_density(body);
+    if (entries_.find("irregularity")) body.irregularity = between("irregularity", 0, 1);
     if (const Entry* entry = entries_.find("seed")) body.seed = whole(*entry);
+    if (entries_.find("sizes")) body.sizes = between("sizes", 0, 0.6);
+    if (const Entry* entry = entries_.find("relax")) {
+      body.relax = static_cast<int>(between("relax", 0, 1000));
+      if (entry->value.find_first_not_of("0123456789") != std::string::npos) fail(*entry, "relax is no whole number");
+    }
+    if (const Entry* entry = entries_.find("stretch")) {
+      body.stretch = vector(*entry);
+      if (!(body.stretch.minCoeff() >= 0.2 && body.stretch.maxCoeff() <= 5)) {
+        fail(*entry, "stretch is '" + entry->value + "', expected three numbers from 0.2 to 5");
+      }
+    }
+    enum class Section { round, three_cornered };
+    body.three_cornered = choice<Section>("section", {"round", "three-cornered"}, "round") == Section::three_cornered;
+    convert_members(body);
+  }
+
+  void convert_lattice(Body& body) {
+    convert_box(body, "lattice");
+    refuse(only_foam_keys, "lattice");
+    body.cell = length("cell");
+    const std::vector<std::string>& names = lattice_names();
+    const Entry* name = required("lattice");
+    if (name) body.lattice = name->value;
+    if (name && std::find(names.begin(), names.end(), name->value) == names.end()) {
+      fail(*name,
+           "lattice is '" + name->value + "', expected " + joined(names, " or ") + did_you_mean(name->value, names));
+    }
+    if (const Entry* entry = entries_.find("count")) convert_count(*entry, body);
+    const Entry *density = entries_.find("relative_density"), *thickness = entries_.find("thickness");
+    if (density && thickness) fail(*thickness, "thickness and relative_density exclude each other");
+    if (thickness) {
+      body.thickness = length("thickness");
+      if (body.lattice == "gyroid" || body.lattice == "diamond") {
+        fail(*thickness, "a solid on one side of a surface has no thickness; expected relative_density");
+      }
+    } else if (required("relative_density")) {
+      convert_density(body);
+    }
+    convert_members(body);
+  }
+
+  // Whole cells along each axis; one number holds for all three.
+  void convert_count(const Entry& entry, Body& body) {
+    if (const Entry* size = entries_.find("size")) fail(*size, "count and size exclude each other");
+    const std::string& text = entry.value;
+    const bool is_one = text.find_first_of(" \t") == std::string::npos;
+    const Vector count = is_one ? Vector(Vector::Constant(number(text).value_or(NAN))) : vector(entry);
+    const bool fits = (count.array() >= 1).all() && (count.array() == count.array().floor()).all();
+    if (!fits) return fail(entry, "count is '" + text + "', expected one or three whole numbers of cells");
+    body.size = count * body.cell;
+  }
+
+  void convert_members(Body& body) {
+    enum class Word { no, yes };
+    body.periodic = choice<Word>("periodic", {"no", "yes"}, "no") == Word::yes;
+    if (entries_.find("node_thickness")) body.node_thickness = between("node_thickness", 1, 4);
+  }
+
+  void convert_density(Body& body) {
+    const Entry& entry = *entries_.find("relative_density");
+    body.relative_density = number(entry.value).value_or(NAN);
+    if (body.relative_density > 0 && body.relative_density < 1) return;
+    fail(entry, "relative_density is '" + entry.value + "', expected a number between 0 and 1");
+  }
+
+  // The number of a key that is there.
+  double between(const std::string& key, double low, double high) {
+    const Entry& entry = *entries_.find(key);
+    const double value = number(entry.value).value_or(NAN);
+    if (value >= low && value <= high) return value;
+    std::ostringstream text;
+    text << key << " is '" << entry.value << "', expected a number from " << low << " to " << high;
+    fail(entry, text.str());
+    return low == 0 ? 0.5 * high : low;  // a valid one
   }
 
   // For cubes only: call it after the method and the elements.
