@@ -86,13 +86,21 @@ Body drawn(Body body) {
   return body;
 }
 
+bool is_periodic(const Body& body) { return body.periodic[0] || body.periodic[1] || body.periodic[2]; }
+
+std::string axes_of(const Body& body) {
+  std::string text = is_periodic(body) ? ", periodic along" : "";
+  for (int axis = 0; axis < 3; ++axis) text += body.periodic[axis] ? std::string(" ") + "xyz"[axis] : "";
+  return text;
+}
+
 // What else a recipe asked for.
 std::string summary_of_more(const Body& body, const Skeleton& skeleton) {
   std::string text;
-  if (body.sizes > 0 || body.relax > 0 || body.stretch != Vector::Ones() || body.periodic) {
+  if (body.sizes > 0 || body.relax > 0 || body.stretch != Vector::Ones() || is_periodic(body)) {
     text += "  volumes of the cells: standard deviation " + number(100 * skeleton.scatter) +
             " % of their mean; stretched by " + number(body.stretch[0]) + " " + number(body.stretch[1]) + " " +
-            number(body.stretch[2]) + (body.periodic ? "; periodic\n" : "\n");
+            number(body.stretch[2]) + axes_of(body) + "\n";
   }
   if (body.node_thickness > 1 || body.three_cornered) {
     text += std::string("  ") + (body.three_cornered ? "three-cornered" : "round") +
@@ -133,9 +141,8 @@ std::string summary_of_lattice(const Body& body, const VoxelGrid& grid, const St
   std::ostringstream text;
   text.precision(6);
   text << body.name << ": " << body.lattice << " lattice, " << count.transpose() << " cells of " << body.cell << " m"
-       << (body.periodic ? ", periodic" : "") << ": " << struts.voxels.size()
-       << (body.cells > 0 ? " voxels of " : " points of ") << grid.cells.transpose() << "\n  relative density "
-       << volume_of(struts) / static_cast<double>(grid.count());
+       << axes_of(body) << ": " << struts.voxels.size() << (body.cells > 0 ? " voxels of " : " points of ")
+       << grid.cells.transpose() << "\n  relative density " << volume_of(struts) / static_cast<double>(grid.count());
   if (body.relative_density > 0) text << " (asked for " << body.relative_density << ")";
   text << " in one piece; " << struts.dropped_pieces << " other pieces of " << struts.dropped_voxels
        << " in all dropped\n";
@@ -183,7 +190,7 @@ io::Mesh foam_mesh(const Body& body, std::string& summary) {
   check(fine);
   const VoxelGrid grid = grid_of_body(body);
   const Skeleton skeleton = foam_skeleton(
-      body.size, {body.cell, body.irregularity, body.seed, body.sizes, body.relax, body.stretch, body.periodic});
+      body.size, {body.cell, body.irregularity, body.seed, body.sizes, body.relax, body.stretch, is_periodic(body)});
   const std::size_t wanted = wanted_of(body, grid);
   const Struts struts =
       struts_around(skeleton.edges, grid, wanted, {.node = body.node_thickness, .three_cornered = body.three_cornered});

@@ -144,7 +144,7 @@ void add_surfaces(const Material& material, Pieces& pieces) {
 }  // namespace
 
 int Material::beyond(int v, int axis) const {
-  if (!grid.periodic || grid.cell(voxels[v])[axis] + 1 < grid.cells[axis]) return upper[v][axis];
+  if (!grid.periodic[axis] || grid.cell(voxels[v])[axis] + 1 < grid.cells[axis]) return upper[v][axis];
   const int stride = axis == 0 ? 1 : axis == 1 ? grid.cells[0] : grid.cells[0] * grid.cells[1];
   const int wanted = voxels[v] - (grid.cells[axis] - 1) * stride;
   const auto place = std::lower_bound(voxels.begin(), voxels.end(), wanted);

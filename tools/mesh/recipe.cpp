@@ -283,9 +283,18 @@ class Converter {
   }
 
   void convert_members(Body& body) {
-    enum class Word { no, yes };
-    body.periodic = choice<Word>("periodic", {"no", "yes"}, "no") == Word::yes;
+    if (const Entry* entry = entries_.find("periodic")) convert_axes(*entry, body);
     if (entries_.find("node_thickness")) body.node_thickness = between("node_thickness", 1, 4);
+  }
+
+  void convert_axes(const Entry& entry, Body& body) {
+    std::istringstream stream(entry.value);
+    for (std::string word; stream >> word;) {
+      const bool is_axis = word.size() == 1 && word[0] >= 'x' && word[0] <= 'z';
+      if (!is_axis)
+        return fail(entry, "periodic is '" + entry.value + "', expected axes: x, y, z, with blanks between");
+      body.periodic[word[0] - 'x'] = true;
+    }
   }
 
   void convert_density(Body& body) {

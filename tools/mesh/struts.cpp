@@ -34,8 +34,8 @@ class Pieces {
       if (cell[axis] > 0) join(place, place_[voxel - stride[axis]]);
       if (cell[axis] < grid_.cells[axis] - 1) join(place, place_[voxel + stride[axis]]);
       const int around = (grid_.cells[axis] - 1) * stride[axis];
-      if (grid_.periodic && cell[axis] == 0) join(place, place_[voxel + around]);
-      if (grid_.periodic && cell[axis] == grid_.cells[axis] - 1) join(place, place_[voxel - around]);
+      if (grid_.periodic[axis] && cell[axis] == 0) join(place, place_[voxel + around]);
+      if (grid_.periodic[axis] && cell[axis] == grid_.cells[axis] - 1) join(place, place_[voxel - around]);
     }
   }
 

@@ -14,9 +14,9 @@ namespace strut::mesh {
 
 // A grid with its lower corner at the origin.
 struct VoxelGrid {
-  Vector size;            // m, of the box
-  Eigen::Array3i cells;   // along each axis
-  bool periodic = false;  // the box repeats
+  Vector size;                        // m, of the box
+  Eigen::Array3i cells;               // along each axis
+  std::array<bool, 3> periodic = {};  // the box repeats along these axes
 
   Vector spacing() const { return size.array() / cells.cast<double>(); }
   std::size_t count() const { return cells.cast<std::size_t>().prod(); }

@@ -217,7 +217,7 @@ TEST_F(FoamRecipe, LatticesAreMadeByName) {
     EXPECT_NEAR(volume / (0.2 * 0.25), 1, 1e-3) << outcome.text;
   }
   const testing::Outcome thick = make(
-      "shape = lattice\nlattice = bcc\nsize = 1 1 1\ncell = 0.5\nspacing = 0.025\nthickness = 0.1\nperiodic = yes\n");
+      "shape = lattice\nlattice = bcc\nsize = 1 1 1\ncell = 0.5\nspacing = 0.025\nthickness = 0.1\nperiodic = x y z\n");
   EXPECT_NE(thick.text.find("4 voxels = 0.1 m thick"), std::string::npos) << thick.text;
   EXPECT_NE(thick.text.find("8 struts a cell"), std::string::npos);
 }
@@ -253,6 +253,7 @@ TEST_F(FoamRecipe, WrongRecipesAreRefused) {
       {cube + density + "stretch = 1 1 9\n", "expected three numbers from 0.2 to 5"},
       {cube + density + "section = square\n", "section is 'square', expected round or three-cornered"},
       {cube + density + "thickness = 0.1\n", "a foam has no key 'thickness'"},
+      {cube + density + "periodic = xy\n", "expected axes: x, y, z, with blanks between"},
       {lattice + "octett\n" + density, "lattice is 'octett', expected octet or bcc"},
       {lattice + "octet\n", "lacks the key 'relative_density'"},
       {lattice + "octet\nthickness = 0.1\n" + density, "thickness and relative_density exclude each other"},
