@@ -234,6 +234,10 @@ io::Mesh shaped(const Body& body, std::string& summary) {
     check_cells(body, body.size);
     return foam_mesh(body, summary);
   }
+  if (body.shape == Body::Shape::lattice) {
+    check_cells(body, body.size);
+    return lattice_mesh(body, summary);
+  }
   return body.cells > 0 ? gathered_body(body, summary) : extruded(body, summary);
 }
 

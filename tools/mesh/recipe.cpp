@@ -11,6 +11,7 @@
 
 #include "base/errors.hpp"
 #include "base/files.hpp"
+#include "mesh/lattices.hpp"
 
 namespace strut::mesh {
 
@@ -21,10 +22,19 @@ constexpr double below_one = 1 - std::numeric_limits<double>::epsilon();
 constexpr const char* a_length = "a length > 0 in m";
 
 // Kinds of bodies, and groups of them that have a key in common.
-enum Kind : unsigned { lattice_cylinder = 1, fitted_cylinder = 2, cone = 4, box = 8, foam = 16, file = 32 };
+enum Kind : unsigned {
+  lattice_cylinder = 1,
+  fitted_cylinder = 2,
+  cone = 4,
+  box = 8,
+  foam = 16,
+  lattice = 32,
+  file = 64
+};
 constexpr unsigned round = lattice_cylinder | fitted_cylinder | cone;
-constexpr unsigned layered = fitted_cylinder | cone | box, gathered = lattice_cylinder | box | foam;
-constexpr unsigned made = round | box | foam, any = made | file;
+constexpr unsigned of_struts = foam | lattice;
+constexpr unsigned layered = fitted_cylinder | cone | box, gathered = lattice_cylinder | box | of_struts;
+constexpr unsigned made = round | box | of_struts, any = made | file;
 
 struct Key {
   const char* name;
@@ -34,6 +44,7 @@ struct Key {
   double Body::*number = nullptr;
   double low = 0, high = 0;
   const char* expected = nullptr;
+  const char* unless = nullptr;  // a key that a lattice may have in its place
 };
 
 const std::vector<Key> keys = {
@@ -51,11 +62,21 @@ const std::vector<Key> keys = {
     {"length", round, true, nullptr, &Body::length, tiny, huge, a_length},
     {"radius", round, true, nullptr, &Body::radius, tiny, huge, a_length},
     {"top_radius", cone, true, nullptr, &Body::top_radius, tiny, huge, a_length},
-    {"size", box | foam, true},
-    {"cell", foam, true, nullptr, &Body::cell, tiny, huge, a_length},
-    {"relative_density", foam, true, nullptr, &Body::relative_density, tiny, below_one, "a number between 0 and 1"},
+    {.name = "size", .kinds = box | of_struts, .required = true, .unless = "count"},
+    {"cell", of_struts, true, nullptr, &Body::cell, tiny, huge, a_length},
+    {"relative_density", of_struts, true, nullptr, &Body::relative_density, tiny, below_one, "a number between 0 and 1",
+     "thickness"},
+    {"periodic", of_struts},
+    {"node_thickness", of_struts, false, nullptr, &Body::node_thickness, 1, 4, "a number from 1 to 4"},
     {"irregularity", foam, false, nullptr, &Body::irregularity, 0, 1, "a number from 0 to 1"},
     {"seed", foam},
+    {"sizes", foam, false, nullptr, &Body::sizes, 0, 0.6, "a number from 0 to 0.6"},
+    {"relax", foam},
+    {"stretch", foam},
+    {"section", foam},
+    {"lattice", lattice, true},
+    {"count", lattice},
+    {"thickness", lattice, false, nullptr, &Body::thickness, tiny, huge, a_length},
     {"file", file, true},
     {"origin", any}};
 
@@ -75,6 +96,8 @@ Kind kind_of(const Body& body) {
       return box;
     case Body::Shape::foam:
       return foam;
+    case Body::Shape::lattice:
+      return lattice;
     default:
       return file;
   }
@@ -83,7 +106,7 @@ Kind kind_of(const Body& body) {
 std::string name_of(Kind kind) {
   if (kind == lattice_cylinder) return "lattice cylinder";
   if (kind == fitted_cylinder) return "fitted cylinder";
-  return kind == cone ? "cone" : kind == box ? "box" : kind == foam ? "foam" : "file";
+  return kind == cone ? "cone" : kind == box ? "box" : kind == foam ? "foam" : kind == lattice ? "lattice" : "file";
 }
 
 struct Entry {
@@ -196,7 +219,7 @@ class Converter {
 
   Body convert() {
     Body body;
-    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "file"}, 0);
+    body.shape = choice<Body::Shape>("shape", {"cylinder", "cone", "box", "foam", "lattice", "file"}, 0);
     const int usual = body.shape == Body::Shape::cone ? 1 : 0;
     body.method = choice<Body::Method>("method", {"lattice", "fitted"}, usual);
     const Kind kind = kind_of(body);
@@ -204,7 +227,7 @@ class Converter {
       const Entry* entry = entries_.find(key.name);
       if (entry != nullptr) {
         check_and_take(key, *entry, kind, body);
-      } else if (key.required && (key.kinds & kind) != 0) {
+      } else if (key.required && (key.kinds & kind) != 0 && !has_other(key, kind)) {
         problems_.push_back("the body that starts in line " + std::to_string(entries_.line()) + " lacks the key '" +
                             key.name + "'");
       }
@@ -214,6 +237,11 @@ class Converter {
   }
 
  private:
+  // True if another key stands in the place of this one.
+  bool has_other(const Key& key, Kind kind) const {
+    return kind == lattice && key.unless != nullptr && entries_.find(key.unless) != nullptr;
+  }
+
   void check_and_take(const Key& key, const Entry& entry, Kind kind, Body& body) {
     if ((key.kinds & kind) == 0) return fail(entry, "a " + name_of(kind) + " has no key '" + key.name + "'");
     if (key.needs != nullptr && entries_.find(key.needs) == nullptr) {
@@ -237,8 +265,21 @@ class Converter {
     if (key == "method" && kind == cone && body.method == Body::Method::lattice) {
       fail(entry, "a cone has only the method fitted");
     }
-    if (key == "method" && (kind & (box | foam)) != 0 && body.method == Body::Method::fitted) {
+    if (key == "method" && (kind & (box | of_struts)) != 0 && body.method == Body::Method::fitted) {
       fail(entry, "a " + name_of(kind) + " has only the method lattice");
+    }
+    if (key == "relax") take_relax(entry, body);
+    if (key == "section") {
+      body.three_cornered = choice<Section>(key, {"round", "three-cornered"}, 0) == Section::three_cornered;
+    }
+    if (key == "periodic") take_axes(entry, body);
+    if (key == "lattice") take_lattice(entry, body);
+    if (key == "count") take_count(entry, body);
+    if (key == "stretch") {
+      body.stretch = vector(entry);
+      if (!(body.stretch.minCoeff() >= 0.2 && body.stretch.maxCoeff() <= 5)) {
+        fail(entry, "stretch is '" + entry.value + "', expected three numbers from 0.2 to 5");
+      }
     }
     if (key == "size") {
       body.size = vector(entry);
@@ -252,7 +293,57 @@ class Converter {
     }
   }
 
+  enum class Section { round, three_cornered };
+
+  void take_relax(const Entry& entry, Body& body) {
+    const double value = number(entry.value);
+    const bool fits = value >= 0 && value <= 1000 && value == std::floor(value);
+    if (!fits) return fail(entry, "relax is '" + entry.value + "', expected a whole number from 0 to 1000");
+    body.relax = static_cast<int>(value);
+  }
+
+  void take_axes(const Entry& entry, Body& body) {
+    std::istringstream stream(entry.value);
+    for (std::string word; stream >> word;) {
+      const bool is_axis = word.size() == 1 && word[0] >= 'x' && word[0] <= 'z';
+      if (!is_axis) {
+        return fail(entry, "periodic is '" + entry.value + "', expected axes: x, y, z, with blanks between");
+      }
+      body.periodic[word[0] - 'x'] = true;
+    }
+  }
+
+  void take_lattice(const Entry& entry, Body& body) {
+    const std::vector<std::string>& names = lattice_names();
+    body.lattice = entry.value;
+    if (std::find(names.begin(), names.end(), entry.value) != names.end()) return;
+    fail(entry,
+         "lattice is '" + entry.value + "', expected " + joined(names, " or ") + did_you_mean(entry.value, names));
+  }
+
+  // Whole cells along each axis; one number holds for all three.
+  void take_count(const Entry& entry, Body& body) {
+    const std::string& text = entry.value;
+    const bool is_one = text.find_first_of(" \t") == std::string::npos;
+    const Vector count = is_one ? Vector(Vector::Constant(number(text))) : vector(entry);
+    const bool fits = (count.array() >= 1).all() && (count.array() == count.array().floor()).all();
+    if (!fits) return fail(entry, "count is '" + text + "', expected one or three whole numbers of cells");
+    body.size = count * body.cell;
+  }
+
+  void check_lattice(const Body& body) {
+    for (const auto& [one, other] : {std::pair("size", "count"), {"relative_density", "thickness"}}) {
+      const Entry* entry = entries_.find(other);
+      if (entry && entries_.find(one)) fail(*entry, std::string(other) + " and " + one + " exclude each other");
+    }
+    const Entry* thickness = entries_.find("thickness");
+    if (thickness && (body.lattice == "gyroid" || body.lattice == "diamond")) {
+      fail(*thickness, "a solid on one side of a surface has no thickness; expected relative_density");
+    }
+  }
+
   void check(const Body& body, Kind kind) {
+    if (kind == lattice) check_lattice(body);
     if (const Entry* entry = entries_.find("cells"); entry != nullptr && (kind & gathered) != 0) {
       if (body.elements == Body::Elements::spheres) fail(*entry, "a body of spheres has no key 'cells'");
       if (body.cells > 0 && entries_.find("grading") != nullptr && kind == box) {

@@ -18,6 +18,7 @@ VTK_READERS = {".mhd": ("vtkIOImage", "vtkMetaImageReader"), ".mha": ("vtkIOImag
                ".vti": ("vtkIOXML", "vtkXMLImageDataReader"), ".vtk": ("vtkIOLegacy", "vtkStructuredPointsReader")}
 NRRD = (".nrrd", ".nhdr")
 TIFF = (".tif", ".tiff")
+NUMPY = (".npy",)
 TEXT = (".pts", ".txt", ".xyz", ".dat")
 SCANCO = (".aim", ".isq")
 RAW_TYPES = {"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4", "float32": "f4",
@@ -84,10 +85,12 @@ def read(path, raw=None, array=None, unit=None):
         if ending in byte_order.META_IMAGE:
             byte_order.check_meta_image(path, values)
         return checked(path, values, image.GetSpacing(), ending, unit)
+    if ending in NUMPY:
+        return Image(numpy_array(path), None, "NumPy")
     if ending in TEXT:
         solid, spacing = points.lattice(path)
         return Image(solid, spacing, "list of points")
-    known = [*NRRD, *VTK_READERS, *TIFF, *SCANCO, *TEXT]
+    known = [*NRRD, *VTK_READERS, *TIFF, *SCANCO, *NUMPY, ".stl", *TEXT]
     fail(f"{path}: '{ending}' is not a format that is known{nearest(ending, known)}; there are {' '.join(known)} "
          "(lists of points also .gz), and any file with --shape and --type")
 
@@ -96,6 +99,17 @@ def ending_of(path):
     """.pts of a.pts.gz"""
     stem, ending = os.path.splitext(path.lower())
     return os.path.splitext(stem)[1] if ending == ".gz" else ending
+
+
+def numpy_array(path):
+    """Indices are [z, y, x], as of all images here."""
+    try:
+        values = np.load(path, allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        fail(f"{path} cannot be read as NumPy's: {error}")
+    if getattr(values, "ndim", 0) != 3 or 0 in values.shape:
+        fail(f"{path} is an array of the shape {getattr(values, 'shape', ())}; expected three axes: z, y, x")
+    return values.astype(np.uint8) if values.dtype == bool else values
 
 
 def sorted_naturally(names):
