@@ -122,7 +122,7 @@ io::Mesh mesh_of_cells(const Body& body, const Struts& struts, const std::string
 io::Mesh mesh_of_members(const Body& body, Struts struts, const std::string& members, const VoxelGrid& grid,
                          std::string& summary) {
   if (body.cells > 0) return mesh_of_cells(body, struts, members, grid, summary);
-  return voxel_mesh(struts.voxels, grid, body.elements);
+  return voxel_mesh(struts.voxels, grid);
 }
 
 VoxelGrid grid_of_body(const Body& body) {

@@ -88,7 +88,7 @@ void fill_last(const std::vector<Level>& levels, std::size_t first, std::size_t 
 
 // Returns false if there are not enough voxels.
 bool grow(const std::vector<Level>& levels, const VoxelGrid& grid, std::size_t wanted, double scale, Struts& struts) {
-  Pieces pieces(grid);
+  Pieces pieces(grid, levels.size());
   const double tolerance = same * scale;
   std::size_t n = 0, first = 0;
   while (n < levels.size() && pieces.largest() < wanted) {
@@ -116,7 +116,7 @@ Struts largest_piece(std::vector<Level> levels, const VoxelGrid& grid, std::size
 
 Struts largest_piece_below(std::vector<Level> levels, const VoxelGrid& grid, double most) {
   sort(levels);
-  Pieces pieces(grid);
+  Pieces pieces(grid, levels.size());
   std::size_t n = 0;
   while (n < levels.size() && levels[n].value <= most) pieces.add(levels[n++].voxel);
   if (n == 0) throw Error("members of this thickness hold no voxel: the spacing is too large");
