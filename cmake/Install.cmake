@@ -11,7 +11,7 @@ set_target_properties(${programs} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 install(DIRECTORY tools DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
-        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/(prepare|test|packages(-[a-z]+)?)$" EXCLUDE)
+        REGEX "\\.(cpp|hpp|cmake)$|CMakeLists.txt|__pycache__|/(prepare|test|site|packages(-[a-z]+)?)$" EXCLUDE)
 install(DIRECTORY inputs DESTINATION ${STRUT_SHARE} USE_SOURCE_PERMISSIONS
         REGEX "\\.(g|e|csv|png|log|restart|restart\\.old)$" EXCLUDE)  # what runs have left
 install(DIRECTORY docs DESTINATION ${STRUT_SHARE})

@@ -110,24 +110,19 @@ std::string row(const Key& key, const std::vector<std::string>& names) {
 }
 
 std::string table(const Keys& keys) {
-  std::string rows, accepted;
+  std::string rows;
   std::set<std::string> done;
   for (const Key& key : keys) {
-    if (!key.no_effect.empty()) {
-      accepted += (accepted.empty() ? "" : "; ") + quoted(key.name) + " (" + key.no_effect + ")";
-    } else if (!done.count(key.name)) {
-      const std::vector<std::string> names = names_along_axes(key, keys);
-      done.insert(names.begin(), names.end());
-      rows += row(key, names);
-    }
+    if (done.count(key.name)) continue;
+    const std::vector<std::string> names = names_along_axes(key, keys);
+    done.insert(names.begin(), names.end());
+    rows += row(key, names);
   }
-  std::string text;
-  if (!rows.empty()) text = "\n| key | value | default | meaning |\n|---|---|---|---|\n" + rows;
-  if (!accepted.empty()) text += "\nAccepted for Peridigm's decks, without effect: " + accepted + ".\n";
-  return text;
+  return rows.empty() ? "" : "\n| key | value | default | meaning |\n|---|---|---|---|\n" + rows;
 }
 
-// The keys of a case, grouped by the cases that have the same key.
+// Keys that several cases have in common; they have a table of their own if they are this many.
+constexpr std::size_t least_shared = 4;
 struct SharedKeys {
   std::vector<std::string> cases;
   Keys keys;
@@ -135,7 +130,6 @@ struct SharedKeys {
 
 std::vector<SharedKeys> shared_keys(const std::vector<Section>& cases) {
   std::vector<SharedKeys> groups;
-  std::set<std::string> done;
   for (const Section& one : cases) {
     for (const Key& key : one.keys) {
       std::vector<std::string> owners;
@@ -149,6 +143,7 @@ std::vector<SharedKeys> shared_keys(const std::vector<Section>& cases) {
       (group == groups.end() ? groups.emplace_back(SharedKeys{owners, {}}) : *group).keys.push_back(key);
     }
   }
+  std::erase_if(groups, [](const SharedKeys& group) { return group.keys.size() < least_shared; });
   return groups;
 }
 
