@@ -22,6 +22,12 @@ inline Lanes present(const LaneGroup& group) {
   return lanes_of([&](int l) { return l < group.count ? 1.0 : 0.0; });
 }
 
+// The points' own steps as fractions of the step of a level.
+inline Lanes shares(const Body& body, const LaneGroup& group, int level) {
+  if (body.time_levels.empty()) return Lanes::Ones();
+  return lanes_of([&](int l) { return body.share(group.i[l], level); });
+}
+
 // F, R and stress of integration points by correspondence. They are read number by number: the transposition of
 // `numbers_of` takes a tenth longer here, where the numbers come from memory anyway.
 struct PointRecords {
