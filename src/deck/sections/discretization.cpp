@@ -38,8 +38,13 @@ Section grid_section() {
           .keys = std::move(keys)};
 }
 
-Grid read_grid(const Values& values) {
-  Grid grid;
+bool are_boxes(const Values& values) {
+  const auto* kind = std::get_if<std::string>(values.value("NeighborhoodType"));
+  return kind && *kind == "Box";
+}
+
+Grid read_grid(const Values& values, bool boxes) {
+  Grid grid{.boxes = boxes};
   for (int c = 0; c < 3; ++c) {
     grid.origin[c] = values[axes[c].origin];
     grid.length[c] = values[axes[c].length];
@@ -59,8 +64,10 @@ const OptionalKey<std::string> mesh_file(
 
 const Key neighborhood = {.name = "NeighborhoodType",
                           .kind = Kind::choice,
-                          .choices = {"Spherical"},
-                          .meaning = "Required for PdQuickGrid: without it, Peridigm takes boxes for neighborhoods."};
+                          .choices = {"Spherical", "Box"},
+                          .meaning =
+                              "Of PdQuickGrid, required: the points within the horizon; or, as Peridigm without "
+                              "this key, a box of cells: along each axis as many as the horizon has, rounded."};
 
 const ChoiceKey<Points> points(
     {.name = "Points",
@@ -81,8 +88,13 @@ const ChoiceKey<DegeneratePoints> degenerate(
      .fallback = "Error",
      .meaning = "What to do with points that have too few neighbors, or coplanar ones, for a deformation "
                 "gradient. `Drop` leaves them out if they, and what is cut off without them, are 1 % of all "
-                "points at most; `Drop Any` goes on with whatever is left."},
-    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
+                "points at most; `Drop Any` goes on with whatever is left. `Keep`: points of 'Elastic' without "
+                "neighbors stay, as masses "
+                "that loads and contact move (in Peridigm's decks without this key); others are an error."},
+    {{"Error", DegeneratePoints::error},
+     {"Drop", DegeneratePoints::drop},
+     {"Drop Any", DegeneratePoints::drop_any},
+     {"Keep", DegeneratePoints::keep}});
 
 const BooleanKey trial_reads(
     {.name = "Trial Reads",
@@ -103,9 +115,7 @@ void check_source(const Values& values, Problems& problems) {
   if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
   if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
   if (grid && !values.given(neighborhood)) {
-    report(
-        neighborhood.name,
-        "missing; expected 'Spherical': without it Peridigm takes boxes for neighborhoods, which are not known here");
+    report(neighborhood.name, "missing; expected 'Spherical', or 'Box' for what Peridigm takes without this key");
   }
 }
 
@@ -134,7 +144,7 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
   const auto mesh = values[mesh_file];
   return {.type = values[type],
           .mesh = mesh ? deck_file.parent_path() / *mesh : fs::path(),
-          .grid = read_grid(values.section(generator)),
+          .grid = read_grid(values.section(generator), are_boxes(values)),
           .points = values[points],
           .influence = values[influence],
           .degenerate = values[degenerate],

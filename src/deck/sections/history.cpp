@@ -17,6 +17,7 @@ const WhenKeys when("", 1000);
 const AnyKey<bool> variable(
     "E.g. `Max_Displacement`, or `Max_Displacement(foam)` for a node set or block; "
     "`Mean_Velocity_Z(foam)`, or `Mean_Velocity_Z(slices)` for each layer of the section `slices` of Profiles; "
+    "`Sum_Force_Z(foam)`, over all points of a set; "
     "`Contact_Force_Z(foam:plate)` for the force (N) of contact on the block `foam` from `plate`; "
     "`Reaction_Z(wall)` for the force (N) of the condition `wall` on the body, "
     "e.g. of prescribed motion, a symmetry plane or a rigid tool, both as means since the row before "
