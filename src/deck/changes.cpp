@@ -20,7 +20,7 @@ Texts texts_of(const std::string& deck) {
   Problems ignored;
   Texts texts;
   if (auto list = parse_xml_or_yaml(deck, ignored)) {
-    translate_peridigm(*list, ignored);
+    translate_peridigm(*list, {}, ignored);
     check(*list, schema(), "", ignored).add_texts(texts);
   }
   return texts;

@@ -97,7 +97,10 @@ void set_shape(Body& body, MaterialBlock& block, int k, const Tensor& K, Symmetr
     for (int c = 0; c < 6; ++c) inverse[c] = rounded(inverse[c], size, 44);
   }
   if (block.is_ordinary()) {
-    block.ordinary[k].weighted_volume = K.trace();
+    // A point without neighbors has no force, whatever its weight: one that can be divided by.
+    const double horizon = body.domain.horizon(block.points[k]),
+                 alone = body.domain.volume(block.points[k]) * horizon * horizon;
+    block.ordinary[k].weighted_volume = K.trace() > 0 ? K.trace() : alone;
   } else {
     point.stabilization = coefficient_of(block.material.stabilization) * modulus / (K.trace() / 3);
   }

@@ -1,4 +1,5 @@
-// Means over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)".
+// Means and sums over the points of a set, or over the layers of a profile, for the history: "Mean_X(foam)",
+// "Sum_X(foam)".
 #pragma once
 
 #include <span>
@@ -30,11 +31,12 @@ class Layers {
   int count_ = 1;
 };
 
-// A mean over each layer, weighted by reference volumes.
+// A mean over each layer, weighted by reference volumes, or the plain sum.
 class Mean {
  public:
   Mean(std::string name, PointNumber number, Layers layers)
       : name_(std::move(name)), number_(std::move(number)), layers_(std::move(layers)) {}
+  static bool is_name(const std::string& name) { return name.starts_with("Mean_") || is_sum(name); }
 
   // Names of the columns: "Mean_X(foam)", or for layers "Mean_X(slices 1)", ….
   std::vector<std::string> columns() const;
@@ -42,6 +44,8 @@ class Mean {
   std::vector<double> values(const Body& body) const;  // collective
 
  private:
+  static bool is_sum(const std::string& name) { return name.starts_with("Sum_"); }
+
   std::string name_;
   PointNumber number_;
   Layers layers_;

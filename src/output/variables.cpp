@@ -159,7 +159,7 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
     return;  // the other names need the mesh
   } else if (means(without_instant(name), "Contact", contact_names)) {
     contact_component(cloud.block_names, name);
-  } else if (name.starts_with("Mean_")) {
+  } else if (Mean::is_name(name)) {
     check_mean(all, deck.history.profiles, cloud, name, where);
   } else {
     extreme(all, cloud, communicator, name);
@@ -216,7 +216,7 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
       } else if (means(without_instant(name), "Contact", contact_names)) {
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
-      } else if (name.starts_with("Mean_")) {
+      } else if (Mean::is_name(name)) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
       } else {
         variables.extremes.push_back(extreme(all, body.domain.cloud, body.domain.communicator, name));

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <iostream>
+#include <sstream>
 
 #include "base/errors.hpp"
 #include "deck/deck.hpp"
@@ -144,6 +145,31 @@ void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator&
     say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
 }
 
+// A run of explicit steps.
+bool step(const deck::Deck& deck, std::optional<Scene>& parts, std::optional<OutputWriters>& writers, Start start,
+          Clock::time_point began, const EarlyEnd& early_end) {
+  Scene& scene = *parts;
+  Balance balance(deck);
+  std::optional<CentralDifference> solver;
+  solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
+                 deck.solver.initial_time, std::move(scene.fracture));
+  if (writers->history.has_reactions()) solver->gather_reactions(static_cast<int>(deck.conditions.size()));
+  const ExplicitRun whole{deck, parts, solver, writers};
+  return carry_out(deck, scene, *writers, *solver, balance, start, began, early_end,
+                   [&](const RunServices& services) { return step_through(services, whole, balance); });
+}
+
+// Makes the writers of the next solver, which append to the files of the last one.
+void hand_over(const deck::Deck& next, double time, const Scene& scene, std::optional<OutputWriters>& writers) {
+  Snapshot kept;
+  Archive saved = Archive::saving_to(kept);
+  writers->serialize(saved, time);
+  writers.reset();
+  writers.emplace(next, output_variables_of(next, scene.body, scene.contact));
+  Archive restored = Archive::loading_from(kept);
+  writers->serialize(restored, time);
+}
+
 }  // namespace
 
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
@@ -166,21 +192,20 @@ bool run(const std::filesystem::path& deck_file, const Communicator& communicato
   std::optional<OutputWriters> writers;
   writers.emplace(deck,
                   output_variables_of(deck, scene.body, scene.contact));  // checks all names before a file is replaced
+  if (!scene.quasi_static) return step(deck, parts, writers, start, began, early_end);
   Balance balance(deck);
-  if (scene.quasi_static) {
-    QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                       deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end),
-                       std::move(scene.fracture));
-    return carry_out(deck, scene, *writers, solver, balance, start, began, early_end,
-                     [&](const RunServices& services) { return load_through(services, solver); });
-  }
-  std::optional<CentralDifference> solver;
-  solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                 deck.solver.initial_time, std::move(scene.fracture));
-  if (writers->history.has_reactions()) solver->gather_reactions(static_cast<int>(deck.conditions.size()));
-  const ExplicitRun whole{deck, parts, solver, writers};
-  return carry_out(deck, scene, *writers, *solver, balance, start, began, early_end,
-                   [&](const RunServices& services) { return step_through(services, whole, balance); });
+  QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
+                     deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end),
+                     std::move(scene.fracture));
+  const bool over = carry_out(deck, scene, *writers, solver, balance, start, began, early_end,
+                              [&](const RunServices& services) { return load_through(services, solver); });
+  if (!over || !deck.next_solver) return over;
+  const deck::Deck next = set_up_next(deck, solver.take_contact(), scene);
+  std::ostringstream from;
+  from << "\nSolver 2: explicit steps from t = " << next.solver.initial_time << " s\n" << scene.warnings;
+  say(communicator, from.str());
+  hand_over(next, solver.time(), scene, writers);
+  return step(next, parts, writers, start, began, early_end);
 }
 
 }  // namespace strut

@@ -28,6 +28,10 @@ ConditionPrototype read_initial_velocity(const Values& values, Problems&) {
   return InitialVelocity{.components = values[components], .value = values[value]};
 }
 
+ConditionPrototype read_initial_displacement(const Values& values, Problems&) {
+  return InitialDisplacement{.components = values[components], .value = values[value]};
+}
+
 template <bool is_velocity>
 ConditionPrototype read_prescribed_motion(const Values& values, Problems&) {
   return PrescribedMotion{.components = values[components], .value = values[value], .is_velocity = is_velocity};
@@ -59,6 +63,11 @@ struct ConditionEntry {
 const std::vector<ConditionEntry>& entries() {
   static const std::vector<ConditionEntry> all = {
       {along_axes("Initial Velocity", "m/s", "Velocity at the initial time."), read_initial_velocity},
+      {along_axes(
+           "Initial Displacement", "m",
+           "Displacement at the initial time where nothing holds the points, which begin strained. Only in bodies "
+           "of 'Elastic', whose forces follow from positions alone."),
+       read_initial_displacement},
       {along_axes("Prescribed Displacement", "m", "Displacement at every time; 0 at the initial time with Verlet."),
        read_prescribed_motion<false>},
       {along_axes("Prescribed Velocity", "m/s", "Velocity at every time."), read_prescribed_motion<true>},
@@ -86,8 +95,7 @@ Section conditions_section() {
   const std::string no_temperature = "no heat flows here";
   Key type = {.name = "Type",
               .meaning = "Kind.",
-              .hints = {{"Initial Displacement", "bodies start undeformed"},
-                        {"Prescribed Temperature", no_temperature},
+              .hints = {{"Prescribed Temperature", no_temperature},
                         {"Initial Temperature", "write it as Blocks > Initial Temperature"},
                         {"Thermal Flux", no_temperature}}};
   Section one = {.name = any_name, .meaning = "One condition.", .keys = {node_set}};

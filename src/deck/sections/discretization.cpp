@@ -38,8 +38,13 @@ Section grid_section() {
           .keys = std::move(keys)};
 }
 
-Grid read_grid(const Values& values) {
-  Grid grid;
+bool are_boxes(const Values& values) {
+  const auto* kind = std::get_if<std::string>(values.value("NeighborhoodType"));
+  return kind && *kind == "Box";
+}
+
+Grid read_grid(const Values& values, bool boxes) {
+  Grid grid{.boxes = boxes};
   for (int c = 0; c < 3; ++c) {
     grid.origin[c] = values[axes[c].origin];
     grid.length[c] = values[axes[c].length];
@@ -57,8 +62,12 @@ const ChoiceKey<MeshType> type(
 const OptionalKey<std::string> mesh_file(
     {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required except for PdQuickGrid."});
 
-const Key neighborhood = {
-    .name = "NeighborhoodType", .kind = Kind::choice, .choices = {"Spherical"}, .meaning = "Required for PdQuickGrid."};
+const Key neighborhood = {.name = "NeighborhoodType",
+                          .kind = Kind::choice,
+                          .choices = {"Spherical", "Box"},
+                          .meaning =
+                              "Required for PdQuickGrid: points within the horizon; or, as in Peridigm without "
+                              "this key, a box of cells, along each axis as many as the horizon has, rounded."};
 
 const ChoiceKey<Points> points(
     {.name = "Points",
@@ -77,8 +86,13 @@ const ChoiceKey<DegeneratePoints> degenerate(
     {.name = "Degenerate Points",
      .fallback = "Error",
      .meaning = "Treatment of points whose neighbors are too few, or coplanar, for a deformation gradient. `Drop` "
-                "removes them, and pieces that they alone connect, up to 1 % of all points; `Drop Any` has no limit."},
-    {{"Error", DegeneratePoints::error}, {"Drop", DegeneratePoints::drop}, {"Drop Any", DegeneratePoints::drop_any}});
+                "removes them, and pieces that they alone connect, up to 1 % of all points; `Drop Any` has no limit. "
+                "`Keep` leaves points of 'Elastic' without neighbors as masses that loads and contact move (in "
+                "Peridigm's decks without this key); others are an error."},
+    {{"Error", DegeneratePoints::error},
+     {"Drop", DegeneratePoints::drop},
+     {"Drop Any", DegeneratePoints::drop_any},
+     {"Keep", DegeneratePoints::keep}});
 
 // Checks the keys that each type of discretization needs, and those that it cannot have.
 void check_source(const Values& values, Problems& problems) {
@@ -93,9 +107,7 @@ void check_source(const Values& values, Problems& problems) {
   if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
   if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
   if (grid && !values.given(neighborhood)) {
-    report(
-        neighborhood.name,
-        "missing; expected 'Spherical': without it Peridigm takes boxes for neighborhoods, which are not known here");
+    report(neighborhood.name, "missing; expected 'Spherical', or 'Box' for what Peridigm takes without this key");
   }
 }
 
@@ -125,7 +137,7 @@ Discretization read_discretization(const Values& deck, const fs::path& deck_file
   const auto mesh = values[mesh_file];
   return {.type = values[type],
           .mesh = mesh ? deck_file.parent_path() / *mesh : fs::path(),
-          .grid = read_grid(values.section(generator)),
+          .grid = read_grid(values.section(generator), are_boxes(values)),
           .points = values[points],
           .influence = values[influence],
           .degenerate = values[degenerate],

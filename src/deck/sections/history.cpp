@@ -15,7 +15,8 @@ const TextKey file({.name = "Filename", .meaning = "Relative to the working fold
 const WhenKeys when("", 1000);
 
 const AnyKey<bool> variable(
-    "E.g. `Max_Displacement(foam)`, `Mean_Velocity_Z(slices)`, `Contact_Force_Z(foam:plate)`, `Reaction_Z(wall)`, "
+    "E.g. `Max_Displacement(foam)`, `Sum_Force_Z(foam)`, `Mean_Velocity_Z(slices)`, `Contact_Force_Z(foam:plate)`, "
+    "`Reaction_Z(wall)`, "
     "`Crack_Tip(notch)`: see inputs/VARIABLES.md.");
 const Section variables = {.name = "Variables", .meaning = "Columns.", .any_key = variable};
 

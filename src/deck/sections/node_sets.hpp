@@ -7,15 +7,18 @@
 #include <vector>
 
 #include "base/math/function.hpp"
+#include "base/math/tensors.hpp"
 #include "deck/forward.hpp"
 
 namespace strut::deck {
 
-// A node set of the deck: the points whose reference position makes `where` nonzero, or those with these numbers.
+// A node set of the deck: the points whose reference position makes `where` nonzero, or those with these numbers, or
+// the one that is nearest to a place.
 struct NodeSet {
   std::string name;
   Function where;
   std::optional<std::vector<int>> numbers = {};  // of elements or points, from 1, ascending, each once
+  std::optional<Vector> nearest = {};            // m
   std::filesystem::path file = {};               // file that they were read from, if any
 };
 

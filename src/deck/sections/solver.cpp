@@ -9,6 +9,7 @@ namespace strut::deck {
 namespace {
 
 const char* const name = "Solver";
+const char* const next_name = "Solver 2";
 const char* const own_solver = "equilibria are found in another way";
 
 const ChoiceKey<bool> with_tangent(
@@ -110,6 +111,11 @@ const OptionalKey<double> wall_time(
      .meaning = "After this time, set-up included, the run ends with a checkpoint, a last frame and the exit status 3. "
                 "Choose the limit of the job less the time of a step, a frame and a checkpoint."});
 
+const BooleanKey keeps_velocities(
+    {.name = "Keep Velocities",
+     .fallback = "false",
+     .meaning = "true: points begin with the velocities of the last load step, as in Peridigm; else at rest."});
+
 void check_times(const Values& values, Problems& problems) {
   if (!values.has(initial_time) || !values.has(final_time)) return;
   const double begin = values[initial_time], end = values[final_time];
@@ -131,8 +137,9 @@ Section solver_section() {
           .hints = {{"Implicit", "unknown section; there are 'Verlet', and 'QuasiStatic' for loads without inertia"}}};
 }
 
-Solver read_solver(const Values& deck, Problems& problems) {
-  const Values& values = deck.section(name);
+namespace {
+
+Solver read_one(const Values& values, Problems& problems) {
   const Values& steps = values.section(verlet.name);
   Solver solver{.initial_time = values[initial_time],
                 .final_time = values[final_time],
@@ -154,6 +161,46 @@ Solver read_solver(const Values& deck, Problems& problems) {
   check_one_of(steps, fixed_dt, scaled_dt, problems);
   check_times(values, problems);
   return solver;
+}
+
+}  // namespace
+
+Section next_solver_section() {
+  Section section = solver_section();
+  section.name = next_name;
+  section.required = false;
+  section.meaning =
+      "Explicit steps that go on where the equilibria of Solver end: a body that is loaded slowly, then struck. "
+      "Conditions act in both, but for those that need inertia (initial velocities, tools with a mass, non-reflecting "
+      "ends), which begin here; so do bonds to break.";
+  section.keys.push_back(keeps_velocities);
+  return section;
+}
+
+Solver read_solver(const Values& deck, Problems& problems) { return read_one(deck.section(name), problems); }
+
+std::optional<Solver> read_next_solver(const Values& deck, const Solver& first, Problems& problems) {
+  if (!deck.has_section(next_name)) return std::nullopt;
+  const Values& values = deck.section(next_name);
+  Solver next = read_one(values, problems);
+  next.keeps_velocities = values[keeps_velocities];
+  if (!values.given(initial_time)) next.initial_time = first.final_time;
+  if (!first.quasi_static || next.quasi_static) {
+    problems.add(next_name,
+                 "expected explicit steps (Verlet) after equilibria (Solver > QuasiStatic): no other solvers "
+                 "follow each other in one deck");
+  }
+  if (next.initial_time != first.final_time) {
+    problems.add(values.path_to(initial_time), "'" + to_text(next.initial_time) +
+                                                   "'; expected the Final Time of Solver (" +
+                                                   to_text(first.final_time) + "), in s, or no such key");
+  }
+  if (next.scaled_dt) {
+    problems.add(values.section(verlet.name).path_to(scaled_dt),
+                 "given; expected none: masses are scaled from the start "
+                 "or not at all");
+  }
+  return next;
 }
 
 }  // namespace strut::deck

@@ -62,6 +62,7 @@ class Equilibrium {
   const Constraints& constraints() const { return *constraints_; }
   Vector start(int i) const { return committed_.place(i); }
   const contact::Contact& contact() const { return contact_; }
+  contact::Contact take_contact() { return std::move(contact_); }
   const Conditions& conditions() const { return conditions_; }
   // For the last trial: work of loads and of holding conditions over the step, by the mean of the forces at its ends, J
   // on this rank.
