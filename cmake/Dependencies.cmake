@@ -3,6 +3,18 @@
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(OpenMP COMPONENTS CXX)  # without it ranks have one thread
 find_package(Eigen3 REQUIRED NO_MODULE)
+# The module is for the Python of the tools, whose first lines name it, unless another one is named.
+if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3)
+endif()
+find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
+if(Python3_FOUND)
+  find_package(pybind11 QUIET CONFIG)
+endif()
+if(NOT pybind11_FOUND)
+  set(pybind11_FOUND OFF)
+  message(STATUS "without the module for Python: its headers or pybind11 are not there")
+endif()
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
 endif()

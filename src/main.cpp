@@ -53,26 +53,14 @@ int say(const strut::Communicator& world, const std::string& text) {
   return 0;
 }
 
-// A launcher of another MPI starts each process as a run of one rank, and all would do the same work.
-bool started_as_ranks(const strut::Launch& launch, const strut::Communicator& world) {
-  return launch.processes <= 1 || world.size() > 1;
-}
-
-// The first process prints the error, and its status is the job's: if another failed, the job might be killed before.
-int refuse(const strut::Launch& launch) {
-  if (launch.number != 0) return 0;
-  std::cerr << "strut: one of " << launch.processes << " processes (" << launch.variable
-            << "), but each is a run of one rank: expected the mpirun of " << strut::mpi_library()
-            << ", with which strut was built, or srun with an --mpi that it knows ('srun --mpi=list'). "
-               "Where these are meant to be runs of their own: 'env -u "
-            << launch.variable << " strut'\n";
-  return 1;
-}
-
 int run(const std::string& deck, const strut::Communicator& world, strut::Start start) {
   const strut::Launch launch = strut::launch_of_process();
-  if (!started_as_ranks(launch, world)) return refuse(launch);
-  return strut::run(deck, world, start) ? 0 : 3;
+  const std::string problem = strut::wrong_launcher(launch, world.size(), "strut");
+  if (problem.empty()) return strut::run(deck, world, start) ? 0 : 3;
+  // The first process prints the error, and its status is the job's: if another failed, the job might be killed before.
+  if (launch.number != 0) return 0;
+  std::cerr << "strut: " << problem << "\n";
+  return 1;
 }
 
 std::optional<int> number_of_threads(const std::string& word) {

@@ -36,18 +36,9 @@ strut::io::Mesh from_recipe(const std::string& recipe, const std::string& output
   const std::vector<strut::mesh::Body> bodies = strut::mesh::read_recipe(recipe);
   for (const strut::mesh::Body& body : bodies) check_output(output, body.file, "a mesh that the recipe reads");
   check_replaceable(output);
-  strut::io::Mesh mesh;
   std::string summary;
-  for (const strut::mesh::Body& body : bodies) {
-    strut::mesh::append(mesh, strut::mesh::mesh_of(body, summary));
-    std::fputs(summary.c_str(), stdout);
-  }
-  if (bodies.size() == 1 &&
-      bodies[0].shape !=
-          strut::mesh::Body::Shape::file) {  // plain names, if they are unambiguous; sets begin with zmin and zmax
-    mesh.node_sets.push_back({"foot", mesh.node_sets[0].nodes});
-    mesh.node_sets.push_back({"top", mesh.node_sets[1].nodes});
-  }
+  strut::io::Mesh mesh = strut::mesh::mesh_of(bodies, summary);
+  std::fputs(summary.c_str(), stdout);
   return mesh;
 }
 

@@ -41,6 +41,10 @@ Teuchos::Time& phase(const std::string& name) {
   return phases().emplace_back(name);
 }
 
+void reset_phases() {
+  for (Teuchos::Time& timer : phases()) timer.reset();
+}
+
 namespace {
 
 Teuchos::Time* running = nullptr;

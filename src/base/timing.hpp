@@ -16,6 +16,8 @@ class Communicator;
 // The timer of a phase, created by the first call with its name. Keep the reference: the look-up is by string.
 Teuchos::Time& phase(const std::string& name);
 
+void reset_phases();  // to 0 s, for a process that makes several runs
+
 // Times a phase from here to the end of the scope. Time in a nested phase counts only there, so that all phases add up
 // to the total.
 class Timed {

@@ -42,6 +42,7 @@ Deck build(const Values& values, const fs::path& file, Problems& problems) {
   if (steps_follow) whole.final_time = deck.next_solver->final_time;
   deck.output = read_output(values, whole, problems);
   deck.history = read_history(values, whole, problems);
+  add_probes(values, deck.node_sets);
   deck.restart = read_restart(values, file, problems);
   if (steps_follow && deck.restart.enabled) {
     problems.add("Restart", "beside 'Solver 2'; expected none: a run of two solvers writes no checkpoints");
@@ -55,7 +56,8 @@ std::vector<WrittenFile> written_files(const Deck& deck) {
   if (deck.output.enabled) {
     written.push_back({"Output > Output Filename", "Output", deck.output.file, FileKind::result});
   }
-  if (deck.history.enabled) written.push_back({"History > Filename", "History", deck.history.file, FileKind::history});
+  if (deck.history.has_file())
+    written.push_back({"History > Filename", "History", deck.history.file, FileKind::history});
   if (!deck.restart.enabled) return written;
   const fs::path& checkpoint = deck.restart.file;
   for (const auto& [file, kind] : {std::pair(checkpoint, FileKind::unchecked),
@@ -97,6 +99,17 @@ void refuse_other_programs(List& deck, const fs::path& file, Problems& problems)
     return;
   }
   problems.raise(file.string());
+}
+
+// What only a program that runs strut can do without: it hands over a mesh, and takes the rows of the history.
+void check_runs_alone(const Deck& deck, Problems& problems) {
+  if (deck.discretization.type == MeshType::memory) {
+    problems.add(
+        "Discretization > Type",
+        "'Memory' is the mesh of a script in Python, and there is none; expected Exodus, Text File or PdQuickGrid");
+  }
+  if (deck.history.enabled && !deck.history.has_file() && !problems.about("History > Filename"))
+    problems.add("History > Filename", "missing; expected a text (type string)");
 }
 
 enum class FileCheck { no, yes };
@@ -142,13 +155,9 @@ std::string contents(const fs::path& file) {
 
 }  // namespace
 
-Deck read(const fs::path& file, const Communicator& communicator, Problems& problems) {
-  std::string text;
+Deck read_text(std::string text, const fs::path& file, const Communicator& communicator, Problems& problems) {
   Deck deck;
-  run_on_root(communicator, [&] {
-    text = contents(file);
-    deck = parse(text, file, FileCheck::yes, problems);
-  });
+  run_on_root(communicator, [&] { deck = parse(text, file, FileCheck::yes, problems); });
   communicator.broadcast(text);
   if (communicator.rank() != 0) deck = parse(text, file, FileCheck::no, problems);
   load_libraries_of_ranks(deck, communicator);
@@ -156,6 +165,14 @@ Deck read(const fs::path& file, const Communicator& communicator, Problems& prob
   for (NodeSet& set : deck.node_sets) {
     if (!set.file.empty()) communicator.broadcast(*set.numbers);
   }
+  return deck;
+}
+
+Deck read(const fs::path& file, const Communicator& communicator, Problems& problems) {
+  std::string text;
+  run_on_root(communicator, [&] { text = contents(file); });
+  Deck deck = read_text(std::move(text), file, communicator, problems);
+  check_runs_alone(deck, problems);
   return deck;
 }
 

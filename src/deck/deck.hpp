@@ -56,6 +56,10 @@ Deck read(const std::filesystem::path& file, const Communicator& communicator);
 // false. Throws if the file is no deck at all.
 Deck read(const std::filesystem::path& file, const Communicator& communicator, Problems& problems);
 
+// The same for a text, of rank 0, as if it stood in `file`; its mesh may be one in memory, and its history without a file.
+Deck read_text(std::string text, const std::filesystem::path& file, const Communicator& communicator,
+               Problems& problems);
+
 // The reference page of all keys (Markdown), generated from the schema.
 std::string reference_page();
 

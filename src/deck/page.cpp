@@ -217,7 +217,9 @@ std::string expressions() {
          joined(functions_in_expressions()) +
          ".\n`pow` and `atan2` take two arguments, `gamma` is Γ, `j0 j1 i0 i1` are Bessel's. There is no `abs` (it is "
          "`fabs`),\n"
-         "`min`, `max` or `?:`. Instead of an expression there may be statements that assign to `value`:\n"
+         "`min`, `max` or `?:`. `table(t, 0, 0, 1e-3, 5)` has values at rising places, 0 at 0 and 5 at 1e-3, linear "
+         "between "
+         "them and constant beyond. Instead of an expression there may be statements that assign to `value`:\n"
          "`value = 0; if (t &lt; 1e-4) { value = 5*sin(x); }`. They know `if`, `else`, and variables of their own "
          "(`double r = "
          "x*x;`), but no loops.\nA sign and a power need brackets, `-(x^2)` or `(-x)^2`. At most 10,000 characters. In "

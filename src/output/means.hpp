@@ -38,6 +38,11 @@ class Mean {
       : name_(std::move(name)), number_(std::move(number)), layers_(std::move(layers)) {}
   static bool is_name(const std::string& name) { return name.starts_with("Mean_") || is_sum(name); }
 
+  // The same under another name: of a single layer.
+  Mean named(std::string name) && {
+    name_ = std::move(name);
+    return std::move(*this);
+  }
   // Names of the columns: "Mean_X(foam)", or for layers "Mean_X(slices 1)", ….
   std::vector<std::string> columns() const;
   std::string unit() const { return unit_of(number_.observable); }

@@ -125,6 +125,18 @@ ContactComponent contact_force(const contact::Contact& contact, const std::vecto
               ": these blocks cannot touch; expected an interaction of both in Contact > Interactions");
 }
 
+// "Displacement_Z(tip)" of a probe: the mean over its one point, "Mean_Displacement_Z(tip)". "" for other names.
+std::string mean_of_probe(const std::vector<deck::NodeSet>& sets, const std::string& name) {
+  const auto is_meant = [&](const deck::NodeSet& probe) {
+    return probe.nearest && name.ends_with("(" + probe.name + ")");
+  };
+  if (std::none_of(sets.begin(), sets.end(), is_meant)) return "";
+  for (const char* const prefix : {"Mean_", "Max_", "Min_"}) {
+    if (name.starts_with(prefix)) return "";
+  }
+  return "Mean_" + name;
+}
+
 // Collective: an unknown name throws on all ranks before points are counted.
 Extreme extreme(const std::vector<Observable>& all, const PointCloud& cloud, const Communicator& communicator,
                 const std::string& name) {
@@ -159,6 +171,8 @@ void look_up(const deck::Deck& deck, const std::vector<Observable>& all, const P
     return;  // the other names need the mesh
   } else if (means(without_instant(name), "Contact", contact_names)) {
     contact_component(cloud.block_names, name);
+  } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
+    check_mean(all, deck.history.profiles, cloud, mean, where);
   } else if (Mean::is_name(name)) {
     check_mean(all, deck.history.profiles, cloud, name, where);
   } else {
@@ -216,6 +230,8 @@ OutputVariables output_variables_of(const deck::Deck& deck, const Body& body, co
         variables.crack_columns.push_back(crack_column(deck.history.cracks, body, name, variables.cracks));
       } else if (means(without_instant(name), "Contact", contact_names)) {
         variables.contacts.push_back(contact_force(contact, body.domain.cloud.block_names, name));
+      } else if (const std::string mean = mean_of_probe(deck.node_sets, name); !mean.empty()) {
+        variables.means.push_back(mean_of(all, deck.history.profiles, body, mean, where).named(name));
       } else if (Mean::is_name(name)) {
         variables.means.push_back(mean_of(all, deck.history.profiles, body, name, where));
       } else {

@@ -79,7 +79,8 @@ void History::open(const Body& body) {
     for (std::string& name : mean.columns()) columns.push_back({std::move(name), mean.unit()});
   }
   for (const ContactComponent& contact : contacts_) columns.push_back({contact.name, unit(contact.is_instant)});
-  file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
+  if (rows_) rows_->columns = columns;
+  if (!path_.empty()) file_.emplace(path_, body.domain.communicator, columns, before_, sum_);
 }
 
 // Contact forces on this rank, N; one per column.
@@ -148,7 +149,8 @@ void History::write(const Ledger& now, const Reactions& reactions, const contact
     for (const double value : mean.values(body)) row.push_back(value);
   }
   row.insert(row.end(), of_contacts, forces.end());
-  file_->write(row);
+  if (rows_) rows_->values.insert(rows_->values.end(), row.begin(), row.end());
+  if (file_) file_->write(row);
   schedule.done(now.time);
   last_ = now.time;
 }

@@ -44,11 +44,20 @@ class FieldWriter {
   std::optional<io::ExodusWriter> writer_;
 };
 
+// Rows of a history that are kept in memory, the same on all ranks.
+struct HistoryRows {
+  std::vector<io::HistoryColumn> columns;
+  std::vector<double> values;  // row by row
+};
+
 // Writes the table of the ledger, extremes, means, reactions, contact forces and cracks over time.
 class History {
  public:
   History(const deck::Deck& deck, const OutputVariables& variables);
 
+  // From now on rows are also kept there, which must outlive this; before open().
+  void keep_rows(HistoryRows* rows) { rows_ = rows; }
+  HistoryRows* kept_rows() const { return rows_; }
   void open(const Body& body);  // as FieldWriter::open
   // Call it at each time of explicit steps, before write() there.
   void gather(const StepImpulses& impulses, const contact::Contact& contact, const Domain& domain);
@@ -80,6 +89,7 @@ class History {
   std::int64_t before_ = 0;     // bytes before the restart
   double sum_ = 0;              // their checksum
   std::optional<io::HistoryFile> file_;
+  HistoryRows* rows_ = nullptr;
 };
 
 // Collective. True if the result named in the deck is that of a completed run.

@@ -26,7 +26,7 @@ void check_files(const deck::Deck& deck, deck::Problems& problems) {
     }
   };
   if (deck.output.enabled) attempt("Output > Output Filename", [&] { io::check_not_held(deck.output.file); });
-  if (deck.history.enabled) attempt("History > Filename", [&] { io::check_not_held(deck.history.file); });
+  if (deck.history.has_file()) attempt("History > Filename", [&] { io::check_not_held(deck.history.file); });
   if (!deck.restart.enabled) return;
   attempt("Restart > Filename", [&] { io::check_not_held(lock_of(deck.restart.file)); });
   if (std::filesystem::exists(before_of(deck.restart.file))) return;  // a damaged checkpoint does not prevent resuming
@@ -53,10 +53,11 @@ void check_resumption(const deck::Deck& deck, bool is_there, bool begins_anew, d
   problems.add(key, text.str());
 }
 
-PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator) {
+PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator,
+                        const io::Mesh* in_memory) {
   if (communicator.rank() == 0) check_files(deck, problems);
   for (const std::string& line : broadcast_names(problems.lines(), communicator)) problems.add(line);
-  PointCloud cloud = mesh_of(deck, communicator, problems);
+  PointCloud cloud = mesh_of(deck, communicator, problems, in_memory);
   check_output_variables(deck, cloud, communicator, problems);
   raise_together(communicator, problems.text(deck.file.string()));
   return cloud;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "deck/deck.hpp"
+#include "io/exodus/exodus.hpp"
 #include "topology/cloud.hpp"
 
 namespace strut {
@@ -12,7 +13,9 @@ class Communicator;
 
 // Collective. The mesh of a deck that has been read. Throws one Error on all ranks for all problems: those that the
 // deck has already, those of the mesh, of the names of output variables, and of files that cannot be replaced.
-PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator);
+// `in_memory`: the mesh of a deck of Type Memory, on rank 0.
+PointCloud checked_mesh(const deck::Deck& deck, deck::Problems problems, const Communicator& communicator,
+                        const io::Mesh* in_memory = nullptr);
 
 // A deck that asks to resume (Peridigm's Restart) must not start anew without a message if there is a checkpoint,
 // which it would replace, or if there is none although it describes a later part of a run. `is_there`: the

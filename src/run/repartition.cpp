@@ -29,11 +29,13 @@ Snapshot saved(const ExplicitRun& run, double time) {
 void make_anew(const ExplicitRun& run, const std::vector<int>& ranks) {
   const Communicator communicator = run.scene->body.domain.communicator;
   MigrationState kept = migration_state_of(*run.scene, moved(whole_cloud(run.scene->body.domain), ranks, communicator));
+  HistoryRows* const rows = run.writers->history.kept_rows();
   run.writers.reset();
   run.solver.reset();
   run.scene.reset();
   Scene& scene = run.scene.emplace(set_up_again(run.deck, std::move(kept), communicator));
   run.writers.emplace(run.deck, output_variables_of(run.deck, scene.body, scene.contact));
+  run.writers->history.keep_rows(rows);
   run.solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
                      CentralDifference::ToBeRestored(), std::move(scene.fracture));
   if (run.writers->history.has_reactions()) {

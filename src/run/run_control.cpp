@@ -14,21 +14,24 @@ std::atomic<int> signalled = 0;  // any thread may call the handler
 
 void catch_signals(std::initializer_list<int> signals) {
   for (const int signal : signals) {
-    const auto before = std::signal(signal, [](int) { signalled = 1; });
+    const auto before = std::signal(signal, [](int number) { signalled = number; });
     if (signal == SIGHUP && before == SIG_IGN) std::signal(signal, SIG_IGN);  // ignored by nohup
   }
 }
 
 bool is_signalled() { return signalled != 0; }
 
+int caught_signal() { return signalled; }
+
 void forget_signals() { signalled = 0; }
 
 bool EarlyEnd::wanted() const {
   const auto passed = [this] { return std::chrono::duration<double>(Clock::now() - began_).count(); };
-  return is_signalled() || (wall_time_ && passed() > *wall_time_);
+  return asked_ || is_signalled() || (wall_time_ && passed() > *wall_time_);
 }
 
 std::string EarlyEnd::reason(const Communicator& communicator) const {
+  if (asked_) return "ended as it was asked to";
   return communicator.max(is_signalled() ? 1.0 : 0.0) > 0 ? "ended by a signal" : "ended by its Wall Time";
 }
 

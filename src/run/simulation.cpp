@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "base/timing.hpp"
 #include "deck/deck.hpp"
 #include "output/variables.hpp"
 #include "run/balance.hpp"
@@ -37,101 +38,11 @@ void leave_frame(OutputWriters& writers, double time, const Body& body) {
   quietly([&] { writers.frames.write(time, body); });
 }
 
-// The time loop: everything after set-up. Returns the final ledger.
-Ledger step_through(const RunServices& services, const ExplicitRun& run, Balance& balance) {
-  if (const auto ranks = balance.take_restored_ranks()) repartition(run, *ranks);
-  CentralDifference& solver = *run.solver;  // stays at this address
-  say(services.scene.body.domain.communicator, critical_time_step_line(solver.critical_time_step()));
-  ExplicitRunControl control(services, solver);
-  for (;;) {
-    control.save(solver);
-    if (!control.ends_here(solver) && !solver.went_on()) {  // the monitor must first report the point
-      if (const auto ranks = balance.better_ranks(*run.scene, solver)) repartition(run, *ranks);
-    }
-    solver.advance_velocity(services.deck.solver.final_time);
-    if (control.observe(solver)) break;
-    const bool with_diagnostics = control.prepare_next(solver);
-    solver.advance_position(with_diagnostics);
-  }
-  control.finish();
-  return solver.ledger();
-}
-
-// The loop over load steps. Returns the final ledger.
-Ledger load_through(const RunServices& services, QuasiStatic& solver) {
-  const auto& [deck, scene, writers, checkpoint, monitor, early_end] = services;
-  const int conditions = writers.history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
-  const Communicator& ranks = scene.body.domain.communicator;
-  const auto record = [&](bool last) {
-    return writers.write(
-        scene.body, solver, [&] { return solver.reactions(conditions); }, last);
-  };
-  bool ending = false, save = false;
-  for (;;) {
-    const bool over = solver.time() >= deck.solver.final_time, last = ending || over;
-    if (over) save = checkpoint.due_at_the_end();
-    if (save || checkpoint.due(solver.steps(), solver.time())) checkpoint.write(solver.steps(), solver.time());
-    const auto ledger = record(last);
-    monitor.check_energy(ledger ? *ledger : solver.ledger(), last);
-    monitor.check_failed(solver.time());
-    monitor.check_interpenetration(solver.time(), solver.contact());
-    monitor.check_undeclared(solver.time(), solver.contact());
-    monitor.check_tools(solver.time(), solver.conditions(), scene.tools);
-    if (last) return solver.ledger();
-    try {
-      ending = !solver.advance();
-    } catch (const Error&) {
-      quietly([&] { record(true); });
-      throw;
-    }
-    ending = ranks.max(ending || early_end.wanted() ? 1.0 : 0.0) > 0;
-    save = ending || ranks.max(checkpoint.due_by_the_clock() ? 1.0 : 0.0) > 0;
-  }
-}
-
 Observer observer(const deck::Deck& deck, const Communicator& communicator, const EarlyEnd& early_end) {
   const auto tell = [&communicator](const std::string& line) { say(communicator, line + "\n"); };
   Observer observer{tell, {}, [&early_end] { return early_end.wanted(); }};
   if (deck.solver.verbose) observer.iterations = tell;
   return observer;
-}
-
-// A run from set-up to the end, with a solver of either kind.
-template <class Solver, class Through>
-bool carry_out(const deck::Deck& deck, Scene& scene, OutputWriters& writers, Solver& solver, Balance& balance,
-               Start start, Clock::time_point began, const EarlyEnd& early_end, const Through& through) {
-  const Communicator communicator = scene.body.domain.communicator;
-  Monitor monitor(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene.body, tell);
-  Checkpoint checkpoint(deck, communicator, [&](Archive& archive) {
-    solver.serialize(archive);
-    monitor.serialize(archive);
-    balance.serialize(archive, scene.body);
-    writers.serialize(archive, solver.time());
-  });
-  if (start == Start::continued && checkpoint_exists(deck, communicator)) {
-    checkpoint.load();
-  } else {
-    checkpoint.remove();
-  }
-  writers.open(scene.body);
-  const int before = solver.steps();
-  catch_signals({SIGINT, SIGTERM, SIGHUP});
-  const Ledger ledger = [&] {
-    try {
-      return through(RunServices{deck, scene, writers, checkpoint, monitor, early_end});
-    } catch (const LostState& error) {
-      throw Error(error.what() + checkpoint.hint());
-    } catch (const Error& error) {
-      leave_frame(writers, solver.time(), scene.body);
-      throw Error(error.what() + checkpoint.hint());
-    }
-  }();
-  const bool over = solver.time() >= deck.solver.final_time;
-  if (over) checkpoint.close();
-  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  say(communicator, closing_report(scene, solver, ledger, seconds, before));
-  if (!over) say(communicator, early_end.reason(communicator) + checkpoint.hint() + "\n");
-  return over;
 }
 
 // Checks, before the mesh is read, whether the run can resume from a checkpoint or start without it.
@@ -145,67 +56,282 @@ void look_at_checkpoint(const deck::Deck& deck, Start start, const Communicator&
     say(communicator, "there is no checkpoint " + deck.restart.file.string() + ": the run begins anew\n");
 }
 
-// A run of explicit steps.
-bool step(const deck::Deck& deck, std::optional<Scene>& parts, std::optional<OutputWriters>& writers, Start start,
-          Clock::time_point began, const EarlyEnd& early_end) {
-  Scene& scene = *parts;
-  Balance balance(deck);
-  std::optional<CentralDifference> solver;
-  solver.emplace(scene.body, std::move(scene.conditions), std::move(scene.contact), scene.control,
-                 deck.solver.initial_time, std::move(scene.fracture));
-  if (writers->history.has_reactions()) solver->gather_reactions(static_cast<int>(deck.conditions.size()));
-  const ExplicitRun whole{deck, parts, solver, writers};
-  return carry_out(deck, scene, *writers, *solver, balance, start, began, early_end,
-                   [&](const RunServices& services) { return step_through(services, whole, balance); });
-}
-
-// Makes the writers of the next solver, which append to the files of the last one.
-void hand_over(const deck::Deck& next, double time, const Scene& scene, std::optional<OutputWriters>& writers) {
-  Snapshot kept;
-  Archive saved = Archive::saving_to(kept);
-  writers->serialize(saved, time);
-  writers.reset();
-  writers.emplace(next, output_variables_of(next, scene.body, scene.contact));
-  Archive restored = Archive::loading_from(kept);
-  writers->serialize(restored, time);
-}
-
 }  // namespace
 
+// The objects of a run. Between two steps it leaves a time and arrives at the next one.
+struct Run::Parts {
+  Clock::time_point began = Clock::now();
+  deck::Deck deck;
+  Communicator communicator;
+  EarlyEnd early_end;
+  std::optional<Scene> scene;  // stays at this address, also when another scene replaces it
+  std::optional<OutputWriters> writers;
+  Balance balance;
+  std::optional<CentralDifference> steps;  // or:
+  std::optional<QuasiStatic> equilibria;
+  std::optional<Monitor> monitor;
+  std::optional<Checkpoint> checkpoint;
+  std::optional<RunServices> services;
+  std::optional<ExplicitRunControl> control;
+  int before = 0;  // steps of an earlier run that it resumes
+  HistoryRows* history = nullptr;
+  bool begun = false, ended = false;
+  bool last = false, ending = false, save = false;  // `ending`, `save`: of equilibria
+
+  Parts(deck::Deck of_run, const Communicator& ranks)
+      : deck(std::move(of_run)), communicator(ranks), early_end(began, deck.solver.wall_time), balance(deck) {}
+
+  template <class Action>
+  auto with_solver(const Action& action) {
+    return equilibria ? action(*equilibria) : action(*steps);
+  }
+  double time() {
+    return with_solver([](const auto& solver) { return solver.time(); });
+  }
+  int number_of_steps() {
+    return with_solver([](const auto& solver) { return solver.steps(); });
+  }
+  bool is_over() { return time() >= deck.solver.final_time; }
+
+  void set_up(deck::Problems problems, const InMemory& in_memory, Start start);
+  void make_solver();
+  void open(Start start);
+  void begin();
+  bool arrive() { return equilibria ? arrive_at_equilibrium() : arrive_at_step(); }
+  void leave(const Pause& pause) { equilibria ? leave_equilibrium() : leave_step(pause); }
+  bool arrive_at_step();
+  void leave_step(const Pause& pause);
+  bool arrive_at_equilibrium();
+  void leave_equilibrium();
+  std::optional<Ledger> record();
+  template <class Action>
+  void guarded(const Action& action);
+  bool steps_follow() { return last && is_over() && equilibria && deck.next_solver; }
+  void hand_over();
+  void report();
+  void finish();
+  void close();
+};
+
+void Run::Parts::set_up(deck::Problems problems, const InMemory& in_memory, Start start) {
+  look_at_checkpoint(deck, start, communicator, problems);
+  scene = strut::set_up(deck, checked_mesh(deck, std::move(problems), communicator, in_memory.mesh), communicator);
+  say(communicator, describe_scene(*scene, advice(deck, *scene)));
+  writers.emplace(
+      deck, output_variables_of(deck, scene->body, scene->contact));  // checks all names before a file is replaced
+  history = in_memory.history;
+  writers->history.keep_rows(history);
+  make_solver();
+  open(start);
+}
+
+void Run::Parts::make_solver() {
+  const deck::Solver& times = deck.solver;
+  if (scene->quasi_static) {
+    equilibria.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), *scene->quasi_static,
+                       times.initial_time, times.final_time, observer(deck, communicator, early_end),
+                       std::move(scene->fracture));
+    return;
+  }
+  steps.emplace(scene->body, std::move(scene->conditions), std::move(scene->contact), scene->control,
+                times.initial_time, std::move(scene->fracture));
+  if (writers->history.has_reactions()) steps->gather_reactions(static_cast<int>(deck.conditions.size()));
+}
+
+void Run::Parts::open(Start start) {
+  monitor.emplace(deck.watch, deck.solver.final_time - deck.solver.initial_time, scene->body, tell);
+  checkpoint.emplace(deck, communicator, [this](Archive& archive) {
+    with_solver([&](auto& solver) { solver.serialize(archive); });
+    monitor->serialize(archive);
+    balance.serialize(archive, scene->body);
+    writers->serialize(archive, time());
+  });
+  if (start == Start::continued && checkpoint_exists(deck, communicator)) {
+    checkpoint->load();
+  } else {
+    checkpoint->remove();
+  }
+  writers->open(scene->body);
+  before = number_of_steps();
+  services.emplace(RunServices{deck, *scene, *writers, *checkpoint, *monitor, early_end});
+}
+
+void Run::Parts::begin() {
+  begun = true;
+  if (equilibria) return;
+  if (const auto ranks = balance.take_restored_ranks()) repartition({deck, scene, steps, writers}, *ranks);
+  say(communicator, critical_time_step_line(steps->critical_time_step()));
+  control.emplace(*services, *steps);
+}
+
+bool Run::Parts::arrive_at_step() {
+  CentralDifference& solver = *steps;
+  control->save(solver);
+  if (!control->ends_here(solver) && !solver.went_on()) {  // the monitor must first report the point
+    if (const auto ranks = balance.better_ranks(*scene, solver)) repartition({deck, scene, steps, writers}, *ranks);
+  }
+  solver.advance_velocity(deck.solver.final_time);
+  return control->observe(solver);
+}
+
+void Run::Parts::leave_step(const Pause& pause) {
+  const bool with_diagnostics = control->prepare_next(*steps);
+  const bool pauses = pause.steps <= 1 || steps->time() + steps->dt() >= pause.time;
+  steps->advance_position(with_diagnostics || pauses);
+}
+
+std::optional<Ledger> Run::Parts::record() {
+  const int conditions = writers->history.has_reactions() ? static_cast<int>(deck.conditions.size()) : 0;
+  return writers->write(
+      scene->body, *equilibria, [&] { return equilibria->reactions(conditions); }, last);
+}
+
+bool Run::Parts::arrive_at_equilibrium() {
+  QuasiStatic& solver = *equilibria;
+  last = ending || is_over();
+  if (is_over()) save = checkpoint->due_at_the_end();
+  if (save || checkpoint->due(solver.steps(), solver.time())) checkpoint->write(solver.steps(), solver.time());
+  const auto ledger = record();
+  monitor->check_energy(ledger ? *ledger : solver.ledger(), last);
+  monitor->check_failed(solver.time());
+  monitor->check_interpenetration(solver.time(), solver.contact());
+  monitor->check_undeclared(solver.time(), solver.contact());
+  monitor->check_tools(solver.time(), solver.conditions(), scene->tools);
+  return last;
+}
+
+void Run::Parts::leave_equilibrium() {
+  try {
+    ending = !equilibria->advance();
+  } catch (const Error&) {
+    last = true;
+    quietly([&] { record(); });
+    throw;
+  }
+  ending = communicator.max(ending || early_end.wanted() ? 1.0 : 0.0) > 0;
+  save = ending || communicator.max(checkpoint->due_by_the_clock() ? 1.0 : 0.0) > 0;
+}
+
+// Errors leave a frame and tell how to resume; the run has then ended.
+template <class Action>
+void Run::Parts::guarded(const Action& action) {
+  ended = true;
+  const auto failed = [this](const Error& error) {
+    const std::string text = error.what() + checkpoint->hint();
+    close();
+    return Error(text);
+  };
+  try {
+    action();
+  } catch (const LostState& error) {
+    throw failed(error);
+  } catch (const Error& error) {
+    leave_frame(*writers, time(), scene->body);
+    throw failed(error);
+  }
+  ended = last;
+}
+
+// Leaves the files to other runs of this process; the fields stay.
+void Run::Parts::close() {
+  control.reset();
+  services.reset();
+  checkpoint.reset();
+  writers.reset();
+}
+
+// The explicit steps that follow equilibria (Solver 2): with the body as it is, files that go on, and no checkpoints.
+void Run::Parts::hand_over() {
+  report();
+  deck = set_up_next(deck, equilibria->take_contact(), *scene);
+  std::ostringstream from;
+  from << "\nSolver 2: explicit steps from t = " << deck.solver.initial_time << " s\n" << scene->warnings;
+  say(communicator, from.str());
+  Snapshot kept;
+  Archive saved = Archive::saving_to(kept);
+  writers->serialize(saved, time());
+  close();
+  writers.emplace(deck, output_variables_of(deck, scene->body, scene->contact));
+  writers->history.keep_rows(history);
+  Archive restored = Archive::loading_from(kept);
+  writers->serialize(restored, time());
+  equilibria.reset();
+  balance = Balance(deck);
+  make_solver();
+  open(Start::anew);
+  begun = last = ending = save = false;
+}
+
+void Run::Parts::report() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  say(communicator,
+      with_solver([&](auto& solver) { return closing_report(*scene, solver, solver.ledger(), seconds, before); }));
+}
+
+void Run::Parts::finish() {
+  if (control) control->finish();
+  if (is_over()) checkpoint->close();
+  report();
+  if (!is_over()) say(communicator, early_end.reason(communicator) + checkpoint->hint() + "\n");
+  close();
+}
+
+Run::Run(deck::Deck deck, deck::Problems problems, const Communicator& communicator, Start start,
+         const InMemory& in_memory)
+    : parts_(std::make_unique<Parts>(std::move(deck), communicator)) {
+  reset_phases();
+  parts_->set_up(std::move(problems), in_memory, start);
+}
+
+Run::~Run() = default;
+
+bool Run::advance(const Pause& pause) {
+  Parts& run = *parts_;
+  if (run.ended) return false;
+  Pause left = pause;
+  run.guarded([&] {
+    do {
+      if (run.steps_follow()) run.hand_over();
+      if (!run.begun) {
+        run.begin();
+        run.last = run.arrive();
+      }
+      for (; !run.last && left.steps > 0 && run.time() < pause.time; --left.steps) {
+        run.leave(left);
+        run.last = run.arrive();
+      }
+    } while (run.steps_follow());
+  });
+  if (run.last) run.finish();
+  return !run.last;
+}
+
+void Run::end() {
+  parts_->early_end.ask();
+  advance();
+}
+
+bool Run::has_ended() const { return parts_->ended; }
+bool Run::is_over() const { return parts_->is_over(); }
+double Run::time() const { return parts_->time(); }
+int Run::steps() const { return parts_->number_of_steps(); }
+const Scene& Run::scene() const { return *parts_->scene; }
+
 bool run(const std::filesystem::path& deck_file, const Communicator& communicator, Start start) {
-  const Clock::time_point began = Clock::now();
   forget_signals();
   // A job that is stopped while the mesh is read continues in the next one; other signals end it at once.
   catch_signals({SIGUSR1, SIGUSR2, SIGXCPU});
   deck::Problems problems;
-  const deck::Deck deck = deck::read(deck_file, communicator, problems);
-  const EarlyEnd early_end(began, deck.solver.wall_time);
+  deck::Deck deck = deck::read(deck_file, communicator, problems);
   if (start == Start::continued && problems.empty() && !checkpoint_exists(deck, communicator) &&
       is_over(deck, communicator)) {
     say(communicator, deck.output.file.string() + " is of a run that is over: there is nothing to go on with\n");
     return true;
   }
-  look_at_checkpoint(deck, start, communicator, problems);
-  std::optional<Scene> parts = set_up(deck, checked_mesh(deck, std::move(problems), communicator), communicator);
-  Scene& scene = *parts;  // stays at this address, also when another scene replaces it
-  say(communicator, describe_scene(scene, advice(deck, scene)));
-  std::optional<OutputWriters> writers;
-  writers.emplace(deck,
-                  output_variables_of(deck, scene.body, scene.contact));  // checks all names before a file is replaced
-  if (!scene.quasi_static) return step(deck, parts, writers, start, began, early_end);
-  Balance balance(deck);
-  QuasiStatic solver(scene.body, std::move(scene.conditions), std::move(scene.contact), *scene.quasi_static,
-                     deck.solver.initial_time, deck.solver.final_time, observer(deck, communicator, early_end),
-                     std::move(scene.fracture));
-  const bool over = carry_out(deck, scene, *writers, solver, balance, start, began, early_end,
-                              [&](const RunServices& services) { return load_through(services, solver); });
-  if (!over || !deck.next_solver) return over;
-  const deck::Deck next = set_up_next(deck, solver.take_contact(), scene);
-  std::ostringstream from;
-  from << "\nSolver 2: explicit steps from t = " << next.solver.initial_time << " s\n" << scene.warnings;
-  say(communicator, from.str());
-  hand_over(next, solver.time(), scene, writers);
-  return step(next, parts, writers, start, began, early_end);
+  Run run(std::move(deck), std::move(problems), communicator, start);
+  catch_signals({SIGINT, SIGTERM, SIGHUP});
+  run.advance();
+  return run.is_over();
 }
 
 }  // namespace strut

@@ -21,7 +21,7 @@ namespace strut {
 
 namespace {
 
-const std::string mesh_key = "Discretization > Input Mesh File";
+const std::string mesh_key = "Discretization > Input Mesh File";  // or, of a mesh in memory, what stands for it
 
 // True if tools or surface contact need the faces of cells; points at nodes lie on them.
 bool meets_faces(const deck::Deck& deck) {
@@ -77,7 +77,8 @@ void mark(const deck::NodeSet& set, std::uint64_t bit, PointCloud& cloud) {
 }
 
 std::string path_of(const deck::NodeSet& set) {
-  return (set.numbers ? "Boundary Conditions > " : "Node Sets > ") + set.name;
+  const char* const section = set.numbers ? "Boundary Conditions" : set.nearest ? "History > Probes" : "Node Sets";
+  return std::string(section) + " > " + set.name;
 }
 
 // Reports a set that the mesh or the deck has already, because the name would be ambiguous.
@@ -140,7 +141,7 @@ std::string unresolved_place(const PointCloud& cloud, const Communicator& commun
 
 }  // namespace
 
-PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator) {
+PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory) {
   const Timed timed(phase("Mesh in"));
   const deck::Discretization& discretization = deck.discretization;
   const deck::Grid& grid = discretization.grid;
@@ -154,9 +155,10 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator) {
     return io::make_grid(grid.origin, grid.length, grid.points, communicator, with_cells, planes, box);
   }
   if (discretization.type == deck::MeshType::text) return io::read_text(discretization.mesh, communicator);
-  const bool nodes = discretization.points == deck::Points::nodes;
-  return io::read_exodus(discretization.mesh, communicator, nodes ? PointsAt::nodes : PointsAt::elements, with_cells,
-                         planes);
+  const PointsAt at = discretization.points == deck::Points::nodes ? PointsAt::nodes : PointsAt::elements;
+  if (discretization.type == deck::MeshType::memory)
+    return io::points_of(in_memory ? *in_memory : io::Mesh(), communicator, at, with_cells, planes);
+  return io::read_exodus(discretization.mesh, communicator, at, with_cells, planes);
 }
 
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems) {
@@ -210,12 +212,38 @@ void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, co
       add_numbered_set(set, bit, cloud, communicator, problems);
       continue;
     }
+    if (set.nearest) {
+      mark_nearest(*set.nearest, bit, cloud, communicator);
+      continue;
+    }
     try {
       mark(set, bit, cloud);
     } catch (const Error& error) {
       problems.add(path_of(set), error.what());
     }
   }
+}
+
+std::string places_of_probes(const deck::Deck& deck, const Domain& domain) {
+  std::string lines;
+  const PointCloud& cloud = domain.cloud;
+  for (const deck::NodeSet& probe : deck.node_sets) {
+    if (!probe.nearest) continue;
+    const auto bit = std::find(cloud.set_names.begin(), cloud.set_names.end(), probe.name) - cloud.set_names.begin();
+    std::ostringstream mine;
+    for (int i = 0; i < domain.owned; ++i) {
+      if ((cloud.sets[i] >> bit & 1) == 0) continue;
+      const Vector X = domain.reference(i);
+      const double away = (X - *probe.nearest).norm();
+      mine << (away > cloud.spacings[i] ? "WARNING: " : "") << "the probe '" << probe.name << "' is " << word(cloud.at)
+           << " " << cloud.element_ids[i] << " of block '" << cloud.block_names[cloud.blocks[i]] << "' at ("
+           << X.transpose() << ") m, " << away << " m from its Point\n";
+    }
+    std::vector<char> line = gather(domain.communicator, std::span<const char>(mine.str()));
+    domain.communicator.broadcast(line);
+    lines.append(line.begin(), line.end());
+  }
+  return lines;
 }
 
 }  // namespace strut

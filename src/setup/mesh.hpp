@@ -3,12 +3,14 @@
 
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
+#include "io/exodus/exodus.hpp"
 #include "topology/cloud.hpp"
+#include "topology/domain.hpp"
 
 namespace strut {
 
-// Collective. The points of the mesh or of the built-in grid.
-PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator);
+// Collective. The points of the mesh, in a file or in memory (on rank 0), or of the built-in grid.
+PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, const io::Mesh* in_memory = nullptr);
 
 // Collective. Reports names of the mesh that have another meaning in a deck.
 void check_names(const PointCloud& cloud, const Communicator& communicator, deck::Problems& problems);
@@ -20,5 +22,8 @@ void check_places(const deck::Deck& deck, const PointCloud& cloud, const Communi
 // Collective. Adds the node sets of the deck to those of the mesh.
 void add_node_sets(const std::vector<deck::NodeSet>& sets, PointCloud& cloud, const Communicator& communicator,
                    deck::Problems& problems);
+
+// Collective. The points that the probes of the history have become, a line each; a warning if one is far away.
+std::string places_of_probes(const deck::Deck& deck, const Domain& domain);
 
 }  // namespace strut

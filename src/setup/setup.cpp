@@ -98,14 +98,15 @@ deck::Deck set_up_next(const deck::Deck& deck, contact::Contact contact, Scene& 
   return next;
 }
 
-PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems) {
+PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems,
+                   const io::Mesh* in_memory) {
   const auto is_of_mesh = [](const std::string& line) {
     return line.starts_with("Discretization") && !line.starts_with("Discretization > Bond Filters");
   };
   if (std::any_of(problems.lines().begin(), problems.lines().end(), is_of_mesh)) return {};
   PointCloud cloud;
   try {
-    cloud = read_mesh(deck, communicator);
+    cloud = read_mesh(deck, communicator, in_memory);
   } catch (const Error& error) {
     if (problems.empty()) throw;
     problems.add(error.what());
@@ -142,6 +143,7 @@ Scene set_up(const deck::Deck& deck, PointCloud cloud, const Communicator& commu
   scene.pieces = count_pieces(scene.body.domain);
   add_contact(deck, scene);
   for (const std::string& note : deck.notes) scene.warnings += note + "\n";
+  scene.warnings += places_of_probes(deck, scene.body.domain);
   scene.highest_frequency = scale_masses(deck, scene.body, scene.warnings);
   scene.warnings += mass_of_shared_nodes(scene.body, taken);
   return scene;

@@ -3,6 +3,7 @@
 
 #include "deck/deck.hpp"
 #include "deck/problems.hpp"
+#include "io/exodus/exodus.hpp"
 #include "setup/scene.hpp"
 #include "topology/cloud.hpp"
 
@@ -11,8 +12,9 @@ namespace strut {
 // Collective. The mesh with the node sets of the deck. Reports errors that only deck and mesh together show:
 // blocks and node sets that do not exist, are ambiguous or contain no point, coincident points, horizons that do
 // not fit the spacing. The deck may already have problems; if its section on the mesh is wrong, the cloud is
-// empty.
-PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems);
+// empty. `in_memory`: the mesh of a deck of Type Memory, on rank 0.
+PointCloud mesh_of(const deck::Deck& deck, const Communicator& communicator, deck::Problems& problems,
+                   const io::Mesh* in_memory = nullptr);
 
 // Collective. Partition, families, body, initial velocities and conditions, for a mesh and a deck without problems.
 // Throws one Error on all ranks for points with too few neighbors.

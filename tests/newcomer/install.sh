@@ -18,6 +18,9 @@ done
 find prefix -name '*.cpp' -o -name '*.hpp' > log
 [ ! -s log ] || fail "sources are installed"
 
+. "$(dirname "$0")/installed.sh"
+looks_installed prefix
+
 # A few steps of a deck that is there, its mesh by its recipe.
 mkdir work
 cp $share/inputs/taylor/bar.recipe work

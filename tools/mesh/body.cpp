@@ -302,4 +302,18 @@ void append(io::Mesh& mesh, const io::Mesh& body) {
   for (const io::Mesh::NodeSet& set : body.node_sets) mesh.node_sets.push_back({set.name, shifted(set.nodes)});
 }
 
+io::Mesh mesh_of(const std::vector<Body>& bodies, std::string& summary) {
+  io::Mesh mesh;
+  for (const Body& body : bodies) {
+    std::string of_body;
+    append(mesh, mesh_of(body, of_body));
+    summary += of_body;
+  }
+  if (bodies.size() == 1 && bodies[0].shape != Body::Shape::file) {  // sets begin with zmin and zmax
+    mesh.node_sets.push_back({"foot", mesh.node_sets[0].nodes});
+    mesh.node_sets.push_back({"top", mesh.node_sets[1].nodes});
+  }
+  return mesh;
+}
+
 }  // namespace strut::mesh

@@ -1,6 +1,7 @@
 // Evaluates an expression by a stack machine.
 #include "base/math/expression.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -52,7 +53,8 @@ double combined(Do what, double a, double b) {
 
 class Machine {
  public:
-  Machine(double x, double y, double z, double t) : variables_{x, y, z, t} {}
+  Machine(double x, double y, double z, double t, const std::vector<LookUp>& tables)
+      : tables_(tables), variables_{x, y, z, t} {}
 
   // Returns the number of instructions to skip after this one.
   int execute(const Instruction& one) {
@@ -78,6 +80,9 @@ class Machine {
       case Do::call:
         call(math_functions()[one.place]);
         return 0;
+      case Do::look_up:
+        push(tables_[one.place](pop()));
+        return 0;
       case Do::skip:
         return one.place;
       case Do::skip_if_zero:
@@ -102,6 +107,7 @@ class Machine {
     push(function.of_two(a, b));
   }
 
+  const std::vector<LookUp>& tables_;
   // Each level of brackets leaves at most one operand for each of the six kinds of operators.
   std::array<double, 8 * (Expression::deepest + 2)> stack_;
   int height_ = 0;
@@ -110,8 +116,17 @@ class Machine {
 
 }  // namespace
 
+double LookUp::operator()(double place) const {
+  if (std::isnan(place)) return place;
+  const auto next = std::upper_bound(places.begin(), places.end(), place) - places.begin();
+  if (next == 0) return values.front();
+  if (next == std::ssize(places)) return values.back();
+  const double share = (place - places[next - 1]) / (places[next] - places[next - 1]);
+  return values[next - 1] + share * (values[next] - values[next - 1]);
+}
+
 double Expression::operator()(double x, double y, double z, double t) const {
-  Machine machine(x, y, z, t);
+  Machine machine(x, y, z, t, tables_);
   for (std::size_t i = 0; i < program_.size(); ++i) i += machine.execute(program_[i]);
   return machine.value();
 }

@@ -30,12 +30,19 @@ struct Instruction {
     both,
     either,
     call,
+    look_up,      // in the table number `place`
     skip,         // the number of instructions in `place`
     skip_if_zero  // the same, if the popped number is 0
   };
   Do what;
   double number = 0;
-  int place = 0;  // index of a variable, of a function in its table, or number of instructions to skip
+  int place = 0;  // index of a variable, of a function or table, or number of instructions to skip
+};
+
+// Values at rising places, linear between them and constant beyond: table(t, 0, 0, 1e-3, 5).
+struct LookUp {
+  std::vector<double> places, values;
+  double operator()(double place) const;
 };
 
 class Expression {
@@ -56,6 +63,7 @@ class Expression {
  private:
   friend class ExpressionParser;
   std::vector<Instruction> program_;
+  std::vector<LookUp> tables_;
   bool uses_place_ = false, uses_time_ = false;
 };
 

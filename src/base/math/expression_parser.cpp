@@ -1,7 +1,8 @@
 // Compilation, by recursive descent:
 //   statements: { [double | int] name = or ; | if ( or ) { statements } [else if …] [else { statements }] }
 //   or, and, equality, order, sum, product: operands with operators of one rank between, from the left
-//   power: {- | + | !} primary [^ power];  primary: number | name | function ( … ) | ( or )
+//   power: {- | + | !} primary [^ power];  primary: number | name | function ( … ) | ( or ) | table ( or {, place,
+//   value} )
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -29,6 +30,8 @@ constexpr Operator operators[] = {
     {"<", Do::less, 3},       {">", Do::greater, 3},        {"+", Do::add, 4},
     {"-", Do::subtract, 4},   {"*", Do::multiply, 5},       {"/", Do::divide, 5}};
 constexpr int rank_of_equality = 2, rank_of_order = 3, ranks = 6;
+
+const std::string table_word = "table";
 
 bool begins_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool in_name(char c) { return begins_name(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -288,13 +291,43 @@ class ExpressionParser {
   void named() {
     const std::size_t here = at_;
     const std::string word = name();
-    if (next() == '(') return call(word, here);
+    if (next() == '(') return word == table_word ? table() : call(word, here);
     at_ = here;
     const int place = variable(word);
     at_ = here + word.size();
     result_.uses_place_ = result_.uses_place_ || place <= static_cast<int>(Given::z);
     result_.uses_time_ = result_.uses_time_ || place == static_cast<int>(Given::t);
     emit(Do::push_variable, place);
+  }
+
+  double constant() {
+    const bool negative = take("-");
+    const char c = next();
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0 && c != '.') fail("expected a number");
+    number();
+    const double value = result_.program_.back().number;
+    result_.program_.pop_back();
+    return negative ? -value : value;
+  }
+
+  void table() {
+    LookUp found;
+    expect("(");
+    binary(0);
+    do {
+      expect(",");
+      const std::size_t here = at_;
+      found.places.push_back(constant());
+      if (found.places.size() > 1 && !(found.places.back() > found.places[found.places.size() - 2])) {
+        at_ = here;
+        fail("the places of a table must rise");
+      }
+      expect(",");
+      found.values.push_back(constant());
+    } while (next() == ',');
+    expect(")");
+    emit(Do::look_up, static_cast<int>(result_.tables_.size()));
+    result_.tables_.push_back(std::move(found));
   }
 
   void call(const std::string& word, std::size_t here) {

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t largest_message = std::size_t{1} << 30;  // bytes: MPI's counts are ints
 
+bool owns_mpi = true;  // not if it ran before, as in a script in Python: then it is left running
+
 // Starts Kokkos with one thread, whatever its build and the environment say: the threads of a rank are not Kokkos'
 // (threads.hpp). The command line is not passed, because Kokkos would answer --help with its own page.
 void start_kokkos() {
@@ -27,14 +29,16 @@ void start_kokkos() {
 }  // namespace
 
 Runtime::Runtime(int& argc, char**& argv) {
-  int level = MPI_THREAD_SINGLE;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads checks `level`
+  int is_there = 0, level = MPI_THREAD_SINGLE;
+  MPI_Initialized(&is_there);
+  owns_mpi = is_there == 0;
+  if (owns_mpi) MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);  // a run that asks for threads checks it
   start_kokkos();
 }
 
 Runtime::~Runtime() {
   Kokkos::finalize();
-  MPI_Finalize();
+  if (owns_mpi) MPI_Finalize();
 }
 
 struct Communicator::Implementation {

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "base/build_facts.hpp"
 #include "base/whole_number.hpp"
 
 namespace strut {
@@ -26,6 +27,15 @@ Launch launch_of_process() {
     if (const auto count = number_in(processes)) return {processes, *count, number_in(number).value_or(0)};
   }
   return {};
+}
+
+std::string wrong_launcher(const Launch& launch, int ranks, const std::string& command) {
+  if (launch.processes <= 1 || ranks > 1) return "";
+  return "one of " + std::to_string(launch.processes) + " processes (" + launch.variable +
+         "), but each is a run of one rank: expected the mpirun of " + mpi_library() +
+         ", with which strut was built, or srun with an --mpi that it knows ('srun --mpi=list'). Where these are meant "
+         "to be runs of their own: 'env -u " +
+         launch.variable + " " + command + "'";
 }
 
 }  // namespace strut

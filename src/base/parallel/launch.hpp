@@ -14,4 +14,8 @@ struct Launch {
 // From mpirun of Open MPI, or of MPICH and its relatives, else from Slurm's srun, whose tasks may be the mpiruns.
 Launch launch_of_process();
 
+// Why `ranks` of a process are refused: a launcher of another MPI starts each process as a run of one rank, and all would
+// do the same work. "" if it is none. `command`: of the process, for the message.
+std::string wrong_launcher(const Launch& launch, int ranks, const std::string& command);
+
 }  // namespace strut

@@ -55,12 +55,15 @@ Grid read_grid(const Values& values, bool boxes) {
 
 const ChoiceKey<MeshType> type(
     {.name = "Type",
-     .meaning =
-         "Format of the mesh file (`Text File`: a list of points), or Peridigm's built-in grid, without a file."},
-    {{"Exodus", MeshType::exodus}, {"Text File", MeshType::text}, {"PdQuickGrid", MeshType::grid}});
+     .meaning = "Format of the mesh file (`Text File`: a list of points), Peridigm's built-in grid, without a file, or "
+                "`Memory`: the mesh that a script in Python hands over."},
+    {{"Exodus", MeshType::exodus},
+     {"Text File", MeshType::text},
+     {"PdQuickGrid", MeshType::grid},
+     {"Memory", MeshType::memory}});
 
 const OptionalKey<std::string> mesh_file(
-    {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required except for PdQuickGrid."});
+    {.name = "Input Mesh File", .meaning = "Path relative to the deck's folder. Required for Exodus and Text File."});
 
 const Key neighborhood = {.name = "NeighborhoodType",
                           .kind = Kind::choice,
@@ -100,10 +103,11 @@ void check_source(const Values& values, Problems& problems) {
   const auto report = [&](const std::string& name, const std::string& what) {
     problems.add(path_to(values.path(), name), what);
   };
-  const bool grid = values[type] == MeshType::grid;
-  if (!grid && !values.given(mesh_file)) report(mesh_file.name, "missing; expected a text (type string)");
+  const bool grid = values[type] == MeshType::grid, memory = values[type] == MeshType::memory;
+  if (!grid && !memory && !values.given(mesh_file)) report(mesh_file.name, "missing; expected a text (type string)");
   if (grid && values.given(mesh_file))
     report(mesh_file.name, "unknown key for Type 'PdQuickGrid', which reads no file");
+  if (memory && values.given(mesh_file)) report(mesh_file.name, "unknown key for Type 'Memory', which reads no file");
   if (grid && !values.has_section(generator)) report(generator, "missing section (the only grid that is known here)");
   if (!grid && values.has_section(generator)) report(generator, "unknown section; it belongs to Type 'PdQuickGrid'");
   if (grid && !values.given(neighborhood)) {

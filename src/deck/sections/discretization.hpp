@@ -12,7 +12,7 @@
 
 namespace strut::deck {
 
-enum class MeshType { exodus, text, grid };
+enum class MeshType { exodus, text, grid, memory };  // memory: from the program that runs the deck
 enum class Points { elements, nodes };
 enum class DegeneratePoints { error, drop, drop_any, keep };
 

@@ -1,5 +1,6 @@
 #include "deck/sections/history.hpp"
 
+#include "deck/sections/node_sets.hpp"
 #include "deck/sections/tools.hpp"
 #include "deck/sections/variables.hpp"
 #include "deck/sections/when.hpp"
@@ -10,12 +11,14 @@ namespace {
 
 const char* const name = "History";
 
-const TextKey file({.name = "Filename", .meaning = "Relative to the working folder."});
+const OptionalKey<std::string> file(
+    {.name = "Filename", .meaning = "Relative to the working folder. Required, but not of a script in Python."});
 
 const WhenKeys when("", 1000);
 
 const AnyKey<bool> variable(
-    "E.g. `Max_Displacement(foam)`, `Sum_Force_Z(foam)`, `Mean_Velocity_Z(slices)`, `Contact_Force_Z(foam:plate)`, "
+    "E.g. `Max_Displacement(foam)`, `Displacement_Z(tip)` of a probe, `Sum_Force_Z(foam)`, `Mean_Velocity_Z(slices)`, "
+    "`Contact_Force_Z(foam:plate)`, "
     "`Reaction_Z(wall)`, "
     "`Crack_Tip(notch)`: see inputs/VARIABLES.md.");
 const Section variables = {.name = "Variables", .meaning = "Columns.", .any_key = variable};
@@ -56,6 +59,14 @@ const Section profiles = {
     .sections = {
         {.name = any_name, .required = true, .meaning = "One set of layers.", .keys = {across, layers, node_set}}}};
 
+const VectorKey place({.name = "Point", .unit = "m", .meaning = "Its place in the reference state."});
+const Section probes = {
+    .name = "Probes",
+    .meaning =
+        "Places whose nearest points the history follows, as `Displacement_Z(tip)`: each is a node set of one point, "
+        "which a run tells at its start.",
+    .sections = {{.name = any_name, .required = true, .meaning = "One probe.", .keys = {place}}}};
+
 Profile read_profile(const Values& values, Problems& problems) {
   return {values.name(), read_direction(values, across, problems), values[layers], values[node_set]};
 }
@@ -71,14 +82,22 @@ Section history_section() {
   return {.name = name,
           .meaning = "Numbers in time as a table (CSV); none without this section.",
           .keys = {file, when.frequency, when.interval},
-          .sections = {variables, cracks, profiles}};
+          .sections = {variables, cracks, profiles, probes}};
+}
+
+void add_probes(const Values& deck, std::vector<NodeSet>& sets) {
+  const Values* values = deck.find_section(name);
+  if (!values) return;
+  for (const Values& one : values->section(probes.name).sections())
+    sets.push_back({.name = one.name(), .where = Function(), .nearest = one[place]});
 }
 
 History read_history(const Values& deck, const Solver& solver, Problems& problems) {
   const Values* values = deck.find_section(name);
   if (!values) return {};
-  History history{
-      .enabled = true, .file = (*values)[file], .variables = switched_on(values->section(variables.name), variable)};
+  History history{.enabled = true,
+                  .file = (*values)[file].value_or(""),
+                  .variables = switched_on(values->section(variables.name), variable)};
   for (const Values& one : values->section(cracks.name).sections()) history.cracks.push_back(read_crack(one, problems));
   for (const Values& one : values->section(profiles.name).sections())
     history.profiles.push_back(read_profile(one, problems));

@@ -32,15 +32,21 @@ struct Profile {
 
 struct History {
   bool enabled = false;
-  std::filesystem::path file;
+  std::filesystem::path file;  // empty: its rows stay in memory
   std::optional<int> frequency;
   std::optional<double> interval;
   std::vector<std::string> variables;  // e.g. "Max_Displacement"; checked by output_variables_of (output/variables.cpp)
   std::vector<WatchedCrack> cracks;
   std::vector<Profile> profiles;
+
+  bool has_file() const { return enabled && !file.empty(); }
 };
 
+struct NodeSet;
+
 Section history_section();
+// Its probes, as node sets.
+void add_probes(const Values& deck, std::vector<NodeSet>& sets);
 History read_history(const Values& deck, const Solver& solver, Problems& problems);
 
 }  // namespace strut::deck

@@ -139,6 +139,10 @@ struct Mesh {
 };
 void write_mesh(const std::filesystem::path& file, const Mesh& mesh);
 
+// Collective. The points of a mesh in memory, which counts on rank 0 only, as read_exodus gives them.
+PointCloud points_of(const Mesh& mesh, const Communicator& communicator, PointsAt at = PointsAt::elements,
+                     bool with_cells = false, const std::vector<Mirror>& planes = {});
+
 // Reads a mesh that write_mesh or another program has written: types as above whatever their spelling in the file,
 // names and volumes as for read_exodus. Serial. Throws Error like read_exodus, but does not check volumes.
 Mesh read_mesh(const std::filesystem::path& file);

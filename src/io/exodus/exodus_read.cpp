@@ -14,13 +14,15 @@ namespace {
 
 constexpr std::size_t most_sets = 64;  // one bit each
 
+void check_count_of_sets(std::size_t sets, const std::string& name) {
+  if (sets <= most_sets) return;
+  throw Error(name + ": " + std::to_string(sets) + " node sets, at most " + std::to_string(most_sets) +
+              " are supported");
+}
+
 MeshFile opened(const std::filesystem::path& path) {
   ExodusFile file = ExodusFile::open(path);
-  const std::size_t sets = file.node_sets().size();
-  if (sets > most_sets) {
-    throw Error(path.string() + ": " + std::to_string(sets) + " node sets, at most " + std::to_string(most_sets) +
-                " are supported");
-  }
+  check_count_of_sets(file.node_sets().size(), path.string());
   return MeshFile(std::move(file));
 }
 
@@ -40,7 +42,7 @@ PointCloud on_all_ranks(const Communicator& communicator, const Action& action) 
 }
 
 // Collective. The file's numbers of this rank's slice.
-std::vector<std::int64_t> numbers_of(const std::optional<MeshFile>& file, ExodusFile::On on, std::int64_t total,
+std::vector<std::int64_t> numbers_of(const MeshSource* file, MeshSource::On on, std::int64_t total,
                                      const Communicator& communicator) {
   OnRoot on_root(communicator);
   auto mine = scatterv<std::int64_t>(
@@ -85,11 +87,11 @@ void check_blocks_have_points(const PointCloud& cloud, const std::string& file, 
   }
 }
 
-PointCloud at_nodes(const std::optional<MeshFile>& file, const MeshLayout& layout, const std::string& name,
+PointCloud at_nodes(const MeshSource* file, const MeshLayout& layout, const std::string& name,
                     bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
   check_elements_have_nodes(layout, name);
-  const MeshSlice slice = elements_around_slice(file ? &*file : nullptr, layout, communicator);
-  const auto numbers = numbers_of(file, ExodusFile::On::nodes, layout.nodes, communicator);
+  const MeshSlice slice = elements_around_slice(file, layout, communicator);
+  const auto numbers = numbers_of(file, MeshSource::On::nodes, layout.nodes, communicator);
   const std::int64_t begin = slice_begin(layout.nodes, communicator.size(), communicator.rank());
   const NodeRange own{begin, begin + std::ssize(numbers)};
   PointCloud cloud =
@@ -100,12 +102,24 @@ PointCloud at_nodes(const std::optional<MeshFile>& file, const MeshLayout& layou
   return cloud;
 }
 
-PointCloud at_elements(const std::optional<MeshFile>& file, const MeshLayout& layout, const std::string& name,
+PointCloud at_elements(const MeshSource* file, const MeshLayout& layout, const std::string& name,
                        bool with_cells, const std::vector<Mirror>& planes, const Communicator& communicator) {
-  const MeshSlice slice = slice_of_elements(file ? &*file : nullptr, layout, communicator);
+  const MeshSlice slice = slice_of_elements(file, layout, communicator);
   PointCloud cloud = on_all_ranks(communicator, [&] { return points_at_elements(slice, name, with_cells, planes); });
   if (with_cells) add_surfaces(slice, planes, communicator, cloud);
-  cloud.element_ids = numbers_of(file, ExodusFile::On::elements, layout.elements, communicator);
+  cloud.element_ids = numbers_of(file, MeshSource::On::elements, layout.elements, communicator);
+  return cloud;
+}
+
+// `mesh`: on rank 0; `name`: on all.
+PointCloud points_of(const MeshSource* mesh, const std::string& name, PointsAt at, bool with_cells,
+                     const std::vector<Mirror>& planes, const Communicator& communicator) {
+  const MeshLayout layout = broadcast_layout(mesh ? mesh->layout() : MeshLayout(), communicator);
+  PointCloud cloud =
+      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, name, with_cells, planes, communicator);
+  const auto alone = [](const std::vector<std::int64_t>& shared_nodes) { return shared_nodes.empty(); };
+  const bool any_alone = std::any_of(cloud.shared_nodes.begin(), cloud.shared_nodes.end(), alone);
+  cloud.has_shared_nodes = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
   return cloud;
 }
 
@@ -115,13 +129,18 @@ PointCloud read_exodus(const std::filesystem::path& file, const Communicator& co
                        bool with_cells, const std::vector<Mirror>& planes) {
   std::optional<MeshFile> mesh;
   run_on_root(communicator, [&] { mesh.emplace(opened(file)); });
-  const MeshLayout layout = broadcast_layout(mesh ? mesh->layout() : MeshLayout(), communicator);
-  PointCloud cloud =
-      (at == PointsAt::nodes ? at_nodes : at_elements)(mesh, layout, file.string(), with_cells, planes, communicator);
-  const auto alone = [](const std::vector<std::int64_t>& shared_nodes) { return shared_nodes.empty(); };
-  const bool any_alone = std::any_of(cloud.shared_nodes.begin(), cloud.shared_nodes.end(), alone);
-  cloud.has_shared_nodes = with_cells && communicator.max(any_alone ? 1.0 : 0.0) == 0;
-  return cloud;
+  return points_of(mesh ? &*mesh : nullptr, file.string(), at, with_cells, planes, communicator);
+}
+
+PointCloud points_of(const Mesh& mesh, const Communicator& communicator, PointsAt at, bool with_cells,
+                     const std::vector<Mirror>& planes) {
+  const std::string name = "the mesh in memory";
+  run_on_root(communicator, [&] {
+    if (mesh.blocks.empty()) throw Error(name + " has no elements");
+    check_count_of_sets(mesh.node_sets.size(), name);
+  });
+  const MeshInMemory source(mesh);
+  return points_of(&source, name, at, with_cells, planes, communicator);
 }
 
 }  // namespace strut::io

@@ -202,7 +202,7 @@ void MeshFile::cell_attribute(std::size_t block, std::size_t attribute, std::int
   std::copy(read.begin(), read.end(), values.begin());
 }
 
-void MeshFile::numbers(ExodusFile::On on, std::int64_t begin, std::span<std::int64_t> values) const {
+void MeshFile::numbers(On on, std::int64_t begin, std::span<std::int64_t> values) const {
   const std::vector<std::int64_t> read = file_.numbers(on, begin, std::ssize(values));
   std::copy(read.begin(), read.end(), values.begin());
 }

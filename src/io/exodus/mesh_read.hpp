@@ -29,22 +29,41 @@ struct MeshLayout {
   std::vector<NodeSet> node_sets;
 };
 
-// Reads values from number `begin` on, to fill the span. All functions throw Error if a value is out of range.
-class MeshFile {
+// A mesh, read in parts: values from number `begin` on, to fill the span. All functions throw Error if a value is out of
+// range.
+class MeshSource {
  public:
   using Place = std::array<double, 3>;
+  using On = ExodusFile::On;
 
+  virtual ~MeshSource() = default;
+  const MeshLayout& layout() const { return layout_; }
+  virtual void places(std::int64_t begin, std::span<Place> values) const = 0;                      // of nodes, m
+  virtual void nodes_of_set(std::size_t set, std::int64_t begin, std::span<int> nodes) const = 0;  // 0-based
+  // Nodes of successive elements, 0-based; the portion must consist of whole elements.
+  virtual void nodes_of_block(std::size_t block, std::int64_t begin, std::span<int> nodes) const = 0;
+  virtual void sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const = 0;  // m³
+  // partial_cell_attributes[attribute] for elements with partial cells.
+  virtual void cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin,
+                              std::span<double> values) const = 0;
+  virtual void numbers(On on, std::int64_t begin, std::span<std::int64_t> values) const = 0;
+
+ protected:
+  MeshLayout layout_;
+};
+
+// The mesh of a file.
+class MeshFile : public MeshSource {
+ public:
   explicit MeshFile(ExodusFile file);  // throws Error if there is no mesh, or an unsupported element
 
-  const MeshLayout& layout() const { return layout_; }
-  void places(std::int64_t begin, std::span<Place> values) const;                      // of nodes, m
-  void nodes_of_set(std::size_t set, std::int64_t begin, std::span<int> nodes) const;  // 0-based
-  // Nodes of successive elements, 0-based; the portion must consist of whole elements.
-  void nodes_of_block(std::size_t block, std::int64_t begin, std::span<int> nodes) const;
-  void sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const;  // m³
-  // partial_cell_attributes[attribute] for elements with partial cells.
-  void cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin, std::span<double> values) const;
-  void numbers(ExodusFile::On on, std::int64_t begin, std::span<std::int64_t> values) const;
+  void places(std::int64_t begin, std::span<Place> values) const override;
+  void nodes_of_set(std::size_t set, std::int64_t begin, std::span<int> nodes) const override;
+  void nodes_of_block(std::size_t block, std::int64_t begin, std::span<int> nodes) const override;
+  void sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const override;
+  void cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin,
+                      std::span<double> values) const override;
+  void numbers(On on, std::int64_t begin, std::span<std::int64_t> values) const override;
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
@@ -56,10 +75,26 @@ class MeshFile {
   int variable_volume(std::size_t block) const;
 
   ExodusFile file_;
-  MeshLayout layout_;
   std::vector<ExodusFile::Block> blocks_;
   std::vector<ExodusFile::NodeSet> sets_;
   std::vector<std::vector<int>> cell_columns_;  // of each block: columns of its attributes in the file
+};
+
+// A mesh in memory, which must outlive it. A tool has made it: its values are not checked again.
+class MeshInMemory : public MeshSource {
+ public:
+  explicit MeshInMemory(const Mesh& mesh);
+
+  void places(std::int64_t begin, std::span<Place> values) const override;
+  void nodes_of_set(std::size_t set, std::int64_t begin, std::span<int> nodes) const override;
+  void nodes_of_block(std::size_t block, std::int64_t begin, std::span<int> nodes) const override;
+  void sphere_volumes(std::size_t block, std::int64_t begin, std::span<double> values) const override;
+  void cell_attribute(std::size_t block, std::size_t attribute, std::int64_t begin,
+                      std::span<double> values) const override;
+  void numbers(On on, std::int64_t begin, std::span<std::int64_t> values) const override;  // from 1
+
+ private:
+  const Mesh& mesh_;
 };
 
 // The member that partial_cell_attributes[attribute] names.

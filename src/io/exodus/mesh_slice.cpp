@@ -15,14 +15,14 @@ static_assert(largest_portion % 8 == 0);  // portions begin and end with element
 
 class SliceReader {
  public:
-  SliceReader(const MeshFile* file, const MeshLayout& layout, const Communicator& communicator)
+  SliceReader(const MeshSource* file, const MeshLayout& layout, const Communicator& communicator)
       : file_(file), communicator_(communicator), ranks_(communicator.size()) {
     slice_.layout = layout;
     for (const MeshLayout::Block& block : layout.blocks) slice_.mesh.blocks.push_back({block.name, block.type, {}, {}});
   }
 
   MeshSlice read(bool around_nodes) {
-    const std::vector<MeshFile::Place> places = places_of_nodes();
+    const std::vector<MeshSource::Place> places = places_of_nodes();
     const std::vector<std::uint64_t> sets = sets_of_nodes();
     std::int64_t first = 0;
     for (std::size_t b = 0; b < slice_.layout.blocks.size(); ++b) {
@@ -36,8 +36,8 @@ class SliceReader {
 
  private:
   // Reads this rank's slice of the nodes.
-  std::vector<MeshFile::Place> places_of_nodes() {
-    return dealt<MeshFile::Place>(slice_counts(slice_.layout.nodes, ranks_),
+  std::vector<MeshSource::Place> places_of_nodes() {
+    return dealt<MeshSource::Place>(slice_counts(slice_.layout.nodes, ranks_),
                                   [this](std::int64_t begin, auto values) { file_->places(begin, values); });
   }
 
@@ -165,7 +165,7 @@ class SliceReader {
   }
 
   // Gets the nodes from the ranks whose slices contain them.
-  void take_nodes(const std::vector<MeshFile::Place>& places, const std::vector<std::uint64_t>& sets) {
+  void take_nodes(const std::vector<MeshSource::Place>& places, const std::vector<std::uint64_t>& sets) {
     const Slices owners(communicator_, slice_.nodes, slice_.layout.nodes);
     const std::int64_t first = slice_begin(slice_.layout.nodes, ranks_, communicator_.rank());
     const auto fetched = [&]<class T>(const std::vector<T>& own) {
@@ -174,7 +174,7 @@ class SliceReader {
       owners.rows_from_slices<T>(asked_for, 1, values);
       return values;
     };
-    for (const MeshFile::Place& place : fetched(places)) slice_.mesh.nodes.emplace_back(place.data());
+    for (const MeshSource::Place& place : fetched(places)) slice_.mesh.nodes.emplace_back(place.data());
     slice_.sets = fetched(sets);
   }
 
@@ -188,7 +188,7 @@ class SliceReader {
     return mine;
   }
 
-  const MeshFile* file_;
+  const MeshSource* file_;
   const Communicator& communicator_;
   const int ranks_;
   MeshSlice slice_;
@@ -196,11 +196,11 @@ class SliceReader {
 
 }  // namespace
 
-MeshSlice slice_of_elements(const MeshFile* file, const MeshLayout& layout, const Communicator& communicator) {
+MeshSlice slice_of_elements(const MeshSource* file, const MeshLayout& layout, const Communicator& communicator) {
   return SliceReader(file, layout, communicator).read(false);
 }
 
-MeshSlice elements_around_slice(const MeshFile* file, const MeshLayout& layout, const Communicator& communicator) {
+MeshSlice elements_around_slice(const MeshSource* file, const MeshLayout& layout, const Communicator& communicator) {
   return SliceReader(file, layout, communicator).read(true);
 }
 

@@ -16,10 +16,10 @@ struct MeshSlice {
 };
 
 // Collective; `file` is used on rank 0 only. A slice of the elements for each rank.
-MeshSlice slice_of_elements(const MeshFile* file, const MeshLayout& layout, const Communicator& communicator);
+MeshSlice slice_of_elements(const MeshSource* file, const MeshLayout& layout, const Communicator& communicator);
 
 // The same with all elements around a slice of the nodes: some elements are on several ranks.
-MeshSlice elements_around_slice(const MeshFile* file, const MeshLayout& layout, const Communicator& communicator);
+MeshSlice elements_around_slice(const MeshSource* file, const MeshLayout& layout, const Communicator& communicator);
 
 // The layout of rank 0, on all ranks.
 MeshLayout broadcast_layout(const MeshLayout& layout, const Communicator& communicator);

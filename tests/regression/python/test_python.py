@@ -1,0 +1,225 @@
+#!/usr/bin/python3
+"""The module strut: a run has the bits of the program's, errors are the deck's own, and a run can be watched, stopped and
+continued."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+
+import block
+import numpy as np
+import strut
+from block import SPACING
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        keep = tempfile.TemporaryDirectory()
+        self.addCleanup(keep.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(keep.name)
+        self.folder = pathlib.Path(keep.name)
+
+
+class Runs(InFolder):
+    def test_a_run_has_the_bits_of_the_programs(self):
+        files = {"Output": block.output("module.e")}
+        run = strut.run(block.deck(**files), block.mesh())
+        block.mesh().write("block.g")
+        history = {**block.deck()["History"], "Filename": "program.csv"}
+        deck = block.deck(Output=block.output("program.e"), History=history,
+                          Discretization={"Type": "Exodus", "Input Mesh File": "block.g"})
+        pathlib.Path("program.xml").write_text(deck.to_xml())
+        subprocess.run([os.environ["STRUT"], "program.xml"], check=True, capture_output=True)
+        compared = subprocess.run([os.environ["STRUT_COMPARE"], "module.e", "program.e"], capture_output=True, text=True)
+        self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
+        rows = np.genfromtxt("program.csv", delimiter=",", skip_header=2)  # 17 digits: the same numbers
+        np.testing.assert_array_equal(np.transpose(list(run.history.values())), rows)
+        self.assertEqual(run.history.units["Reaction_Z(top)"], "N (mean)")
+        self.assertTrue(run.is_over)
+
+    def test_pauses_do_not_change_a_run_and_several_runs_do_not_meet(self):
+        whole = strut.run(block.deck(), block.mesh())
+        parts = strut.Run(block.deck(), block.mesh())
+        self.assertEqual((parts.steps, len(parts.history["Time"])), (0, 1))
+        self.assertTrue(parts.advance(steps=3))
+        self.assertEqual(parts.steps, 3)
+        self.assertTrue(parts.advance_to(2e-6))
+        self.assertTrue(2e-6 <= parts.time < 2e-6 + 2 * parts.history["Step_Size"][-1])
+        self.assertFalse(parts.advance())
+        self.assertTrue(parts.is_over)
+        for name, column in whole.history.items():
+            np.testing.assert_array_equal(parts.history[name], column, err_msg=name)
+        for name in ("Displacement", "Cauchy_Stress", "Equivalent_Plastic_Strain"):
+            np.testing.assert_array_equal(parts.fields[name], whole.fields[name], err_msg=name)
+
+    def test_a_callback_stops_a_run_which_then_goes_on(self):
+        seen = []
+        run = strut.run(block.deck(), block.mesh(), every=2, callback=lambda run: seen.append(run.steps) or run.steps < 6)
+        self.assertEqual((seen, run.steps, run.has_ended), ([2, 4, 6], 6, False))
+        self.assertFalse(run.advance())
+        self.assertTrue(run.is_over)
+
+    def test_an_ended_run_leaves_a_checkpoint_from_which_another_continues(self):
+        deck = block.deck(Restart={"Filename": "block.restart"})
+        whole = strut.run(deck, block.mesh())
+        run = strut.Run(deck, block.mesh())
+        run.advance(steps=5)
+        run.end()
+        self.assertEqual((run.has_ended, run.is_over, run.advance()), (True, False, False))
+        self.assertIn("ended as it was asked to", run.log)
+        again = strut.run(deck, block.mesh(), continued=True)
+        np.testing.assert_array_equal(again.fields["Cauchy_Stress"], whole.fields["Cauchy_Stress"])
+
+    def test_files_of_a_run_that_has_ended_are_free_for_the_next(self):
+        kept = []
+        for speed in (10, 20):
+            conditions = block.deck()["Boundary Conditions"]
+            top = {**conditions["top"], "Value": -speed}
+            kept.append(strut.run(block.deck(Output=block.output("block.e"), **{"Boundary Conditions": {**conditions, "top": top}}),
+                                  block.mesh()))
+        slow, fast = (np.abs(run.whole("Displacement")[:, 2]).max() for run in kept)
+        self.assertAlmostEqual(fast / slow, 2, 12)  # of the plate: speed times time
+
+    def test_a_probe_follows_the_nearest_point(self):
+        place = np.array([2.4, 2.6, 4.4]) * SPACING
+        history = {"Frequency": 1, "Variables": {"Displacement_Z(tip)": True, "Mean_Displacement_Z(tip)": True},
+                   "Probes": {"tip": {"Point": place}}}
+        run = strut.Run(block.deck(History=history), block.mesh())
+        nearest = np.argmin(np.linalg.norm(run.positions - place, axis=1))
+        self.assertRegex(run.log, r"the probe 'tip' is element \d+ of block 'block' at \(0.0025 0.0025 0.0045\) m")
+        run.advance()
+        # A mean over one point: its value times its volume, over its volume.
+        np.testing.assert_allclose(run.history["Displacement_Z(tip)"][-1], run.fields["Displacement"][nearest, 2], rtol=1e-15)
+        with self.assertRaisesRegex(strut.Error, "did you mean 'Mean_Displacement_Z'"):
+            strut.Run(block.deck(History={**history, "Variables": {"Displacment_Z(tip)": True}}), block.mesh())
+
+    def test_equilibria_pause_at_their_load_steps(self):
+        conditions = block.deck()["Boundary Conditions"]
+        top = {**conditions["top"], "Type": "Prescribed Displacement", "Value": "-1e-6*t"}
+        deck = block.deck(Solver={"Final Time": 1.0, "QuasiStatic": {"Number of Load Steps": 4}},
+                          **{"Boundary Conditions": {**conditions, "top": top}})
+        steps = []
+        run = strut.run(deck, block.mesh(), every=1, callback=lambda run: steps.append(run.time))
+        self.assertEqual(steps, [0.25, 0.5, 0.75])
+        self.assertTrue(run.is_over)
+        # Hooke's law of a block between plates: each layer moves in proportion; the ends are held sideways.
+        moved = run.whole("Displacement").reshape(-1, 3)[:, 2]
+        self.assertAlmostEqual(moved.min() / -1e-6, 1, 9)
+
+    def test_ctrl_c_ends_a_run_with_a_checkpoint_and_interrupts(self):
+        deck = block.deck(Solver={"Final Time": 1.0}, Restart={"Filename": "block.restart"}, History=None)
+        conditions = {name: {**condition, "Value": "0"} for name, condition in deck["Boundary Conditions"].items()}
+        run = strut.Run({**deck, "Boundary Conditions": conditions}, block.mesh())  # at rest: some days of steps
+        with subprocess.Popen(["sh", "-c", f"sleep 0.5; kill -INT {os.getpid()}"]), self.assertRaises(KeyboardInterrupt):
+            run.advance()
+        self.assertTrue(run.has_ended and not run.is_over)
+        self.assertTrue(pathlib.Path("block.restart").exists())
+
+
+class Errors(InFolder):
+    def test_a_wrong_deck_is_told_with_all_that_is_wrong(self):
+        wrong = block.deck(Blocks={"block": {"Block Names": "block", "Material": "metal", "Horizon": -1.0}})
+        wrong["Materials"]["metal"]["Yeild Stress"] = 1.0
+        for start in (strut.check, strut.run):
+            with self.assertRaises(strut.Error) as caught:
+                start(wrong, block.mesh())
+            self.assertEqual(sorted(p.split(":")[0] for p in caught.exception.problems),
+                             ["Blocks > block > Horizon", "Materials > metal > Yeild Stress"])
+            self.assertIn("did you mean 'Yield Stress'?", str(caught.exception))
+        strut.check(block.deck(), block.mesh())  # raises nothing
+
+    def test_what_no_deck_can_hold_is_told_by_its_place(self):
+        with self.assertRaisesRegex(strut.Error, "deck > Solver > Final Time: .* of type complex"):
+            strut.run(block.deck(Solver={"Final Time": 1j}), block.mesh())
+
+    def test_a_run_needs_one_mesh(self):
+        with self.assertRaisesRegex(strut.Error, "no elements"):
+            strut.run(block.deck())
+        with self.assertRaisesRegex(strut.Error, "names a mesh, and one is given"):
+            strut.run(block.deck(Discretization={"Type": "Exodus", "Input Mesh File": "block.g"}), block.mesh())
+
+    def test_the_program_has_no_mesh_in_memory(self):
+        pathlib.Path("block.xml").write_text(block.deck(Discretization={"Type": "Memory"}).to_xml())
+        done = subprocess.run([os.environ["STRUT"], "block.xml"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("Discretization > Type: 'Memory' is the mesh of a script", done.stderr)
+        self.assertIn("History > Filename: missing", done.stderr)
+
+    def test_arrays_that_are_no_mesh_are_refused(self):
+        corners = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)], float)
+        self.assertEqual(strut.mesh(corners, {"a": [range(8)]}).blocks["a"].tolist(), [list(range(8))])
+        for wrong, words in ((lambda: strut.mesh(corners, {"a": [range(1, 9)]}), "block 'a' refers to node 8; the nodes are 0 to 7"),
+                             (lambda: strut.mesh(corners[:, :2], {"a": [range(8)]}), "N x 3"),
+                             (lambda: strut.mesh(corners, {"a": [range(6)]}), "8, 4 or 1"),
+                             (lambda: strut.mesh(corners, {"a b": [range(8)]}), "has a blank"),
+                             (lambda: strut.mesh(corners, {"a": np.ones((1, 8))}), "whole ones"),
+                             (lambda: strut.voxels(np.zeros((2, 2, 2)), 1e-3), "none of them solid"),
+                             (lambda: strut.voxels(np.ones((2, 2, 2)), 0), "expected one or three numbers > 0")):
+            with self.assertRaisesRegex(strut.Error, words):
+                wrong()
+
+    def test_an_unknown_field_has_the_nearest_name(self):
+        run = strut.Run(block.deck(), block.mesh())
+        with self.assertRaisesRegex(strut.Error, "did you mean 'Displacement'"):
+            run.fields["Displacment"]
+        self.assertIn("Displacement", run.fields)
+
+    def test_warnings_are_those_of_python(self):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            strut.run(block.deck(Solver={"Final Time": 1e-7}, History=None, **{"Boundary Conditions": None}), block.mesh())
+        self.assertIn("nothing moved", "\n".join(str(one.message) for one in told))
+
+
+class Arrays(InFolder):
+    def test_fields_lie_as_they_are_and_whole_ones_in_the_order_of_the_mesh(self):
+        run = strut.Run(block.deck(), block.mesh())
+        places = run.positions
+        force = run.fields["Force_Density"]
+        self.assertFalse(places.flags.writeable or places.flags.owndata or force.flags.owndata)
+        before = places.copy()
+        run.advance()
+        self.assertGreater(np.abs(places - before).max(), 1e-6)  # seen without another call
+        np.testing.assert_allclose(run.fields["Displacement"], places - before, atol=1e-18)  # ulps of 1e-2 m
+        # In the order of the mesh x runs fastest, z slowest.
+        k, j, i = np.nonzero(block.solid().transpose())
+        middle = (np.stack([i, j, k], axis=1) + 0.5) * SPACING
+        np.testing.assert_allclose(before[np.argsort(run.ids)], middle, atol=1e-17)
+        np.testing.assert_array_equal(run.whole("Displacement"), run.fields["Displacement"][np.argsort(run.ids)])
+        del run
+        self.assertTrue(np.isfinite(places).all())  # the array keeps it
+
+    def test_gathered_voxels_keep_their_volume(self):
+        rod = np.zeros((12, 12, 24))
+        x, y = np.meshgrid(np.arange(12) + 0.5, np.arange(12) + 0.5, indexing="ij")
+        rod[(x - 6)**2 + (y - 6)**2 < 25] = 1
+        run = strut.Run(block.deck(Blocks={"b": {"Block Names": "rod", "Material": "metal", "Horizon Factor": 1.75}},
+                                   History=None, **{"Boundary Conditions": None}), strut.voxels(rod, 1e-4, name="rod", gather=3))
+        # Sums of 24 x 80 voxels in each run, by another order: some ulps.
+        np.testing.assert_allclose(run.whole("Volume").sum(), rod.sum() * 1e-12, rtol=1e-13)
+
+    def test_a_deck_of_a_file_is_its_dictionary(self):
+        deck = block.deck()
+        pathlib.Path("block.xml").write_text(deck.to_xml())
+        self.assertEqual(dict(strut.Deck("block.xml")), dict(deck))
+        pathlib.Path("block.yaml").write_text("deck:\n  Solver: {Final Time: 1.0e-3}\n  Blocks:\n    a: {Horizon: 2.0}\n")
+        self.assertEqual(strut.Deck("block.yaml"), {"Solver": {"Final Time": 1e-3}, "Blocks": {"a": {"Horizon": 2.0}}})
+        with self.assertRaisesRegex(strut.Error, "no.xml: the deck cannot be read"):
+            strut.Deck("no.xml")
+
+
+class Ends(InFolder):
+    def test_a_script_ends_well_with_a_run_in_the_middle(self):
+        script = "import block, strut\nrun = strut.Run(block.deck(), block.mesh())\nrun.advance(steps=2)\nkept = run.positions\n"
+        here = os.path.dirname(os.path.abspath(__file__))
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": f"{here}:{os.environ['PYTHONPATH']}"})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,13 @@
+# The module strut of Python: build/…/python holds it as a package, for PYTHONPATH.
+if(NOT STRUT_PYTHON)
+  return()
+endif()
+pybind11_add_module(strut_python MODULE NO_EXTRAS python/module.cpp python/views.cpp)
+target_link_libraries(strut_python PRIVATE strut_run strut_recipe)
+set(package ${CMAKE_BINARY_DIR}/python/strut)
+set_target_properties(strut_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY ${package})
+file(GLOB sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_LIST_DIR}/python/strut python/strut/*.py)
+file(MAKE_DIRECTORY ${package})
+foreach(source IN LISTS sources)
+  file(CREATE_LINK ${CMAKE_CURRENT_LIST_DIR}/python/strut/${source} ${package}/${source} SYMBOLIC)
+endforeach()

@@ -1,0 +1,282 @@
+// The module strut for Python: what only C++ can do. strut/*.py make of it what a user sees.
+#include <pybind11/iostream.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <array>
+#include <csignal>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "base/build_facts.hpp"
+#include "base/errors.hpp"
+#include "base/parallel/communicator.hpp"
+#include "base/parallel/gather_scatter.hpp"
+#include "base/parallel/launch.hpp"
+#include "base/parallel/threads.hpp"
+#include "deck/deck.hpp"
+#include "deck/numbers.hpp"
+#include "deck/yaml.hpp"
+#include "mesh/arrays.hpp"
+#include "mesh/body.hpp"
+#include "output/observables.hpp"
+#include "python/views.hpp"
+#include "run/input.hpp"
+#include "run/run_control.hpp"
+#include "run/simulation.hpp"
+
+namespace py = pybind11;
+
+namespace strut {
+
+namespace {
+
+std::unique_ptr<Runtime> runtime;
+
+// The ranks of the job.
+Communicator world() {
+  static int no_words = 0;
+  static char** no_word = nullptr;
+  if (!runtime) runtime = std::make_unique<Runtime>(no_words, no_word);
+  Communicator ranks;
+  const std::string problem = wrong_launcher(launch_of_process(), ranks.size(), "python3");
+  if (!problem.empty()) throw Error(problem);
+  return ranks;
+}
+
+// A deck, as lists of parameters, to nested dictionaries.
+py::object value_of(const deck::Parameter& parameter) {
+  const auto& [name, type, value] = parameter;
+  if (type == "bool") {
+    if (const auto truth = deck::to_boolean(value)) return py::bool_(*truth);
+  }
+  if (type == "int") {
+    if (const auto number = deck::to_integer(value)) return py::int_(*number);
+  }
+  if (type == "double") {
+    if (const auto number = deck::to_real(value)) return py::float_(*number);
+  }
+  if (type == "Array(double)") {
+    if (const auto numbers = deck::to_reals(value)) return py::cast(*numbers);
+  }
+  return py::str(value);
+}
+
+py::dict dictionary_of(const deck::List& list) {
+  py::dict all;
+  for (const deck::Parameter& parameter : list.parameters) all[parameter.name.c_str()] = value_of(parameter);
+  for (const deck::List& section : list.lists) all[section.name.c_str()] = dictionary_of(section);
+  return all;
+}
+
+py::dict parsed(const std::string& text, const std::string& name) {
+  deck::Problems problems;
+  const std::optional<deck::List> list = deck::parse_xml_or_yaml(text, problems);
+  problems.raise(name);
+  return dictionary_of(list.value());
+}
+
+// Gathered voxels, as strut-mesh --arrays reads them.
+io::Mesh mesh_of_voxels(const std::string& stream) {
+  std::istringstream in(stream);
+  std::string summary;
+  io::Mesh mesh = mesh::read_arrays(in, "the mesh", &summary);
+  py::print(summary, py::arg("end") = "");
+  return mesh;
+}
+
+io::Mesh mesh_of_recipe(const std::string& recipe) {
+  std::string summary;
+  io::Mesh mesh = mesh::mesh_of(mesh::read_recipe(recipe), summary);
+  py::print(summary, py::arg("end") = "");
+  return mesh;
+}
+
+// While a run works, signals end it as they end the program: after the next step, with a frame and a checkpoint. They
+// then have their usual effect in Python: Ctrl-C is a KeyboardInterrupt, on all ranks.
+class Signals {
+ public:
+  Signals() {
+    forget_signals();
+    for (std::size_t k = 0; k < caught.size(); ++k) sigaction(caught[k], nullptr, &before_[k]);
+    catch_signals({SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU});
+  }
+  ~Signals() {
+    for (std::size_t k = 0; k < caught.size(); ++k) sigaction(caught[k], &before_[k], nullptr);
+  }
+  Signals(const Signals&) = delete;
+  Signals& operator=(const Signals&) = delete;
+
+ private:
+  static constexpr std::array caught{SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
+  std::array<struct sigaction, caught.size()> before_ = {};
+};
+
+class PythonRun {
+ public:
+  // `told`: has write(text) and flush() for what a run says. The mesh counts on rank 0.
+  PythonRun(const std::string& text, const std::string& name, const io::Mesh* mesh, bool continues, py::object told)
+      : ranks_(world()), told_(std::move(told)) {
+    working([&] {
+      deck::Problems problems;
+      deck::Deck deck = deck::read_text(text, name, ranks_, problems);
+      run_.emplace(std::move(deck), std::move(problems), ranks_, continues ? Start::continued : Start::anew,
+                   InMemory{mesh, &rows_});
+      run_->advance({.steps = 0});
+    });
+  }
+
+  bool advance(std::optional<int> steps, std::optional<double> time) {
+    bool goes_on = false;
+    const Pause never;
+    working([&] { goes_on = run().advance({steps.value_or(never.steps), time.value_or(never.time)}); });
+    return goes_on;
+  }
+
+  void end() {
+    working([&] { run().end(); });
+  }
+
+  Run& run() {
+    if (!run_) throw Error("the run is closed: Python ends");
+    return *run_;
+  }
+  const Body& body() { return run().scene().body; }
+  const Communicator& ranks() const { return ranks_; }
+  const HistoryRows& rows() const { return rows_; }
+  void close() { run_.reset(); }
+
+ private:
+  // Runs `action` without the lock of the interpreter; what it prints goes to Python.
+  template <class Action>
+  void working(const Action& action) {
+    const py::scoped_ostream_redirect redirected(std::cout, told_);
+    int number = 0;
+    {
+      const Signals signals;
+      const py::gil_scoped_release released;
+      action();
+      number = static_cast<int>(ranks_.max(caught_signal()));
+      if (number != 0 && run_ && !run_->has_ended()) run_->end();
+    }
+    if (number == 0) return;
+    std::raise(number);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+
+  Communicator ranks_;
+  py::object told_;
+  HistoryRows rows_;
+  std::optional<Run> run_;
+};
+
+// All points of the mesh in its order, on rank 0: numbers that are gathered, NaN for points that were dropped.
+py::object whole(PythonRun& run, const std::string& name) {
+  const Observable one = chosen(observables(run.body()), {name}, "fields").front();
+  const PointCloud& cloud = run.body().domain.cloud;
+  std::vector<double> mine;
+  one.fill(run.body(), mine);
+  const std::vector<double> values = gather<double>(run.ranks(), mine);
+  const std::vector<std::int64_t> ids = gather<std::int64_t>(run.ranks(), cloud.ids);
+  if (run.ranks().rank() != 0) return py::none();
+  const auto width = static_cast<std::size_t>(one.components);
+  std::vector<double> all(static_cast<std::size_t>(*std::max_element(ids.begin(), ids.end()) + 1) * width,
+                          std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                all.begin() + static_cast<std::ptrdiff_t>(ids[i]) * one.components);
+  }
+  return python::array_of(std::move(all), one.components);
+}
+
+py::object field(const py::object& owner, const std::string& name) {
+  auto& run = owner.cast<PythonRun&>();
+  if (py::object view = python::view_of(run.body(), name, owner); !view.is_none()) return view;
+  const Observable one = chosen(observables(run.body()), {name}, "fields").front();
+  std::vector<double> values;
+  one.fill(run.body(), values);
+  return python::array_of(std::move(values), one.components);
+}
+
+py::list blocks_of(PythonRun& run) {
+  py::list names;
+  for (const int block : run.body().domain.cloud.blocks) names.append(run.body().domain.cloud.block_names[block]);
+  return names;
+}
+
+py::tuple history(PythonRun& run) {
+  py::list names, units;
+  for (const io::HistoryColumn& column : run.rows().columns) names.append(column.name), units.append(column.unit);
+  return py::make_tuple(names, units, python::array_of(run.rows().values, std::max<int>(1, py::len(names))));
+}
+
+// All problems of a deck with its mesh, as the start of a run would find them; "" if there are none.
+std::string problems_of(const std::string& text, const std::string& name, const io::Mesh* mesh) {
+  const Communicator ranks = world();
+  try {
+    deck::Problems problems;
+    const deck::Deck deck = deck::read_text(text, name, ranks, problems);
+    if (mesh == nullptr && deck.discretization.type == deck::MeshType::memory) {
+      problems.raise(name);
+      return "";
+    }
+    checked_mesh(deck, std::move(problems), ranks, mesh);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+}  // namespace strut
+
+PYBIND11_MODULE(_core, module) {
+  using namespace strut;
+  py::register_exception<Error>(module, "Error", PyExc_RuntimeError);
+  module.def("version", [] { return build_facts(); });
+  module.def("parsed", &parsed);
+  module.def("problems", &problems_of);
+  module.def("rank", [] { return world().rank(); });
+  module.def("any", [](bool mine) { return world().max(mine ? 1.0 : 0.0) > 0; });
+  module.def("finish", [] { runtime.reset(); });
+  module.def("set_threads", [](int count) {
+    if (const std::string problem = set_threads(count); !problem.empty()) throw Error(problem);
+  });
+
+  py::class_<io::Mesh>(module, "Mesh")
+      .def(py::init<>())
+      .def("set_nodes", &python::set_nodes)
+      .def("add_block", &python::add_block)
+      .def("add_set", &python::add_set)
+      .def_static("of_voxels", [](const py::bytes& stream) { return mesh_of_voxels(stream); })
+      .def_static("of_recipe", &mesh_of_recipe)
+      .def_static("of_file", [](const std::string& file) { return io::read_mesh(file); })
+      .def("write", [](const io::Mesh& mesh, const std::string& file) { io::write_mesh(file, mesh); })
+      .def_property_readonly("nodes", &python::nodes_of)
+      .def_property_readonly("blocks", &python::elements_of)
+      .def_property_readonly("sets", &python::sets_of);
+
+  py::class_<PythonRun>(module, "Run")
+      .def(py::init<const std::string&, const std::string&, const io::Mesh*, bool, py::object>())
+      .def("advance", &PythonRun::advance)
+      .def("end", &PythonRun::end)
+      .def("close", &PythonRun::close)
+      .def_property_readonly("time", [](PythonRun& run) { return run.run().time(); })
+      .def_property_readonly("steps", [](PythonRun& run) { return run.run().steps(); })
+      .def_property_readonly("has_ended", [](PythonRun& run) { return run.run().has_ended(); })
+      .def_property_readonly("is_over", [](PythonRun& run) { return run.run().is_over(); })
+      .def_property_readonly("rank", [](const PythonRun& run) { return run.ranks().rank(); })
+      .def_property_readonly("names", [](PythonRun& run) { return names_of(observables(run.body())); })
+      .def_property_readonly("ids", [](PythonRun& run) { return py::array(py::cast(run.body().domain.cloud.ids)); })
+      .def_property_readonly("blocks", &blocks_of)
+      .def_property_readonly(
+          "positions", [](const py::object& owner) { return python::places(owner.cast<PythonRun&>().body(), owner); })
+      .def("field", [](const py::object& owner, const std::string& name) { return field(owner, name); })
+      .def("whole", &whole)
+      .def("history", &history);
+}

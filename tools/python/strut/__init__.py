@@ -1,0 +1,33 @@
+"""strut from Python: a deck as a dictionary, meshes and voxels as arrays of NumPy, a run, its fields and its history.
+
+    import numpy as np, strut
+    block = strut.voxels(np.ones((8, 8, 16), bool), 1e-4)
+    deck = strut.Deck({"Discretization": {}, "Materials": {...}, ...})   # names as in inputs/KEYS.md
+    run = strut.run(deck, block)
+    run.fields["Cauchy_Stress"], run.history["Time"]
+
+On several ranks: mpirun -n 4 python3 study.py, with or without mpi4py. All calls that take a deck or a run are made by
+all ranks.
+"""
+import atexit
+
+from . import _core
+from ._core import Error
+from .deck import Deck
+from .mesh import mesh, recipe, voxels
+from .run import Run, check, close_all, run
+from .tools import convergence, curve, picture, stiffness
+
+__all__ = ["Deck", "Error", "Run", "check", "convergence", "curve", "mesh", "picture", "recipe", "run", "set_threads",
+           "stiffness", "version", "voxels"]
+
+version = _core.version
+set_threads = _core.set_threads  # of each rank, as strut --threads
+
+Error.__module__ = "strut"
+Error.problems = property(lambda error: [line.strip() for line in str(error).split("\n")[1:] if line.startswith("  ")],
+                          doc="of a deck, all of them: path, value, what was expected")
+
+# Kokkos, and MPI where strut has started it, end before the interpreter does.
+atexit.register(_core.finish)
+atexit.register(close_all)  # called before it

@@ -1,0 +1,98 @@
+"""Meshes and voxels from arrays of NumPy, in memory; rank 0's count."""
+import os
+import sys
+
+import numpy as np
+
+from . import _core
+from .places import TOOLS
+
+sys.path += [os.path.join(TOOLS, "shared"), os.path.join(TOOLS, "voxel")]
+import cells  # noqa: E402
+
+TYPES = {8: "HEX8", 4: "TET4", 1: "SPHERE"}
+
+
+def mesh(nodes, blocks=None, sets=None, volumes=None):
+    """nodes: N x 3, in m; blocks: {name: nodes of each element, from 0}, 8 in a row (hexahedra, in the order of Exodus),
+    4 (tetrahedra) or 1 (spheres, which need volumes: {name: m³}); sets: {name: nodes}. Or the name of an Exodus file."""
+    if isinstance(nodes, (str, os.PathLike)):
+        return _core.Mesh.of_file(os.fspath(nodes))
+    nodes = np.asarray(nodes, float)
+    if nodes.ndim != 2 or nodes.shape[1] != 3 or not np.all(np.isfinite(nodes)):
+        raise _core.Error(f"nodes: an array of shape {nodes.shape}; expected N x 3 finite numbers, in m")
+    made = _core.Mesh()
+    made.set_nodes(nodes)
+    for name, elements in (blocks or {}).items():
+        add_block(made, name, np.asarray(elements), (volumes or {}).get(name), len(nodes))
+    for name, members in (sets or {}).items():
+        made.add_set(checked(name), indices(members, f"set '{name}'", len(nodes)))
+    return made
+
+
+def add_block(made, name, elements, volumes, count):
+    user = f"block '{checked(name)}'"
+    if elements.ndim == 1:
+        elements = elements.reshape(-1, 1)
+    if elements.ndim != 2 or elements.shape[1] not in TYPES:
+        raise _core.Error(f"{user}: an array of shape {elements.shape}; expected the nodes of one element in a row: 8, 4 or 1")
+    kind = TYPES[elements.shape[1]]
+    volumes = np.asarray([] if volumes is None else volumes, float)
+    if volumes.size != (len(elements) if kind == "SPHERE" else 0) or not np.all((volumes > 0) & np.isfinite(volumes)):
+        raise _core.Error(f"{user}: {volumes.size} volumes of {len(elements)} elements of type {kind}; expected one > 0, in m³, for each "
+                          "sphere, and none of other elements")
+    made.add_block(name, kind, indices(elements, user, count), volumes)
+
+
+def checked(name):
+    if len(name.split()) != 1:
+        raise _core.Error(f"'{name}' cannot be the name of a block or set: it is empty or has a blank")
+    return name
+
+
+def indices(numbers, user, count):
+    numbers = np.asarray(numbers)
+    if numbers.size and not np.issubdtype(numbers.dtype, np.integer):
+        raise _core.Error(f"{user}: numbers of type {numbers.dtype}; expected whole ones, the nodes from 0")
+    wrong = numbers[(numbers < 0) | (numbers >= count)]
+    if wrong.size:
+        raise _core.Error(f"{user} refers to node {wrong.flat[0]}; the nodes are 0 to {count - 1}")
+    return numbers
+
+
+def voxels(solid, spacing, origin=(0, 0, 0), name="foam", gather=None, smallest=0.3):
+    """The voxels of an array [x, y, z] that are solid, one element each; sets NAME_xmin, … of the faces of the box that
+    they touch. spacing: of voxels, m, one or three numbers; origin: the lower corner, m. gather=N: cells of N³ voxels,
+    partly filled (tools/README.md); solid may then be the part of each voxel that is solid, 0 to 1, and cells that are
+    less than `smallest` full join a neighbor."""
+    solid = np.asarray(solid)
+    if solid.ndim != 3 or not np.any(solid):
+        raise _core.Error(f"voxels: an array of shape {solid.shape}{'' if np.any(solid) else ', none of them solid'}; expected x, y, z")
+    edges = np.broadcast_to(np.asarray(spacing, float), 3)
+    if not (np.all(edges > 0) and np.all(np.isfinite(edges))):
+        raise _core.Error(f"voxels: a spacing of {spacing}; expected one or three numbers > 0, in m")
+    is_grey = np.issubdtype(solid.dtype, np.floating) and not np.all((solid == 0) | (solid == 1))
+    if is_grey and not gather:
+        raise _core.Error("voxels: parts of voxels that are solid need gather=N; expected truth values, or 0 and 1")
+    checked(name)
+    filled = solid.transpose()  # z, y, x, as the tools have it
+    if gather:
+        return gathered(filled, edges, origin, name, int(gather), smallest, is_grey)
+    nodes, ((_, _, elements, _),), sets = cells.mesh_of(filled > 0, edges, origin, "hex", name)
+    return mesh(nodes, {name: elements}, sets)
+
+
+def gathered(filled, edges, origin, name, count, smallest, is_grey):
+    """By the stream that strut-mesh --arrays reads."""
+    places = np.nonzero(filled)
+    shape = " ".join(map(str, filled.shape[::-1]))
+    head = f"strut-mesh arrays 1\nnodes 0\nvoxels {name} {len(places[0])} {shape} {count} {smallest} {'grey' if is_grey else 'solid'}\n"
+    parts = [head.encode(), np.array([*edges, *origin], "<f8").tobytes(), np.stack(places[::-1], axis=1).astype("<i4").tobytes()]
+    if is_grey:
+        parts.append(filled[places].astype("<f8").tobytes())
+    return _core.Mesh.of_voxels(b"".join([*parts, b"end\n"]))
+
+
+def recipe(file):
+    """The mesh of a recipe (tools/README.md)."""
+    return _core.Mesh.of_recipe(os.fspath(file))

@@ -1,0 +1,153 @@
+"""The tools' functions (tools/README.md), on rank 0; elsewhere they return None. Options are those of the tools:
+smooth=3 is --smooth 3, a list several words, True an option without a value."""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _core
+from .deck import Deck
+from .places import PROGRAMS, TOOLS
+from .run import Run
+
+STRESS = "Stress (Pa) of "  # in a table of tools/curve
+FILE = "sample"  # of what is written for a tool
+
+
+@dataclass
+class Curve:
+    strain: np.ndarray
+    stress: dict    # {column of force: Pa}
+    time: np.ndarray
+    measures: dict  # {name: value}
+    text: str       # what tools/curve says
+
+
+def curve(source, out=None, **options):
+    """Nominal stress over nominal strain of a run, of its deck's file or its history's, and what is read off it. out: a
+    folder for the tables and the figure."""
+    def made(folder):
+        results = {}
+        path = source
+        if isinstance(source, Run):
+            path, results = deck_of_run(source, folder), {"results": folder}
+        to = out or os.path.join(folder, "curve")
+        text = tool("curve", path, to, **results, **options)
+        stem = os.path.join(to, os.path.splitext(os.path.basename(path))[0])
+        table = columns(f"{stem}-curve.csv")
+        stress = {name.removeprefix(STRESS): values for name, values in table.items() if name.startswith(STRESS)}
+        return Curve(table["Strain (1)"], stress, table["Time (s)"], measures(f"{stem}-measures.csv"), text)
+    return on_first(source, made)
+
+
+def stiffness(deck, mesh, out=None, **options):
+    """The apparent elastic stiffness of a sample, Pa, in the order xx yy zz yz zx xy: {"kinematic": 6 x 6, "mixed": …}."""
+    def made(folder):
+        to = out or os.path.join(folder, "stiffness")
+        tool("stiffness", write_deck(deck, mesh, folder), to, **options)
+        with open(os.path.join(to, "stiffness.csv"), newline="") as file:
+            rows = list(csv.reader(file))[1:]
+        return {kind: np.array([row[2:] for row in rows if row[0] == kind], float) for kind in dict.fromkeys(r[0] for r in rows)}
+    return on_first(None, made)
+
+
+def picture(source, out, **options):
+    """A picture of a run, which writes a result (Output), or of files: results (.e) or histories (.csv)."""
+    def made(_):
+        if isinstance(source, Run):
+            file = source.deck.get("Output", {}).get("Output Filename")
+            if not file:
+                raise _core.Error("picture: the run writes no result; expected Output > Output Filename in its deck")
+            sources = [file if os.path.splitext(file)[1] else file + ".e"]
+        else:
+            sources = [source] if isinstance(source, (str, os.PathLike)) else source
+        tool("picture", *sources, out, **options)
+        return out
+    return on_first(source, made)
+
+
+def convergence(study, out, name, **options):
+    """Orders, limits and error bars of a study, or of a deck whose recipe is refined, over what tends to 0: a row for each
+    measure, as a dictionary."""
+    def made(_):
+        tool("study", study, out, converge=name, **options)
+        with open(os.path.join(out, "convergence.csv"), newline="") as file:
+            return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    return on_first(None, made)
+
+
+def on_first(source, action):
+    if (source.core.rank if isinstance(source, Run) else _core.rank()) != 0:
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        return action(folder)
+
+
+def tool(name, *words, **options):
+    """What the tool says; strut.Error with its message if it fails."""
+    command = [sys.executable, os.path.join(TOOLS, name), *map(os.fspath, words)]
+    for key, value in options.items():
+        if value is None or value is False:
+            continue
+        several = value if isinstance(value, (list, tuple)) else [] if value is True else [value]
+        command += [f"--{key.replace('_', '-')}", *map(str, several)]
+    done = subprocess.run(command, env=environment(), capture_output=True, text=True)
+    if done.returncode != 0:
+        raise _core.Error((done.stderr or done.stdout).strip() or f"tools/{name}: exit status {done.returncode}")
+    return done.stdout
+
+
+def environment():
+    """That of a process of its own, which is no rank of this job, and installs nothing."""
+    of_job = ("PMIX_", "PMI_", "OMPI_COMM_", "OMPI_MCA_ess", "OMPI_MCA_orte", "OMPI_UNIVERSE", "OMPI_APP", "OMPI_NUM", "OMPI_FIRST")
+    kept = {key: value for key, value in os.environ.items() if not key.startswith(of_job)}
+    return {**PROGRAMS, **kept, "STRUT_TOOLS_INSTALLED": "1"}
+
+
+def deck_of_run(run, folder):
+    """The deck of a run, its mesh and its history as files."""
+    if not run.history:
+        raise _core.Error("curve: the run has no history; expected a section History with forces in its deck")
+    history = {**run.deck["History"], "Filename": FILE + ".csv"}
+    with open(os.path.join(folder, history["Filename"]), "w") as file:
+        units = run.history.units
+        file.write(f"# {_core.version()}; units: {','.join(units.values())}\n{','.join(units)}\n")
+        np.savetxt(file, np.transpose(list(run.history.values())), "%.17g", ",")
+    return write_deck(Deck({**run.deck, "History": history}, run.deck.name), run.mesh, folder)
+
+
+def write_deck(deck, mesh, folder):
+    deck = deck if isinstance(deck, Deck) else Deck(deck)
+    points = dict(deck.get("Discretization", {}))
+    if mesh is not None:
+        mesh.write(os.path.join(folder, FILE + ".g"))
+        points.update({"Type": "Exodus", "Input Mesh File": FILE + ".g"})
+    elif "Input Mesh File" in points:
+        beside = os.path.join(os.path.dirname(deck.name), points["Input Mesh File"])
+        points["Input Mesh File"] = os.path.relpath(beside, folder)
+    path = os.path.join(folder, FILE + ".xml")
+    with open(path, "w") as file:
+        file.write(Deck({**deck, "Discretization": points}, deck.name).to_xml())
+    return path
+
+
+def columns(path):
+    with open(path, newline="") as file:
+        head, *rows = csv.reader(line for line in file if not line.startswith("#"))
+    return dict(zip(head, np.array(rows, float).T))
+
+
+def measures(path):
+    with open(path, newline="") as file:
+        return {row[0]: number(row[1]) for row in list(csv.reader(file))[1:]}
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
