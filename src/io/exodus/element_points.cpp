@@ -24,22 +24,14 @@ Symmetric moments_of(const Mesh& mesh, const Mesh::Block& block, std::size_t ele
   return cube_moments(block.volumes[element]);
 }
 
-// A node with the bits of the symmetry planes that it lies on (PointCloud::joints).
-std::int64_t joint_at(const MeshSlice& slice, int node, const std::vector<Mirror>& planes, double spacing) {
-  std::int64_t joint = slice.nodes[node];
-  for (const Mirror& plane : planes) {
-    if (plane.holds(slice.mesh.nodes[node], spacing)) joint |= std::int64_t{1} << (first_plane_bit + plane.bit);
-  }
-  return joint;
-}
-
 std::vector<std::int64_t> joints_of(const MeshSlice& slice, const Mesh::Block& block, std::size_t element,
                                     const std::vector<Mirror>& planes, double spacing) {
   if (block.type == "SPHERE") return {};
   const std::size_t size = block.nodes.size() / block.elements();
   std::vector<std::int64_t> joints;
   for (std::size_t n = element * size; n < (element + 1) * size; ++n) {
-    joints.push_back(joint_at(slice, block.nodes[n], planes, spacing));
+    const int node = block.nodes[n];
+    joints.push_back(joint_at(slice.mesh.nodes[node], slice.nodes[node], planes, spacing));
   }
   std::sort(joints.begin(), joints.end());
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());  // an element collapsed to a wedge
