@@ -63,13 +63,14 @@ void refuse_degenerate(std::int64_t count, std::string text, const Communicator&
 
 // Builds the families of the partitioned cloud and drops degenerate points. Dropping one may make others degenerate.
 Domain domain_without_degenerate_points(const deck::Deck& deck, PointCloud cloud, const std::vector<Mirror>& mirrors,
-                                        const Communicator& communicator, Dropped& dropped) {
+                                        const std::vector<Period>& periods, const Communicator& communicator,
+                                        Dropped& dropped) {
   const Timed timed(phase("Families"));
   const std::vector<BlockBonds> bonds = block_bonds(deck, cloud);
   const deck::DegeneratePoints rule = deck.discretization.degenerate;
   PiecesOfPoints before;
   for (;;) {
-    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks, mirrors);
+    Domain domain = make_domain(std::move(cloud), bonds, communicator, deck.discretization.cracks, mirrors, periods);
     std::string text;
     const std::vector<int> degenerate = degenerate_points(deck, domain, text);
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(degenerate.size()));

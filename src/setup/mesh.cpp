@@ -15,6 +15,7 @@
 #include "setup/blocks.hpp"
 #include "setup/finite_value.hpp"
 #include "setup/mirrors.hpp"
+#include "setup/periods.hpp"
 #include "topology/coincident.hpp"
 
 namespace strut {
@@ -145,7 +146,9 @@ PointCloud read_mesh(const deck::Deck& deck, const Communicator& communicator, c
   const Timed timed(phase("Mesh in"));
   const deck::Discretization& discretization = deck.discretization;
   const deck::Grid& grid = discretization.grid;
-  const std::vector<Mirror> planes = symmetry_planes(deck);
+  std::vector<Mirror> planes = symmetry_planes(deck);
+  const std::vector<Mirror> sides = sides_of_periods(deck);
+  planes.insert(planes.end(), sides.begin(), sides.end());
   const bool with_cells =
       needs_cells(deck) || (!planes.empty() && deck.discretization.points == deck::Points::elements);
   if (discretization.type == deck::MeshType::grid) {

@@ -15,6 +15,7 @@
 #include "setup/mesh.hpp"
 #include "setup/mirrors.hpp"
 #include "setup/partition_weights.hpp"
+#include "setup/periods.hpp"
 #include "topology/partition.hpp"
 #include "topology/pieces.hpp"
 
@@ -38,7 +39,9 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
   Dropped dropped;
   const std::vector<BlockMaterial> materials = block_materials(deck, cloud);
   const Mirrors found = mirrors(deck, cloud, communicator);
-  Domain domain = domain_without_degenerate_points(deck, std::move(cloud), found.planes, communicator, dropped);
+  const std::vector<Period> all_periods = periods(deck, cloud, found.planes, communicator);
+  Domain domain =
+      domain_without_degenerate_points(deck, std::move(cloud), found.planes, all_periods, communicator, dropped);
   Scene scene{make_body(std::move(domain), deck.discretization.influence, materials),
               {},
               {},
@@ -52,6 +55,7 @@ Scene assembled(const deck::Deck& deck, PointCloud cloud, PartitionWeights weigh
               dropped,
               {},
               found.warnings};
+  scene.warnings += open_sides(deck, scene.body.domain);
   scene.fracture = fracture_of(scene.body);
   add_conditions(deck, scene, communicator);
   return scene;

@@ -1,5 +1,6 @@
 #include "deck/sections/conditions.hpp"
 
+#include "deck/numbers.hpp"
 #include "deck/problems.hpp"
 #include "deck/sections/numbered_sets.hpp"
 #include "deck/sections/tools.hpp"
@@ -55,6 +56,42 @@ ConditionPrototype read_non_reflecting_end(const Values& values, Problems& probl
   return NonReflectingEnd{.normal = read_direction(values, end_normal, problems)};
 }
 
+const RealKey lower_side({.name = "Lower", .unit = "m", .meaning = "Where the lower side is along the axis."});
+const RealKey upper_side({.name = "Upper", .unit = "m", .meaning = "Where the upper side is, one period above."});
+const ExpressionKey stretch(
+    {.name = "Stretch",
+     .unit = "1",
+     .fallback = "1",
+     .meaning = "The distance of the sides at the time t (s) over that of the mesh; its work is external."});
+
+Section periodic_sides() {
+  return {.name = "Periodic Sides",
+          .meaning =
+              "What leaves through one side comes in through the other: all bodies, and contact, go on behind each "
+              "as they are behind the other. Elements end at both. Its reaction is the force through the section "
+              "along the axis, tension positive.",
+          .keys = {components, lower_side, upper_side, stretch}};
+}
+
+ConditionPrototype read_periodic_sides(const Values& values, Problems& problems) {
+  PeriodicSides sides{.lower = values[lower_side], .upper = values[upper_side], .stretch = values[stretch]};
+  const std::vector<int> axes = values[components];
+  if (!axes.empty()) sides.axis = axes.front();
+  if (axes.size() > 1) problems.add(values.path_to(components), "has several axes; expected one: x, y or z");
+  if (!(sides.upper > sides.lower) && values.has(upper_side) && values.has(lower_side)) {
+    problems.add(values.path_to(upper_side),
+                 "'" + to_text(sides.upper) + "'; expected > Lower (" + to_text(sides.lower) + "), in m");
+  }
+  if (sides.stretch.depends_on_place()) {
+    problems.add(values.path_to(stretch),
+                 "'" + sides.stretch.text() + "' depends on x, y or z; expected a number or an expression in t");
+  }
+  const std::string set = values[node_set];
+  if (set != "all")
+    problems.add(values.path_to(node_set), "'" + set + "'; expected all: sides are those of all bodies");
+  return sides;
+}
+
 struct ConditionEntry {
   Section schema;  // named by the values of "Type"
   ConditionPrototype (*read)(const Values& values, Problems& problems);
@@ -77,6 +114,7 @@ const std::vector<ConditionEntry>& entries() {
       {rigid_cylinder_section(), read_rigid_cylinder},
       {rigid_box_section(), read_rigid_box},
       {non_reflecting_end(), read_non_reflecting_end},
+      {periodic_sides(), read_periodic_sides},
   };
   return all;
 }

@@ -71,12 +71,8 @@ std::vector<std::int64_t> corners_of(const std::array<int, 3>& at, const std::ar
   for (const std::int64_t z : {at[2], at[2] + 1}) {
     for (const std::int64_t y : {at[1], at[1] + 1}) {
       for (const std::int64_t x : {at[0], at[0] + 1}) {
-        std::int64_t shared_node = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
-        const Vector X = origin + cell.cwiseProduct(Vector(x, y, z));
-        for (const Mirror& plane : planes) {
-          if (plane.holds(X, cell.minCoeff())) shared_node |= std::int64_t{1} << (first_plane_bit + plane.bit);
-        }
-        corners.push_back(shared_node);
+        const std::int64_t number = (z * (points[1] + 1) + y) * (points[0] + 1) + x;
+        corners.push_back(shared_node_at(origin + cell.cwiseProduct(Vector(x, y, z)), number, planes, cell.minCoeff()));
       }
     }
   }
